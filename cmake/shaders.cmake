@@ -1,0 +1,48 @@
+# voile_add_shaders(TARGET target NAMESPACE name FOLDER folder SHADERS a.comp b.frag ...)
+#
+# Compiles each shader of `folder` with glslangValidator (includes tracked by a depfile), checks it with spirv-val and
+# embeds it: the target gets <target>_shaders.hpp with `extern const std::span<const uint32_t> k_<stem>_<stage>;` in the
+# namespace given.
+set(VOILE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_shader.cmake)
+
+function(voile_add_shaders)
+    cmake_parse_arguments(ARG "" "TARGET;NAMESPACE;FOLDER" "SHADERS" ${ARGN})
+    set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+    file(MAKE_DIRECTORY ${generated}/spirv)
+    set(declarations "")
+    foreach(shader IN LISTS ARG_SHADERS)
+        string(REPLACE "." "_" symbol ${shader})
+        set(source ${ARG_FOLDER}/${shader})
+        set(spirv ${generated}/spirv/${shader}.spv)
+        set(cpp ${generated}/${symbol}.cpp)
+        add_custom_command(
+            OUTPUT ${spirv}
+            COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${ARG_FOLDER}
+                    $<$<CONFIG:Debug>:-gVS> --depfile ${spirv}.d -o ${spirv} ${source}
+            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}
+            DEPENDS ${source}
+            DEPFILE ${spirv}.d
+            COMMENT "Compiling shader ${shader}"
+            VERBATIM)
+        add_custom_command(
+            OUTPUT ${cpp}
+            COMMAND ${CMAKE_COMMAND} -DINPUT=${spirv} -DOUTPUT=${cpp} -DNAMESPACE=${ARG_NAMESPACE}
+                    -DSYMBOL=k_${symbol} -P ${VOILE_EMBED_SCRIPT}
+            DEPENDS ${spirv} ${VOILE_EMBED_SCRIPT}
+            VERBATIM)
+        target_sources(${ARG_TARGET} PRIVATE ${cpp})
+        string(APPEND declarations "extern const std::span<const uint32_t> k_${symbol};\n")
+    endforeach()
+    file(GENERATE OUTPUT ${generated}/${ARG_TARGET}_shaders.hpp CONTENT
+"// Generated: the SPIR-V of this library's shaders.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace ${ARG_NAMESPACE}
+{
+${declarations}} // namespace ${ARG_NAMESPACE}
+")
+    target_include_directories(${ARG_TARGET} PRIVATE ${generated})
+endfunction()

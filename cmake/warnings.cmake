@@ -1,0 +1,11 @@
+# voile_options: what every target of the project is compiled with. Interface only; not passed on to users.
+add_library(voile_options INTERFACE)
+target_compile_options(voile_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+if(VOILE_WERROR)
+    target_compile_options(voile_options INTERFACE -Werror)
+endif()
+if(VOILE_SANITIZE)
+    target_compile_options(voile_options INTERFACE -fsanitize=${VOILE_SANITIZE} -fno-omit-frame-pointer
+                                                   -fno-sanitize-recover=undefined)
+    target_link_options(voile_options INTERFACE -fsanitize=${VOILE_SANITIZE})
+endif()

@@ -1,0 +1,24 @@
+// 8-bit images on the host, read and written as PNG through stb.
+#pragma once
+
+#include "gpu/result.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace engine
+{
+
+struct Picture
+{
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgba; // 4 bytes a pixel, rows from the top, sRGB
+};
+
+gpu::Result<Picture> load_png(const std::filesystem::path& path);
+// Alpha is dropped: the file has three channels. Errors name the file and the reason.
+gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& picture);
+
+} // namespace engine

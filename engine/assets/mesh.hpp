@@ -1,0 +1,28 @@
+// Mesh: an indexed triangle mesh on the host.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace engine
+{
+
+struct Mesh
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;             // one a position, unit length
+    std::vector<glm::vec2> texture_coordinates; // one a position; all zero when the file has none
+    std::vector<glm::uvec3> triangles;          // indices into positions, counter-clockwise seen from outside
+};
+
+struct Bounds
+{
+    glm::vec3 min{0.f};
+    glm::vec3 max{0.f};
+};
+
+Bounds bounds(const Mesh& mesh); // zero for a mesh without positions
+
+} // namespace engine

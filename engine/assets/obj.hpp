@@ -1,0 +1,32 @@
+// Reading and writing OBJ.
+#pragma once
+
+#include "engine/assets/mesh.hpp"
+#include "gpu/result.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace engine
+{
+
+// What loading changed, for a reader who wonders why counts differ.
+struct MeshReport
+{
+    uint32_t polygons_triangulated = 0; // faces with more than three corners
+    uint32_t degenerate_triangles = 0;  // dropped: repeated index or no area
+    uint32_t duplicate_triangles = 0;   // dropped: the same three positions as an earlier one
+    bool normals_computed = false;      // the file had none (or not for every corner)
+};
+
+// Loads every shape of an OBJ file as one mesh (through tinyobjloader; materials and lines are ignored). Polygons are
+// triangulated. Corners that share a position but not a texture coordinate or normal become separate vertices.
+// Missing normals are computed, weighted by angle (Thürmer and Wüthrich 1998) across all triangles that share the
+// position. Errors, each naming the file and the line where there is one: missing, unreadable, empty or malformed file;
+// an index out of range; a coordinate that is not finite; no triangles left.
+gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report = nullptr);
+
+// Writes positions and triangles (vertex order kept), through a temporary file that is renamed when it is complete.
+gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh);
+
+} // namespace engine

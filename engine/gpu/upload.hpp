@@ -1,0 +1,41 @@
+// UploadBatch: host data on its way into device buffers. Copies are recorded into a command buffer of the caller's.
+#pragma once
+
+#include "gpu/buffer.hpp"
+
+#include <span>
+#include <vector>
+
+namespace engine
+{
+
+// Collects copies, records them all with one barrier to `all reads`, and keeps the staging memory: it must live until
+// that command buffer has completed.
+class UploadBatch
+{
+public:
+    explicit UploadBatch(const gpu::Context& context) : context_(context) {}
+
+    // A new device buffer holding `bytes` once the batch has run. StartupError when it cannot be made.
+    gpu::Buffer buffer(const char* name, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+
+    template <typename T>
+    gpu::Buffer buffer(const char* name, const std::vector<T>& values, VkBufferUsageFlags usage)
+    {
+        return buffer(name, std::as_bytes(std::span(values)), usage);
+    }
+
+    void record(VkCommandBuffer cmd);
+
+private:
+    struct Copy
+    {
+        VkBuffer destination;
+        gpu::Buffer staging;
+    };
+
+    const gpu::Context& context_;
+    std::vector<Copy> copies_;
+};
+
+} // namespace engine

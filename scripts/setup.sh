@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# Installs what Voile builds and runs with: Debian 12 and 13, Ubuntu 24.04 (apt). Elsewhere it says what
+# to install. Does nothing, in under a second, when everything is there.
+#
+#   scripts/setup.sh            installs what is missing
+#   scripts/setup.sh --check    only says what is missing; exit code 1 if anything is
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build git ca-certificates
+  libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools
+  libglm-dev libglfw3-dev libtinyobjloader-dev libstb-dev nlohmann-json3-dev libcli11-dev doctest-dev
+  mesa-vulkan-drivers vulkan-validationlayers
+  renderdoc librenderdoc-dev python3-renderdoc
+  ffmpeg
+)
+
+say() { printf 'setup: %s\n' "$*"; }
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null 2>&1; then
+    sudo "$@"
+  else
+    say "installing packages needs root or sudo; as root, run: $*" >&2
+    exit 1
+  fi
+}
+
+installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
+
+# A package that this release of the distribution does not have (RenderDoc on some) is not worth failing for.
+optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc) true ;; *) false ;; esac; }
+
+available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
+
+has_vma() {
+  [ -f /usr/include/vk_mem_alloc.h ] || [ -f /usr/local/include/vk_mem_alloc.h ] ||
+    ls /usr/include/*/vk_mem_alloc.h >/dev/null 2>&1
+}
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    installed "$package" || printf '%s\n' "$package"
+  done
+  has_vma || printf 'libvulkan-memory-allocator-dev\n'
+}
+
+# Debian 12 has no VulkanMemoryAllocator. Debian 13's package is header-only, for all architectures and
+# without dependencies, so it is taken from the mirror that the machine already uses, through a private
+# source list: the machine's own sources stay as they are.
+install_vma_from_trixie() {
+  local work mirror
+  mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME)' 'Created-By: Packages' |
+    awk '$2 == "bookworm" { print $1; exit }')
+  if [ -z "$mirror" ]; then
+    say "no Debian mirror found to take libvulkan-memory-allocator-dev from; install VulkanMemoryAllocator 3 by hand" >&2
+    return 1
+  fi
+  work=$(mktemp -d)
+  chmod 755 "$work"
+  mkdir -p "$work/lists/partial"
+  printf 'deb %s trixie main\n' "$mirror" >"$work/trixie.list"
+  local options=(-o "Dir::Etc::sourcelist=$work/trixie.list" -o Dir::Etc::sourceparts=/dev/null
+    -o "Dir::State::Lists=$work/lists")
+  as_root apt-get "${options[@]}" -qq update
+  (cd "$work" && as_root apt-get "${options[@]}" -qq -o APT::Sandbox::User=root download libvulkan-memory-allocator-dev)
+  as_root dpkg -i "$work"/libvulkan-memory-allocator-dev_*.deb >/dev/null
+  as_root rm -rf "$work"
+}
+
+if ! command -v apt-get >/dev/null 2>&1; then
+  command -v cmake >/dev/null && command -v glslangValidator >/dev/null && has_vma && exit 0
+  cat >&2 <<'TEXT'
+setup: this system has no apt. Install with its package manager, then run the command again:
+  a C++20 compiler, CMake 3.25, Ninja, git, ffmpeg (for films)
+  Vulkan headers and loader, volk, VulkanMemoryAllocator 3, glslangValidator, spirv-val
+  GLM, GLFW 3, tinyobjloader, stb, nlohmann-json 3, CLI11, doctest
+  a Vulkan driver (Mesa's lavapipe runs without a GPU), the Khronos validation layer, RenderDoc (optional)
+TEXT
+  exit 1
+fi
+
+mapfile -t missing < <(missing_packages)
+if [ "${1:-}" = "--check" ]; then
+  [ "${#missing[@]}" -eq 0 ] && exit 0
+  say "missing: ${missing[*]}"
+  exit 1
+fi
+[ "${#missing[@]}" -eq 0 ] && exit 0
+
+export DEBIAN_FRONTEND=noninteractive
+say "installing ${#missing[@]} packages: ${missing[*]}"
+as_root apt-get -qq update
+wanted=()
+for package in "${missing[@]}"; do
+  if available "$package"; then
+    wanted+=("$package")
+  elif [ "$package" = libvulkan-memory-allocator-dev ]; then
+    continue # Debian 12: below
+  elif optional "$package"; then
+    say "$package is not in this release; captures stay off"
+  else
+    say "package $package is not in this release of the distribution; install it by hand" >&2
+    exit 1
+  fi
+done
+if [ "${#wanted[@]}" -gt 0 ]; then
+  as_root apt-get -qq install -y --no-install-recommends "${wanted[@]}" >/dev/null
+fi
+has_vma || install_vma_from_trixie
+say "done"
