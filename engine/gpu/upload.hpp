@@ -1,7 +1,7 @@
 // UploadBatch: host data on its way into device buffers. Copies are recorded into a command buffer of the caller's.
 #pragma once
 
-#include "gpu/buffer.hpp"
+#include "gpu/recorder.hpp"
 
 #include <span>
 #include <vector>
@@ -9,8 +9,8 @@
 namespace engine
 {
 
-// Collects copies, records them all with one barrier to `all reads`, and keeps the staging memory: it must live until
-// that command buffer has completed.
+// Collects copies, records them all with one barrier to vertex input and compute reads, and keeps the staging memory:
+// it must live until that command buffer has completed.
 class UploadBatch
 {
 public:
@@ -31,6 +31,7 @@ private:
     struct Copy
     {
         VkBuffer destination;
+        VkDeviceSize bytes;
         gpu::Buffer staging;
     };
 

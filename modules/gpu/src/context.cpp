@@ -1,0 +1,117 @@
+// Context: reads functions and limits from the host's handles; names; result texts.
+#include "gpu/context.hpp"
+
+#include <algorithm>
+
+namespace gpu
+{
+
+namespace
+{
+
+template <typename Function>
+Function instance_function(const Handles& handles, const char* name)
+{
+    return reinterpret_cast<Function>(handles.get_instance_proc_addr(handles.instance, name));
+}
+
+// volkLoadDeviceTable finds device functions through volk's vkGetDeviceProcAddr. A host that uses volk has set it;
+// for any other host it is set here, once, from the host's loader, and is the loader's own in every case.
+void ensure_device_loader(const Handles& handles)
+{
+    if (vkGetDeviceProcAddr == nullptr)
+        vkGetDeviceProcAddr = instance_function<PFN_vkGetDeviceProcAddr>(handles, "vkGetDeviceProcAddr");
+}
+
+VkDeviceSize largest_storage_buffer(const Handles& handles, const VkPhysicalDeviceLimits& limits)
+{
+    const auto get =
+        instance_function<PFN_vkGetPhysicalDeviceMemoryProperties>(handles, "vkGetPhysicalDeviceMemoryProperties");
+    VkPhysicalDeviceMemoryProperties memory{};
+    get(handles.physical_device, &memory);
+    VkDeviceSize largest_heap = 0;
+    for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        largest_heap = std::max(largest_heap, memory.memoryHeaps[i].size);
+    return std::min<VkDeviceSize>(largest_heap, limits.maxStorageBufferRange);
+}
+
+} // namespace
+
+Result<Context> create_context(const Handles& handles)
+{
+    if (handles.instance == VK_NULL_HANDLE || handles.physical_device == VK_NULL_HANDLE ||
+        handles.device == VK_NULL_HANDLE || handles.allocator == VK_NULL_HANDLE)
+        return Error{"gpu::Handles: instance, physical_device, device and allocator must all be set"};
+    if (handles.get_instance_proc_addr == nullptr)
+        return Error{"gpu::Handles: get_instance_proc_addr is null"};
+
+    Context context;
+    context.handles = handles;
+    ensure_device_loader(handles);
+    volkLoadDeviceTable(&context.fn, handles.device);
+    if (context.fn.vkCmdPipelineBarrier2KHR == nullptr)
+        return Error{"the device was made without VK_KHR_synchronization2"};
+
+    VkPhysicalDeviceProperties properties{};
+    instance_function<PFN_vkGetPhysicalDeviceProperties>(handles, "vkGetPhysicalDeviceProperties")(
+        handles.physical_device, &properties);
+    context.limits = properties.limits;
+    context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits);
+
+    // An instance without VK_EXT_debug_utils answers null; labels and names are then no-ops.
+    context.set_object_name =
+        instance_function<PFN_vkSetDebugUtilsObjectNameEXT>(handles, "vkSetDebugUtilsObjectNameEXT");
+    context.begin_label = instance_function<PFN_vkCmdBeginDebugUtilsLabelEXT>(handles, "vkCmdBeginDebugUtilsLabelEXT");
+    context.end_label = instance_function<PFN_vkCmdEndDebugUtilsLabelEXT>(handles, "vkCmdEndDebugUtilsLabelEXT");
+    return context;
+}
+
+void set_name(const Context& context, VkObjectType type, uint64_t object, const char* name)
+{
+    if (context.set_object_name == nullptr || object == 0)
+        return;
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type, object,
+                                             name};
+    context.set_object_name(context.device(), &info);
+}
+
+std::string to_string(VkResult result)
+{
+    switch (result)
+    {
+    case VK_SUCCESS:
+        return "VK_SUCCESS";
+    case VK_NOT_READY:
+        return "VK_NOT_READY";
+    case VK_TIMEOUT:
+        return "VK_TIMEOUT";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED:
+        return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST:
+        return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+        return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    case VK_ERROR_SURFACE_LOST_KHR:
+        return "VK_ERROR_SURFACE_LOST_KHR";
+    case VK_ERROR_OUT_OF_DATE_KHR:
+        return "VK_ERROR_OUT_OF_DATE_KHR";
+    default:
+        return "VkResult " + std::to_string(static_cast<int>(result));
+    }
+}
+
+} // namespace gpu

@@ -1,0 +1,74 @@
+// Recorder and LabelScope: labels, timestamps, dispatches and their barriers.
+#include "gpu/recorder.hpp"
+
+#include <cstdlib>
+
+namespace gpu
+{
+
+LabelScope::LabelScope(const Context& context, VkCommandBuffer cmd, const char* name, Timestamps* timestamps)
+    : context_(context), cmd_(cmd), timestamps_(timestamps)
+{
+    if (context_.begin_label != nullptr)
+    {
+        VkDebugUtilsLabelEXT label{};
+        label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+        label.pLabelName = name;
+        context_.begin_label(cmd_, &label);
+    }
+    if (timestamps_ != nullptr)
+        pass_ = timestamps_->begin(cmd_, name);
+}
+
+LabelScope::~LabelScope()
+{
+    if (timestamps_ != nullptr)
+        timestamps_->end(cmd_, pass_);
+    if (context_.end_label != nullptr)
+        context_.end_label(cmd_);
+}
+
+void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
+                        std::span<const std::byte> push, Ordering ordering)
+{
+    if (threads == 0)
+        return;
+    // A mismatch would read past the caller's struct or leave constants undefined: a bug that no run survives.
+    if (push.size() != kernel.push_bytes())
+        std::abort();
+    {
+        const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
+        context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+        context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
+                                            nullptr);
+        if (!push.empty())
+            context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                           static_cast<uint32_t>(push.size()), push.data());
+        context_.fn.vkCmdDispatch(cmd_, (threads + group_size - 1) / group_size, 1, 1);
+        ++dispatches_;
+    }
+    if (ordering == Ordering::ordered)
+        barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+    if (split_ != nullptr)
+        cmd_ = split_(split_user_, cmd_);
+}
+
+void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
+                       VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access)
+{
+    const VkMemoryBarrier2KHR memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2_KHR,
+                                     nullptr,
+                                     source_stage,
+                                     source_access,
+                                     destination_stage,
+                                     destination_access};
+    VkDependencyInfoKHR dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO_KHR;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    context_.fn.vkCmdPipelineBarrier2KHR(cmd_, &dependency);
+}
+
+} // namespace gpu

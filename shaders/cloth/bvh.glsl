@@ -1,0 +1,53 @@
+// Traversal of a bounding volume hierarchy with a box as the query.
+//
+// The including kernel declares `bvh_nodes[]` and `bvh_triangles[]` and defines, before the include,
+//   void visit_triangle(uint triangle)
+// which is called for every triangle of the leaves that the box reaches.
+#ifndef VOILE_BVH_GLSL
+#define VOILE_BVH_GLSL
+
+bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+{
+    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
+}
+
+void visit_leaf(uint first_triangle, uint leaf)
+{
+    const uint first = first_triangle + (leaf & VOILE_BVH_FIRST_MASK);
+    const uint count = ((leaf >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1;
+    for (uint t = first; t < first + count; ++t)
+        visit_triangle(t);
+}
+
+void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
+{
+    uint stack[VOILE_BVH_MAX_DEPTH];
+    uint entries = 0;
+    uint node = 0;
+    for (;;)
+    {
+        const BvhNode n = bvh_nodes[first_node + node];
+        const bool left = boxes_overlap(box_min, box_max, n.left_min, n.left_max);
+        const bool right = boxes_overlap(box_min, box_max, n.right_min, n.right_max);
+        const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
+        const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
+        if (left && left_leaf)
+            visit_leaf(first_triangle, n.left);
+        if (right && right_leaf)
+            visit_leaf(first_triangle, n.right);
+        const bool go_left = left && !left_leaf;
+        const bool go_right = right && !right_leaf;
+        if (go_left && go_right)
+            stack[entries++] = n.right;
+        if (go_left)
+            node = n.left;
+        else if (go_right)
+            node = n.right;
+        else if (entries > 0)
+            node = stack[--entries];
+        else
+            return;
+    }
+}
+
+#endif

@@ -1,0 +1,36 @@
+// Grid topology: which vertex of which cloth a thread is, and who its neighbours are.
+#ifndef VOILE_GRID_GLSL
+#define VOILE_GRID_GLSL
+
+const ivec2 k_spring_offsets[VOILE_SPRING_CLASSES] =
+    ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0), ivec2(0, 2), ivec2(2, 2), ivec2(2, -2));
+
+struct GridVertex
+{
+    uint index;  // in the solver's buffers
+    int column;
+    int row;
+    bool exists; // false for the threads beyond the last vertex of a cloth
+};
+
+GridVertex grid_vertex(uint first_vertex, uint columns, uint rows, uint local)
+{
+    GridVertex v;
+    v.index = first_vertex + local;
+    v.row = int(local / columns);
+    v.column = int(local - uint(v.row) * columns);
+    v.exists = local < columns * rows;
+    return v;
+}
+
+bool in_grid(ivec2 p, uint columns, uint rows)
+{
+    return uint(p.x) < columns && uint(p.y) < rows; // a negative coordinate wraps to a large one
+}
+
+uint neighbour(GridVertex v, ivec2 offset, uint columns)
+{
+    return uint(int(v.index) + offset.y * int(columns) + offset.x);
+}
+
+#endif
