@@ -62,7 +62,7 @@ struct ColliderRecord
     uint first_node;
     vec3 box_max;
     uint first_triangle;
-    vec4 shape; // plane: unit normal and n.x of its points; sphere: centre and radius
+    vec4 shape; // plane: unit normal and offset (normal . x of its points); sphere: centre and radius
 };
 
 // Push constants of the integration stages.
@@ -85,8 +85,12 @@ struct ContactPush
 struct StatisticsPush
 {
     uint colliders;
+};
+
+struct StatisticsReducePush
+{
     uint chunks;
-    uint first_cloth_record; // unused by the reduction
+    uint slot; // of the result
 };
 
 // Sums and maxima over a chunk, and, reduced, over all cloths.

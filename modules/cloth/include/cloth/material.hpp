@@ -1,0 +1,77 @@
+// Material: what a fabric is made of, and the springs that a grid of it gets. SI units.
+#pragma once
+
+#include "gpu/result.hpp"
+
+#include <array>
+
+namespace cloth
+{
+
+using gpu::Error;
+using gpu::Result;
+
+// A spring pulls with stiffness * (length - rest length) + damping * (rate of lengthening).
+struct Spring
+{
+    float stiffness = 0; // N/m, >= 0
+    float damping = 0;   // N s/m, >= 0
+};
+
+// The four families of a grid's springs. A stiffness and damping of 0 leave a family out.
+struct SpringSet
+{
+    Spring structural_warp; // neighbours along a row
+    Spring structural_weft; // neighbours along a column
+    Spring shear;           // diagonal neighbours
+    Spring bend_warp;       // two apart along a row
+    Spring bend_weft;       // two apart along a column
+    Spring diagonal_bend;   // two apart along a diagonal
+};
+
+// Everything that moves a vertex, with masses and spring constants given outright. The reference scene is given so; for
+// a fabric that behaves the same at every resolution use make_material.
+struct Material
+{
+    float vertex_mass = 0.01f; // kg, > 0; the same for every vertex
+    SpringSet springs;
+    float thickness = 0.005f;      // m, > 0; the distance that contact keeps between a vertex and a surface
+    float static_friction = 0.4f;  // Coulomb, >= kinetic_friction
+    float kinetic_friction = 0.4f; // Coulomb, >= 0
+    float linear_drag = 0;         // N s/m a vertex, >= 0: force = linear_drag * (wind - velocity)
+    float air_drag_normal = 0;     // C_n, >= 0: 1/2 rho A C_n |u_n| u_n along the normal, u = wind - velocity
+    float air_drag_tangential = 0; // C_t, >= 0: 1/2 rho A C_t |u_t| u_t across the normal
+};
+
+// A fabric by its own properties, independent of the grid that it is sampled with.
+struct Fabric
+{
+    float areal_density = 0.15f;                        // kg/m^2, > 0
+    std::array<float, 2> stretch_stiffness{1000, 1000}; // N/m, > 0; warp (along rows), weft (along columns)
+    float shear_stiffness = 100;                        // N/m, >= 0
+    float bending_stiffness = 1e-5f;                    // N m, >= 0
+    float damping_ratio = 0.02f;                        // of each spring's critical damping, 0..1
+    float thickness = 0.005f;                           // m, > 0
+    float static_friction = 0.5f;                       // >= kinetic_friction
+    float kinetic_friction = 0.4f;                      // >= 0
+    float air_drag_normal = 1.28f;                      // C_n, >= 0; a flat plate's
+    float air_drag_tangential = 0.05f;                  // C_t, >= 0
+};
+
+// The springs and masses of a grid with the given spacing (m, along rows and along columns), so that a strip of the
+// fabric stretches as Fabric says whatever the spacing:
+// - a structural spring carries the tension of a strip as wide as the spacing across it: k = K * across / along;
+// - a shear spring carries K_s; a bend spring two apart resists folding with k = B / (across * along) per fold (from
+//   B kappa^2 / 2 of the strip, with the spring's shortening as its measure: it has no stiffness near flat);
+// - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring.
+Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
+
+// The constants of the reference scene: 0.15 kg a vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag
+// 0.1 N s/m, thickness 0.03 m, friction 0.4.
+Material reference_material();
+
+// Errors: a value outside the range given above, with its name and value.
+Result<void> validate(const Material& material);
+Result<void> validate(const Fabric& fabric);
+
+} // namespace cloth

@@ -1,0 +1,42 @@
+// A JSON document as a tree whose nodes know their line, so that what is wrong with a value can be said with its place.
+#pragma once
+
+#include "gpu/result.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace viewer
+{
+
+struct JsonNode
+{
+    enum class Kind { Null, Boolean, Number, String, Array, Object };
+
+    Kind kind = Kind::Null;
+    uint32_t line = 0; // from 1; of a container, the line of its opening bracket
+    bool boolean = false;
+    bool integer = false; // a number written without fraction and exponent
+    double number = 0;
+    std::string text;
+    std::vector<std::string> keys; // of an object, in the file's order, each once
+    std::vector<JsonNode> items;   // of an array, or of an object beside `keys`
+
+    // nullptr if this is no object or has no such key.
+    [[nodiscard]] const JsonNode* find(std::string_view key) const;
+};
+
+// "a string", "an array" ..., for messages.
+const char* describe(JsonNode::Kind kind);
+
+// Parses strict JSON (no comments, no trailing commas). `file` only serves the messages. Errors, one line each: an empty
+// text, a syntax error (FILE:LINE:COLUMN: reason), a number that no double holds, a key that appears twice in an object,
+// more than 64 levels of nesting.
+gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file);
+
+// The same string without control characters, which would break a message into lines.
+std::string one_line(std::string text);
+
+} // namespace viewer

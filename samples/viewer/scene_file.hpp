@@ -1,0 +1,221 @@
+// A scene file (JSON) as plain structs. Nothing here knows the cloth module: what a value means for the simulation is
+// decided where the scene is built. SI units, degrees for angles, y is up. A field that is std::optional or absent was
+// not written in the file; its default belongs to whoever builds the scene.
+#pragma once
+
+#include "gpu/result.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace viewer
+{
+
+constexpr uint32_t k_least_grid_vertices = 2;    // along a side
+constexpr uint32_t k_most_grid_vertices = 8192;  // along a side
+constexpr uint32_t k_most_substeps = 1000;       // of a frame
+
+// Scales, then rotates, then translates.
+struct TransformEntry
+{
+    glm::vec3 translate{0.f}; // m
+    glm::vec3 rotate{0.f};    // degrees about x, then y, then z
+    float scale = 1.f;        // > 0
+};
+
+// Rigid motion from the placed state on: a turn about `pivot`, which itself moves with `velocity`.
+struct MotionEntry
+{
+    glm::vec3 velocity{0.f}; // m/s
+    glm::vec3 spin{0.f};     // degrees/s about x, then y, then z
+    glm::vec3 pivot{0.f};    // m, in the scene
+};
+
+// Meshes of one topology, one a time step of 1/rate s.
+struct FrameSequence
+{
+    std::filesystem::path pattern; // resolved; its file name holds %d or %04d once, for the frame's number
+    float rate = 60.f;             // meshes per second, > 0
+};
+
+struct WindEntry
+{
+    glm::vec3 velocity{0.f}; // m/s
+    float gust = 0.f;        // gusts' strength as a share of the velocity, >= 0
+};
+
+struct StepEntry
+{
+    float rate = 60.f;                // frames per second of simulated time, 1..1000
+    std::optional<uint32_t> substeps; // of a frame, 1..1000; absent: "auto", from stability
+};
+
+enum class BendingModel { Springs, Isometric };
+enum class Integrator { Rk4, Verlet };
+enum class Edge { Top, Bottom, Left, Right }; // row 0, last row, column 0, last column
+
+// A preset, values, or a preset with some values replaced.
+struct MaterialEntry
+{
+    std::optional<std::string> preset; // silk, cotton, wool, denim, leather or reference
+    std::optional<float> areal_density;         // kg/m², > 0
+    std::optional<glm::vec2> stretch_stiffness; // N/m, warp and weft, > 0
+    std::optional<float> shear_stiffness;       // N/m, >= 0
+    std::optional<float> bending_stiffness;     // N·m, >= 0
+    std::optional<float> damping_ratio;         // of critical damping, >= 0
+    std::optional<float> thickness;             // m, > 0
+    std::optional<float> static_friction;       // >= 0, and >= kinetic_friction where both are given
+    std::optional<float> kinetic_friction;      // >= 0
+    std::optional<float> air_drag_normal;       // coefficient, >= 0
+    std::optional<float> air_drag_tangential;   // coefficient, >= 0
+    std::optional<float> strain_limit;          // greatest l/L - 1, >= 0; 0: none
+    std::optional<BendingModel> bending_model;
+    // As the reference scene is given: constants of the mesh, not of the fabric, the same for every spring family.
+    std::optional<float> vertex_mass;      // kg, > 0
+    std::optional<float> spring_stiffness; // N/m, > 0
+    std::optional<float> spring_damping;   // N·s/m, >= 0
+    std::optional<float> linear_drag;      // N·s/m, >= 0
+    uint32_t line = 0;
+};
+
+// Flat in x and z, centred on the origin. Vertex index = row * columns + column.
+struct GridEntry
+{
+    uint32_t columns = 0;   // along x, 2..8192
+    uint32_t rows = 0;      // along z, 2..8192
+    glm::vec2 size{0.f};    // m along x and z, > 0
+};
+
+struct CornerPin
+{
+    uint32_t corner = 0; // 0 to 3: row 0 column 0, row 0 last column, last row column 0, last row last column
+};
+struct EdgePin
+{
+    Edge edge = Edge::Top;
+};
+struct VertexPin
+{
+    uint32_t vertex = 0; // of a grid: within its vertices, as the file has them
+};
+struct BoxPin
+{
+    glm::vec3 min{0.f}; // m, in the scene, against the vertices as they start
+    glm::vec3 max{0.f};
+};
+
+struct PinEntry
+{
+    std::variant<CornerPin, EdgePin, VertexPin, BoxPin> at; // corners and edges on grids only
+    std::optional<MotionEntry> motion;                      // absent: it stays where it is
+    uint32_t line = 0;
+};
+
+struct ClothEntry
+{
+    std::string name;                                    // unique, fit for a file name; "cloth_0" ... where unnamed
+    std::variant<GridEntry, std::filesystem::path> form; // a grid, or a mesh file (OBJ or PLY, resolved)
+    TransformEntry transform;
+    MaterialEntry material;
+    std::vector<PinEntry> pins;
+    glm::vec3 velocity{0.f}; // m/s at the start
+    Integrator integrator = Integrator::Rk4;
+    bool self_collision = false;
+    uint32_t line = 0;
+};
+
+struct MeshShape
+{
+    std::filesystem::path file; // OBJ or PLY, resolved; empty where `frames` alone gives the form
+};
+struct PlaneShape
+{
+    float y = 0.f; // m
+};
+struct SphereShape
+{
+    glm::vec3 center{0.f}; // m
+    float radius = 0.f;    // m, > 0
+};
+struct CapsuleShape // {"from": [...], "to": [...], "radius": r}
+{
+    glm::vec3 from{0.f}; // m, the centres of its two end spheres
+    glm::vec3 to{0.f};
+    float radius = 0.f; // m, > 0
+};
+struct BoxShape // {"min": [...], "max": [...]}
+{
+    glm::vec3 min{0.f}; // m, each below max's
+    glm::vec3 max{0.f};
+};
+
+struct FrictionEntry
+{
+    float static_friction = 0.f; // >= kinetic_friction
+    float kinetic_friction = 0.f;
+};
+
+struct ColliderEntry
+{
+    std::variant<MeshShape, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
+    bool placed = false; // "transform" was written
+    TransformEntry transform;
+    std::optional<FrictionEntry> friction;
+    std::optional<MotionEntry> motion;
+    std::optional<FrameSequence> frames; // with a mesh only
+    uint32_t line = 0;
+};
+
+struct CameraEntry
+{
+    glm::vec3 position{0.f}; // m
+    glm::vec3 target{0.f};   // m, not at the position
+    float fov = 40.f;        // vertical, degrees, 1..170
+};
+
+struct SceneFile
+{
+    std::filesystem::path path;
+    std::string name; // the file's name without folder and extension
+    glm::vec3 gravity{0.f, -9.81f, 0.f}; // m/s²
+    WindEntry wind;
+    StepEntry step;
+    std::vector<ClothEntry> cloths; // at least one
+    std::vector<ColliderEntry> colliders;
+    std::optional<CameraEntry> camera; // absent: the viewer frames the scene itself
+};
+
+// Parses a scene's text. `path` serves the messages and is what relative paths are relative to; nothing is read.
+// Errors name the file, the line, the place as cloths[0].grid.size, and the reason, in one line.
+gpu::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
+
+// Reads and parses a scene, and checks that the files it names are there.
+gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
+
+// "FILE:LINE", the beginning of a message about an entry.
+std::string place(const SceneFile& scene, uint32_t line);
+
+// The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the first that is missing.
+// An error if there are none.
+gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
+
+glm::mat4 matrix(const TransformEntry& transform);
+// Where a point of the placed state is after `seconds`.
+glm::mat4 matrix(const MotionEntry& motion, double seconds);
+
+// Folders that are searched for scenes by name, in this order: those of the environment variable VOILE_SCENES
+// (separated by ':'), and beside the program ../scenes, scenes and ../share/voile/scenes.
+std::vector<std::filesystem::path> scene_folders();
+
+// A scene by path, else by name in the folders. The error lists the names that there are.
+gpu::Result<std::filesystem::path> find_scene(const std::string& name,
+                                              const std::vector<std::filesystem::path>& folders = scene_folders());
+
+} // namespace viewer

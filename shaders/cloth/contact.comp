@@ -1,0 +1,102 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Contact of all cloths with all colliders: detection and response, one thread a vertex.
+//
+// Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
+// on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
+// tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
+// Reads: cloths, chunks, colliders, hierarchy, proposed state, own previous state. Writes: state (velocity.w: 1 = touches).
+#include "bvh_layout.h"
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const int METHOD = 1;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(set = 0, binding = 4, scalar) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 7, scalar) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 8, scalar) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+
+layout(push_constant, scalar) uniform Push { ContactPush push; };
+
+#define VOILE_NORMAL_POSITIONS proposed_positions
+#include "grid_normal.glsl"
+#include "contact_query.glsl"
+
+struct Motion
+{
+    vec3 from; // m, before the substep
+    vec3 x;    // m, now
+    vec3 v;    // m/s
+};
+
+// A pair's coefficient is the geometric mean of both sides' (Box2D's rule); a collider without one takes the fabric's.
+float pair_friction(float fabric, float collider, uint flags)
+{
+    return (flags & VOILE_COLLIDER_FRICTION) != 0 ? sqrt(fabric * collider) : fabric;
+}
+
+void respond(inout Motion motion, Contact contact, float thickness, float static_friction, float kinetic_friction)
+{
+    const vec3 n = contact.direction;
+    motion.x += (thickness - contact.gap) * n;
+    const float approach = min(dot(motion.v, n), 0);
+    motion.v -= approach * n;
+    const float normal_impulse = -approach; // per unit of mass, m/s
+    if (normal_impulse == 0)
+        return;
+
+    const vec3 v_t = motion.v - dot(motion.v, n) * n;
+    const float speed = length(v_t);
+    if (speed <= static_friction * normal_impulse)
+    {
+        // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
+        const vec3 slid = motion.x - motion.from;
+        motion.x -= slid - dot(slid, n) * n;
+        motion.v -= v_t;
+        return;
+    }
+    const vec3 change = -min(kinetic_friction * normal_impulse / speed, 1) * v_t;
+    motion.v += change;
+    motion.x += 0.5 * push.step * change; // the impulse acted throughout the substep
+}
+
+void main()
+{
+    const Chunk chunk = chunks[gl_WorkGroupID.x];
+    const uint cloth = chunk.cloth;
+    const uint columns = cloths[cloth].columns;
+    const uint rows = cloths[cloth].rows;
+    const GridVertex self =
+        grid_vertex(cloths[cloth].first_vertex, columns, rows, chunk.first + gl_LocalInvocationID.x);
+    if (!self.exists)
+        return;
+    const uint i = self.index;
+    const vec4 proposed = proposed_positions[i];
+    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocities[i].xyz);
+    float touches = 0;
+    if (proposed.w > 0)
+    {
+        const float thickness = cloths[cloth].thickness;
+        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? grid_normal(self, columns, rows) : vec3(0);
+        for (uint c = 0; c < push.colliders; ++c)
+        {
+            const ColliderRecord collider = colliders[c];
+            const Contact contact = find_contact(collider, METHOD, motion.from, motion.x, normal, thickness);
+            if (!contact.found)
+                continue;
+            touches = 1;
+            respond(motion, contact, thickness,
+                    pair_friction(cloths[cloth].static_friction, collider.static_friction, collider.flags),
+                    pair_friction(cloths[cloth].kinetic_friction, collider.kinetic_friction, collider.flags));
+        }
+    }
+    positions[i] = vec4(motion.x, proposed.w);
+    velocities[i] = vec4(motion.v, touches);
+}

@@ -1,0 +1,166 @@
+// Where a vertex touches a collider.
+//
+// The including kernel declares `colliders[]`, `bvh_nodes[]` and `bvh_triangles[]`.
+#ifndef VOILE_CONTACT_QUERY_GLSL
+#define VOILE_CONTACT_QUERY_GLSL
+
+#include "triangle.glsl"
+
+// How the narrow phase finds the surface within the thickness.
+#define VOILE_METHOD_NORMAL_RAY 0    // a ray along the vertex normal and one along its opposite, the nearest hit
+#define VOILE_METHOD_NEAREST_POINT 1 // the nearest point of the mesh
+
+struct Contact
+{
+    bool found;
+    vec3 direction; // unit, from the surface to the side on which the vertex belongs
+    float gap;      // m, distance of the vertex from the surface along `direction`; negative under the surface
+};
+
+// A vertex that moves from `from` to `to` within the substep, and what its traversal has found so far.
+struct MeshQuery
+{
+    int method;
+    vec3 from;
+    vec3 to;
+    vec3 normal;     // of the cloth at the vertex, for VOILE_METHOD_NORMAL_RAY
+    float thickness; // m
+    bool closed;
+
+    float distance;  // m to the nearest surface found; starts at the thickness
+    float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
+    vec3 point;      // on that surface
+    vec3 face;       // unit normal of its triangle
+    float crossing;  // smallest parameter of from -> to at which the motion crosses a triangle; 2 = none
+    vec3 crossing_face;
+    vec3 crossing_point;
+};
+MeshQuery query;
+
+void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
+{
+    const vec3 point = nearest_on_triangle(query.to, a, b, c);
+    const vec3 offset = query.to - point;
+    const float distance = length(offset);
+    const float alignment = abs(dot(offset, face)) / max(distance, 1e-12);
+    // Triangles that share the nearest edge or vertex lie equally far; the one that faces the vertex most tells the side
+    // (Ericson 2004, 12.3). Distances within a few roundings count as equal.
+    const float tie = 1e-5 * query.thickness;
+    const bool nearer = distance < query.distance - tie;
+    const bool better_facing = distance < query.distance + tie && alignment > query.alignment;
+    if (nearer || better_facing)
+    {
+        query.distance = distance;
+        query.alignment = alignment;
+        query.point = point;
+        query.face = face;
+    }
+}
+
+void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
+{
+    const vec3 reach = query.thickness * query.normal;
+    const float t = segment_triangle(query.to - reach, 2 * reach, a, b, c);
+    const float distance = abs(2 * t - 1) * query.thickness;
+    if (t <= 1 && distance < query.distance)
+    {
+        query.distance = distance;
+        query.point = query.to + (2 * t - 1) * reach;
+        query.face = face;
+    }
+}
+
+void visit_triangle(uint index)
+{
+    const BvhTriangle triangle = bvh_triangles[index];
+    const vec3 face = normalize(cross(triangle.b - triangle.a, triangle.c - triangle.a));
+    const float t = segment_triangle(query.from, query.to - query.from, triangle.a, triangle.b, triangle.c);
+    // Leaving a closed mesh through its surface is no fault.
+    if (t < query.crossing && !(query.closed && dot(query.to - query.from, face) >= 0))
+    {
+        query.crossing = t;
+        query.crossing_face = face;
+        query.crossing_point = query.from + t * (query.to - query.from);
+    }
+    if (query.method == VOILE_METHOD_NORMAL_RAY)
+        visit_normal_ray(triangle.a, triangle.b, triangle.c, face);
+    else
+        visit_nearest(triangle.a, triangle.b, triangle.c, face);
+}
+
+#include "bvh.glsl"
+
+Contact crossing_contact()
+{
+    Contact contact;
+    contact.found = true;
+    contact.direction = dot(query.from - query.to, query.crossing_face) >= 0 ? query.crossing_face
+                                                                           : -query.crossing_face;
+    contact.gap = dot(query.to - query.crossing_point, contact.direction);
+    return contact;
+}
+
+Contact nearest_contact()
+{
+    Contact contact;
+    contact.found = query.distance < query.thickness;
+    const vec3 offset = query.to - query.point;
+    const bool inside = query.closed && dot(offset, query.face) < 0;
+    // On the surface the offset has no direction; the face has. So has a ray's hit, whose offset follows the cloth.
+    if (query.distance < 1e-6 || query.method == VOILE_METHOD_NORMAL_RAY)
+    {
+        const bool flip = !query.closed && dot(query.from - query.point, query.face) < 0;
+        contact.direction = flip ? -query.face : query.face;
+        contact.gap = dot(offset, contact.direction);
+        return contact;
+    }
+    contact.direction = (inside ? -1 : 1) * offset / query.distance;
+    contact.gap = inside ? -query.distance : query.distance;
+    return contact;
+}
+
+Contact mesh_contact(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+{
+    Contact none;
+    none.found = false;
+    const vec3 box_min = min(to - thickness, from);
+    const vec3 box_max = max(to + thickness, from);
+    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+        return none;
+    query.method = method;
+    query.from = from;
+    query.to = to;
+    query.normal = normal;
+    query.thickness = thickness;
+    query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
+    query.distance = thickness;
+    query.alignment = 2; // nothing ties with "nothing found"
+    query.crossing = 2;
+    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+    if (query.crossing <= 1)
+        return crossing_contact();
+    return nearest_contact();
+}
+
+Contact find_contact(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+{
+    Contact contact;
+    if (collider.kind == VOILE_COLLIDER_MESH)
+        return mesh_contact(collider, method, from, to, normal, thickness);
+    if (collider.kind == VOILE_COLLIDER_PLANE)
+    {
+        contact.direction = collider.shape.xyz;
+        contact.gap = dot(collider.shape.xyz, to) - collider.shape.w;
+    }
+    else // sphere
+    {
+        const vec3 offset = to - collider.shape.xyz;
+        const float distance = length(offset);
+        contact.direction = distance > 1e-9 ? offset / distance : vec3(0, 1, 0);
+        contact.gap = distance - collider.shape.w;
+    }
+    contact.found = contact.gap < thickness;
+    return contact;
+}
+
+#endif

@@ -1,0 +1,84 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Statistics of one chunk of vertices: stretch, kinetic energy, values that are not finite, penetration.
+//
+// A thread measures one vertex: the structural and shear springs on its positive side, its energy, and how deep it lies
+// under the surface of a collider. Reads: cloths, chunks, state, colliders, hierarchy. Writes: one record a workgroup.
+#include "bvh_layout.h"
+#include "cloth_layout.h"
+#include "grid.glsl"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Partials { StatisticsRecord partials[]; };
+
+layout(push_constant, scalar) uniform Push { StatisticsPush push; };
+
+#include "contact_query.glsl"
+#include "statistics_merge.glsl"
+
+bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
+
+void measure_springs(uint cloth, GridVertex self, vec3 x, inout StatisticsRecord record)
+{
+    for (int c = 0; c < 4; ++c) // structural and shear
+    {
+        const SpringClass spring = cloths[cloth].springs[c];
+        const ivec2 offset = k_spring_offsets[c];
+        if (spring.stiffness == 0 ||
+            !in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows))
+            continue;
+        const vec3 other = positions[neighbour(self, offset, cloths[cloth].columns)].xyz;
+        const float stretch = distance(x, other) / spring.rest_length - 1;
+        record.max_stretch = max(record.max_stretch, stretch);
+        record.stretch_sum += stretch;
+        record.springs += 1;
+    }
+}
+
+void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
+{
+    float depth = 0;
+    for (uint c = 0; c < push.colliders; ++c)
+    {
+        const Contact contact = find_contact(colliders[c], VOILE_METHOD_NEAREST_POINT, x, x, vec3(0), thickness);
+        if (contact.found)
+            depth = max(depth, -contact.gap);
+    }
+    record.deepest_penetration = depth;
+    record.penetrating_vertices = depth > 0 ? 1 : 0;
+}
+
+void main()
+{
+    const Chunk chunk = chunks[gl_WorkGroupID.x];
+    const uint cloth = chunk.cloth;
+    const GridVertex self = grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, cloths[cloth].rows,
+                                        chunk.first + gl_LocalInvocationID.x);
+    StatisticsRecord record = no_statistics();
+    if (self.exists)
+    {
+        const vec4 x = positions[self.index];
+        const vec4 v = velocities[self.index];
+        if (!finite(x.xyz) || !finite(v.xyz))
+            record.nan_vertices = 1;
+        else
+        {
+            measure_springs(cloth, self, x.xyz, record);
+            measure_penetration(x.xyz, cloths[cloth].thickness, record);
+            record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
+            record.contacts = v.w > 0 ? 1 : 0;
+        }
+    }
+    const StatisticsRecord merged = merge_workgroup(record);
+    if (gl_LocalInvocationID.x == 0)
+        partials[gl_WorkGroupID.x] = merged;
+}

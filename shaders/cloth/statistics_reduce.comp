@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Merges the chunks' statistics into one record. One workgroup: a thread takes every group-size-th chunk, then they fold.
+// Reads: partials. Writes: result[slot].
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 1, scalar) writeonly buffer Result { StatisticsRecord result[]; };
+
+layout(push_constant, scalar) uniform Push { StatisticsReducePush push; };
+
+#include "statistics_merge.glsl"
+
+void main()
+{
+    StatisticsRecord record = no_statistics();
+    for (uint c = gl_LocalInvocationID.x; c < push.chunks; c += gl_WorkGroupSize.x)
+        record = merge(record, partials[c]);
+    const StatisticsRecord merged = merge_workgroup(record);
+    if (gl_LocalInvocationID.x == 0)
+        result[push.slot] = merged;
+}
