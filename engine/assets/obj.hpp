@@ -14,19 +14,21 @@ namespace engine
 struct MeshReport
 {
     uint32_t polygons_triangulated = 0; // faces with more than three corners
-    uint32_t degenerate_triangles = 0;  // dropped: repeated index or no area
-    uint32_t duplicate_triangles = 0;   // dropped: the same three positions as an earlier one
+    uint32_t degenerate_triangles = 0;  // dropped: no height above 2^-22 of the mesh's largest coordinate
+    uint32_t duplicate_triangles = 0;   // dropped: the same three points as an earlier one, whichever way round
     bool normals_computed = false;      // the file had none (or not for every corner)
 };
 
 // Loads every shape of an OBJ file as one mesh (through tinyobjloader; materials and lines are ignored). Polygons are
-// triangulated. Corners that share a position but not a texture coordinate or normal become separate vertices.
+// triangulated. Corners that share a position but not a texture coordinate or normal become separate vertices; the
+// vertices are in the order of the file's positions, without those that no triangle uses.
 // Missing normals are computed, weighted by angle (Thürmer and Wüthrich 1998) across all triangles that share the
 // position. Errors, each naming the file and the line where there is one: missing, unreadable, empty or malformed file;
 // an index out of range; a coordinate that is not finite; no triangles left.
 gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report = nullptr);
 
-// Writes positions and triangles (vertex order kept), through a temporary file that is renamed when it is complete.
+// Writes positions and triangles (vertex order kept, every float exactly), through a temporary file that is renamed
+// when it is complete. Errors name the file: a position that is not finite, an index out of range, the system's reason.
 gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 } // namespace engine

@@ -127,7 +127,7 @@ struct ClothEntry
     std::vector<PinEntry> pins;
     glm::vec3 velocity{0.f}; // m/s at the start
     Integrator integrator = Integrator::Rk4;
-    bool self_collision = false;
+    bool self_collision = true;
     uint32_t line = 0;
 };
 

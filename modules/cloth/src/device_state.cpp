@@ -1,0 +1,119 @@
+// DeviceState: allocation and descriptor sets.
+#include "device_state.hpp"
+
+namespace cloth
+{
+
+namespace
+{
+
+struct BufferRequest
+{
+    gpu::Buffer* buffer;
+    const char* name;
+    VkDeviceSize bytes;
+    gpu::Memory memory = gpu::Memory::device;
+};
+
+gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const Model& model,
+                                 uint32_t chunk_count, uint32_t statistics_slots)
+{
+    constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
+    const BufferRequest requests[] = {
+        {&state.cloths, "cloth records", model.cloths.size() * sizeof(shared::ClothRecord)},
+        {&state.chunks, "cloth chunks", chunk_count * sizeof(shared::Chunk)},
+        {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
+        {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
+        {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
+        {&state.state.positions, "cloth positions", per_vertex},
+        {&state.state.velocities, "cloth velocities", per_vertex},
+        {&state.stage_a.positions, "cloth stage a positions", per_vertex},
+        {&state.stage_a.velocities, "cloth stage a velocities", per_vertex},
+        {&state.stage_b.positions, "cloth stage b positions", per_vertex},
+        {&state.stage_b.velocities, "cloth stage b velocities", per_vertex},
+        {&state.sums.positions, "cloth velocity sums", per_vertex},
+        {&state.sums.velocities, "cloth acceleration sums", per_vertex},
+        {&state.normals, "cloth normals", per_vertex},
+        {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
+        {&state.result, "cloth statistics", statistics_slots * sizeof(shared::StatisticsRecord), gpu::Memory::readback},
+    };
+    for (const BufferRequest& request : requests)
+    {
+        auto buffer = gpu::create_buffer(context, request.name, request.bytes, k_usage, request.memory);
+        if (!buffer)
+            return buffer.error();
+        *request.buffer = std::move(buffer.value());
+    }
+    return {};
+}
+
+// Binds `buffers` to `kernel` and stores the set; keeps the first error.
+struct Binder
+{
+    gpu::BindingPool& pool;
+    gpu::Result<void> status = {};
+
+    void bind(VkDescriptorSet& set, const gpu::Kernel& kernel, std::initializer_list<VkBuffer> buffers)
+    {
+        auto result = pool.bind(kernel, buffers);
+        if (result)
+            set = result.value();
+        else if (status)
+            status = result.error();
+    }
+};
+
+gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
+{
+    Binder binder{s.pool};
+    const auto bind_stage =
+        [&](VkDescriptorSet& set, size_t stage, const StateBuffers& input, const StateBuffers& output)
+    {
+        binder.bind(set, kernels.stages[stage],
+                    {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                     input.positions.handle(), input.velocities.handle(), output.positions.handle(),
+                     output.velocities.handle(), s.sums.positions.handle(), s.sums.velocities.handle()});
+    };
+    bind_stage(s.stages[0], 0, s.state, s.stage_a);
+    bind_stage(s.stages[1], 1, s.stage_a, s.stage_b);
+    bind_stage(s.stages[2], 2, s.stage_b, s.stage_a);
+    bind_stage(s.stages[3], 3, s.stage_a, s.stage_b);
+    bind_stage(s.last_stage_alone, 3, s.stage_a, s.state);
+    binder.bind(s.contact, kernels.contact,
+                {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
+                 s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
+                 s.triangles.handle()});
+    binder.bind(s.normals_set, kernels.normals,
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle()});
+    binder.bind(s.statistics, kernels.statistics,
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle()});
+    binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
+    return binder.status;
+}
+
+} // namespace
+
+gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
+                                             uint32_t chunk_count, uint32_t statistics_slots)
+{
+    DeviceState state;
+    state.vertices = static_cast<uint32_t>(model.positions.size());
+    state.chunk_count = chunk_count;
+    state.collider_count = static_cast<uint32_t>(model.colliders.size());
+    if (auto buffers = create_buffers(context, state, model, chunk_count, statistics_slots); !buffers)
+        return buffers.error();
+    constexpr uint32_t k_sets = 9;
+    constexpr uint32_t k_most_bindings = 10;
+    auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
+    if (!pool)
+        return pool.error();
+    state.pool = std::move(pool.value());
+    if (auto sets = bind_sets(state, kernels); !sets)
+        return sets.error();
+    return state;
+}
+
+} // namespace cloth

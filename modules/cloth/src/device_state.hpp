@@ -1,0 +1,52 @@
+// DeviceState: the buffers of a solver at its present size, and the descriptor sets that bind them.
+#pragma once
+
+#include "kernels.hpp"
+#include "model.hpp"
+
+#include "gpu/buffer.hpp"
+
+#include <array>
+
+namespace cloth
+{
+
+struct StateBuffers
+{
+    gpu::Buffer positions;
+    gpu::Buffer velocities;
+};
+
+// Everything is allocated, and every set written, when it is made.
+struct DeviceState
+{
+    gpu::Buffer cloths;
+    gpu::Buffer chunks;
+    gpu::Buffer colliders;
+    gpu::Buffer nodes;
+    gpu::Buffer triangles;
+    StateBuffers state;   // what the cloth is between steps
+    StateBuffers stage_a; // written by stages 1 and 3
+    StateBuffers stage_b; // written by stages 2 and 4
+    StateBuffers sums;    // running sums of the stages
+    gpu::Buffer normals;
+    gpu::Buffer partials; // statistics, one record a chunk
+    gpu::Buffer result;   // statistics, one record a slot; the host reads it
+
+    gpu::BindingPool pool;
+    std::array<VkDescriptorSet, 4> stages{};
+    VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
+    VkDescriptorSet contact{};
+    VkDescriptorSet normals_set{};
+    VkDescriptorSet statistics{};
+    VkDescriptorSet statistics_reduce{};
+
+    uint32_t vertices = 0;
+    uint32_t chunk_count = 0;
+    uint32_t collider_count = 0;
+};
+
+gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
+                                             uint32_t chunk_count, uint32_t statistics_slots);
+
+} // namespace cloth

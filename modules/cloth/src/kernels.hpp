@@ -1,0 +1,24 @@
+// Kernels: the compute pipelines of a solver.
+#pragma once
+
+#include "gpu/kernel.hpp"
+
+#include <array>
+
+namespace cloth
+{
+
+struct SolverOptions;
+
+struct Kernels
+{
+    std::array<gpu::Kernel, 4> stages; // the four stages of RK4
+    gpu::Kernel contact;
+    gpu::Kernel normals;
+    gpu::Kernel statistics;
+    gpu::Kernel statistics_reduce;
+};
+
+gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options);
+
+} // namespace cloth

@@ -1,0 +1,182 @@
+// Solver: creation, additions, upload and queries. Recording is in record.cpp.
+#include "solver_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace cloth
+{
+
+Requirements requirements()
+{
+    Requirements result;
+    result.device_extensions = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
+    return result;
+}
+
+Upload::Upload() = default;
+Upload::~Upload() = default;
+Upload::Upload(Upload&&) noexcept = default;
+Upload& Upload::operator=(Upload&&) noexcept = default;
+
+Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& options)
+{
+    auto context = gpu::create_context(handles);
+    if (!context)
+        return context.error();
+    if (!std::has_single_bit(options.workgroup_size))
+        return Error{"SolverOptions: workgroup_size is " + std::to_string(options.workgroup_size) +
+                     ", must be a power of two"};
+    if (options.statistics_slots < 1 || options.statistics_slots > 16)
+        return Error{"SolverOptions: statistics_slots is " + std::to_string(options.statistics_slots) +
+                     ", must be 1 to 16"};
+    auto kernels = create_kernels(context.value(), options);
+    if (!kernels)
+        return kernels.error();
+    auto state = std::make_unique<State>();
+    state->context = context.value();
+    state->options = options;
+    state->kernels = std::move(kernels.value());
+    return Solver(std::move(state));
+}
+
+Result<ClothId> Solver::add_cloth(const Grid& grid)
+{
+    const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * sizeof(glm::vec4);
+    if (bytes > state_->context.max_buffer_bytes)
+        return invalid("cloth", grid.name,
+                       std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices need buffers of " +
+                           std::to_string(bytes >> 20) + " MiB, the device binds at most " +
+                           std::to_string(state_->context.max_buffer_bytes >> 20) + " MiB");
+    auto result = state_->model.add(grid);
+    state_->dirty |= result.ok();
+    return result;
+}
+
+Result<ColliderId> Solver::add_collider(const MeshCollider& collider)
+{
+    auto result = state_->model.add(collider);
+    state_->dirty |= result.ok();
+    return result;
+}
+
+Result<ColliderId> Solver::add_collider(const PlaneCollider& collider)
+{
+    auto result = state_->model.add(collider);
+    state_->dirty |= result.ok();
+    return result;
+}
+
+Result<ColliderId> Solver::add_collider(const SphereCollider& collider)
+{
+    auto result = state_->model.add(collider);
+    state_->dirty |= result.ok();
+    return result;
+}
+
+bool Solver::needs_upload() const
+{
+    return state_->dirty;
+}
+
+Statistics Solver::statistics(uint32_t slot) const
+{
+    Statistics result;
+    if (!state_->device || slot >= state_->options.statistics_slots)
+        return result;
+    const gpu::Buffer& buffer = state_->device->result;
+    buffer.invalidate();
+    shared::StatisticsRecord record{};
+    std::memcpy(&record, buffer.mapped().data() + slot * sizeof(record), sizeof(record));
+    result.max_stretch = record.max_stretch;
+    result.mean_stretch = record.springs > 0 ? record.stretch_sum / static_cast<float>(record.springs) : 0;
+    result.kinetic_energy = record.kinetic_energy;
+    result.deepest_penetration = record.deepest_penetration;
+    result.penetrating_vertices = record.penetrating_vertices;
+    result.nan_vertices = record.nan_vertices;
+    result.contacts = record.contacts;
+    return result;
+}
+
+uint32_t Solver::stable_substeps(float duration) const
+{
+    // The stability region of RK4 reaches 2.83 along the imaginary axis, 2.78 along the negative real one, and nowhere
+    // in the left half plane comes nearer to the origin than 2.6.
+    constexpr double k_reach = 2.6;
+    constexpr double k_margin = 0.9;
+    double fastest = 0;
+    for (const StabilityBound& bound : state_->model.bounds)
+        fastest = std::max({fastest, bound.omega, bound.decay});
+    const double substeps = std::ceil(static_cast<double>(duration) * fastest / (k_reach * k_margin));
+    return static_cast<uint32_t>(std::clamp(substeps, 1.0, 1e6));
+}
+
+VertexStreams Solver::vertices(ClothId cloth) const
+{
+    VertexStreams streams;
+    if (!state_->device)
+        return streams;
+    const DeviceState& device = *state_->device;
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    streams.positions = device.state.positions.handle();
+    streams.velocities = device.state.velocities.handle();
+    streams.normals = device.normals.handle();
+    streams.offset = record.first_vertex * sizeof(glm::vec4);
+    streams.vertices = record.columns * record.rows;
+    return streams;
+}
+
+std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
+{
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    std::vector<glm::uvec3> result;
+    result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
+    for (uint32_t row = 0; row + 1 < record.rows; ++row)
+        for (uint32_t column = 0; column + 1 < record.columns; ++column)
+        {
+            const uint32_t corner = row * record.columns + column;
+            const uint32_t below = corner + record.columns;
+            result.emplace_back(corner, below, corner + 1);
+            result.emplace_back(corner + 1, below, below + 1);
+        }
+    return result;
+}
+
+std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
+{
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    std::vector<glm::vec2> result;
+    result.reserve(size_t{record.columns} * record.rows);
+    for (uint32_t row = 0; row < record.rows; ++row)
+        for (uint32_t column = 0; column < record.columns; ++column)
+            result.emplace_back(static_cast<float>(column) * record.springs[0].rest_length,
+                                static_cast<float>(row) * record.springs[1].rest_length);
+    return result;
+}
+
+const std::string& Solver::name(ClothId cloth) const
+{
+    return state_->model.cloth_names[cloth.index];
+}
+
+uint32_t Solver::vertex_count() const
+{
+    return static_cast<uint32_t>(state_->model.positions.size());
+}
+
+uint32_t Solver::triangle_count() const
+{
+    uint32_t count = 0;
+    for (const shared::ClothRecord& record : state_->model.cloths)
+        count += 2 * (record.columns - 1) * (record.rows - 1);
+    return count;
+}
+
+} // namespace cloth

@@ -1,0 +1,128 @@
+// Upload: new buffers for everything that was added, and the copies that fill them.
+#include "solver_state.hpp"
+
+#include <algorithm>
+
+namespace cloth
+{
+
+namespace
+{
+
+class Uploader
+{
+public:
+    Uploader(const gpu::Context& context, VkCommandBuffer cmd) : context_(context), cmd_(cmd) {}
+
+    // Stages `bytes` for `destination` at `offset`; nothing for no bytes.
+    gpu::Result<void> stage(const gpu::Buffer& destination, VkDeviceSize offset, std::span<const std::byte> bytes)
+    {
+        if (bytes.empty())
+            return {};
+        auto staging = gpu::create_buffer(context_, "cloth staging", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                          gpu::Memory::upload);
+        if (!staging)
+            return staging.error();
+        std::copy(bytes.begin(), bytes.end(), staging.value().mapped().begin());
+        staging.value().flush();
+        copies_.push_back({staging.value().handle(), destination.handle(), {0, offset, bytes.size()}});
+        staging_.push_back(std::move(staging.value()));
+        return {};
+    }
+
+    void copy(const gpu::Buffer& source, const gpu::Buffer& destination, VkDeviceSize bytes)
+    {
+        if (bytes > 0)
+            copies_.push_back({source.handle(), destination.handle(), {0, 0, bytes}});
+    }
+
+    // Copies touch different buffers, or different ranges, so that one barrier before and one after suffice.
+    std::vector<gpu::Buffer> record()
+    {
+        constexpr VkAccessFlags2KHR k_copy = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
+        gpu::Recorder recorder(context_, cmd_);
+        recorder.barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                         VK_PIPELINE_STAGE_2_COPY_BIT_KHR, k_copy);
+        const gpu::LabelScope scope(context_, cmd_, "cloth upload");
+        for (const Copy& copy : copies_)
+            context_.fn.vkCmdCopyBuffer(cmd_, copy.source, copy.destination, 1, &copy.region);
+        recorder.barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, k_copy,
+                         VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
+                         VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR |
+                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+        return std::move(staging_);
+    }
+
+private:
+    struct Copy
+    {
+        VkBuffer source;
+        VkBuffer destination;
+        VkBufferCopy region;
+    };
+
+    const gpu::Context& context_;
+    VkCommandBuffer cmd_;
+    std::vector<gpu::Buffer> staging_;
+    std::vector<Copy> copies_;
+};
+
+template <typename T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 0)
+{
+    return std::as_bytes(std::span(values).subspan(from));
+}
+
+} // namespace
+
+Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
+{
+    State& s = *state_;
+    const std::vector<shared::Chunk> chunks = make_chunks(s.model, s.options.workgroup_size);
+    auto created = create_device_state(s.context, s.kernels, s.model, static_cast<uint32_t>(chunks.size()),
+                                       s.options.statistics_slots);
+    if (!created)
+        return created.error();
+    DeviceState& next = created.value();
+
+    // Cloths that were there before go on from where they are; the others start from the model.
+    const size_t kept = s.device ? s.device->vertices : 0;
+    const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
+    Uploader uploader(s.context, cmd);
+    const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
+    struct Staged
+    {
+        const gpu::Buffer& destination;
+        VkDeviceSize offset;
+        std::span<const std::byte> bytes;
+    };
+    const Staged staged[] = {
+        {next.cloths, 0, bytes_of(s.model.cloths)},
+        {next.chunks, 0, bytes_of(chunks)},
+        {next.colliders, 0, bytes_of(s.model.colliders)},
+        {next.nodes, 0, bytes_of(s.model.nodes)},
+        {next.triangles, 0, bytes_of(s.model.triangles)},
+        {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
+        {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
+        {next.normals, kept_bytes, bytes_of(up)},
+    };
+    for (const Staged& item : staged)
+        if (auto result = uploader.stage(item.destination, item.offset, item.bytes); !result)
+            return result.error();
+    if (s.device)
+    {
+        uploader.copy(s.device->state.positions, next.state.positions, kept_bytes);
+        uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
+        uploader.copy(s.device->normals, next.normals, kept_bytes);
+    }
+
+    Upload upload;
+    upload.contents_ = std::make_unique<Upload::Contents>();
+    upload.contents_->staging = uploader.record();
+    upload.contents_->replaced = std::move(s.device);
+    s.device = std::move(next);
+    s.dirty = false;
+    return upload;
+}
+
+} // namespace cloth

@@ -1,0 +1,256 @@
+// Cloths, materials and pins of a scene file.
+#include "samples/viewer/scene_parse.hpp"
+
+#include <charconv>
+#include <optional>
+
+namespace viewer
+{
+namespace
+{
+
+GridEntry parse_grid(SceneReader& reader, const Field& field)
+{
+    GridEntry grid;
+    if (!reader.object(field, {"vertices", "size"}))
+        return grid;
+    const Field vertices = reader.required(field, "vertices");
+    if (reader.array(vertices, 2))
+    {
+        reader.read_integer(SceneReader::item(vertices, 0), k_least_grid_vertices, k_most_grid_vertices, grid.columns);
+        reader.read_integer(SceneReader::item(vertices, 1), k_least_grid_vertices, k_most_grid_vertices, grid.rows);
+    }
+    reader.read(reader.required(field, "size"), k_positive, grid.size);
+    return grid;
+}
+
+// The N of "corner:N".
+std::optional<uint32_t> parse_index(const std::string& text)
+{
+    uint32_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, value);
+    return problem == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+void parse_corner(SceneReader& reader, const Field& field, const std::string& rest, PinEntry& pin)
+{
+    const std::optional<uint32_t> corner = parse_index(rest);
+    if (!corner || *corner > 3)
+        return reader.fail(field, "is \"corner:" + rest + "\"; a corner is 0, 1, 2 or 3");
+    pin.at = CornerPin{*corner};
+}
+
+void parse_edge(SceneReader& reader, const Field& field, const std::string& rest, PinEntry& pin)
+{
+    constexpr const char* k_names[] = {"top", "bottom", "left", "right"}; // in the order of Edge
+    for (int i = 0; i < 4; ++i)
+    {
+        if (rest == k_names[i])
+        {
+            pin.at = EdgePin{static_cast<Edge>(i)};
+            return;
+        }
+    }
+    reader.fail(field, "is \"edge:" + rest + "\"; an edge is top, bottom, left or right");
+}
+
+void parse_vertex(SceneReader& reader, const Field& field, const std::string& rest, const GridEntry* grid,
+                  PinEntry& pin)
+{
+    const std::optional<uint32_t> vertex = parse_index(rest);
+    if (!vertex)
+        return reader.fail(field, "is \"vertex:" + rest + "\"; a vertex is a whole number from 0");
+    if (grid != nullptr && *vertex >= grid->columns * grid->rows)
+        return reader.fail(field, "is \"vertex:" + rest + "\", but the grid has " +
+                                      std::to_string(grid->columns * grid->rows) + " vertices");
+    pin.at = VertexPin{*vertex};
+}
+
+void parse_pin_text(SceneReader& reader, const Field& field, const GridEntry* grid, PinEntry& pin)
+{
+    std::string text;
+    reader.read(field, text);
+    if (reader.failed())
+        return;
+    const size_t colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    const std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
+    if ((kind == "corner" || kind == "edge") && grid == nullptr)
+        reader.fail(field, "is \"" + text + "\", but only a grid has corners and edges");
+    else if (kind == "corner")
+        parse_corner(reader, field, rest, pin);
+    else if (kind == "edge")
+        parse_edge(reader, field, rest, pin);
+    else if (kind == "vertex")
+        parse_vertex(reader, field, rest, grid, pin);
+    else
+        reader.fail(field, "is \"" + text + "\"; a pin is corner:N, edge:NAME, vertex:N or a box");
+}
+
+void parse_pin_box(SceneReader& reader, const Field& field, PinEntry& pin)
+{
+    BoxPin box;
+    if (!reader.object(field, {"min", "max"}))
+        return;
+    reader.read(reader.required(field, "min"), k_any, box.min);
+    reader.read(reader.required(field, "max"), k_any, box.max);
+    if (!reader.failed() && glm::any(glm::greaterThan(box.min, box.max)))
+        reader.fail(field, "has a min above its max");
+    pin.at = box;
+}
+
+void parse_pin_place(SceneReader& reader, const Field& field, const GridEntry* grid, PinEntry& pin)
+{
+    if (!field || reader.failed())
+        return;
+    if (field.node->kind == JsonNode::Kind::String)
+        return parse_pin_text(reader, field, grid, pin);
+    if (field.node->kind != JsonNode::Kind::Object)
+        return reader.fail(field, std::string("is ") + describe(field.node->kind) +
+                                      "; expected corner:N, edge:NAME, vertex:N or a box");
+    if (reader.object(field, {"box"}))
+        parse_pin_box(reader, reader.required(field, "box"), pin);
+}
+
+void check_name(SceneReader& reader, const Field& field, const std::string& name)
+{
+    // It becomes a part of file names.
+    for (const char c : name)
+    {
+        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20)
+            return reader.fail(field, "is \"" + name + "\"; a name holds no slash and no control character");
+    }
+}
+
+void parse_raw_constants(SceneReader& reader, const Field& field, MaterialEntry& material)
+{
+    reader.read(SceneReader::child(field, "vertex_mass"), k_positive, material.vertex_mass);
+    reader.read(SceneReader::child(field, "spring_stiffness"), k_positive, material.spring_stiffness);
+    reader.read(SceneReader::child(field, "spring_damping"), k_not_negative, material.spring_damping);
+    reader.read(SceneReader::child(field, "linear_drag"), k_not_negative, material.linear_drag);
+}
+
+void parse_stretch_stiffness(SceneReader& reader, const Field& field, MaterialEntry& material)
+{
+    if (!field)
+        return;
+    glm::vec2 warp_weft{0.f};
+    if (field.node->kind == JsonNode::Kind::Array)
+    {
+        reader.read(field, k_positive, warp_weft);
+    }
+    else
+    {
+        reader.read(field, k_positive, warp_weft.x);
+        warp_weft.y = warp_weft.x;
+    }
+    material.stretch_stiffness = warp_weft;
+}
+
+void parse_preset(SceneReader& reader, const Field& field, MaterialEntry& material)
+{
+    if (reader.read_word(field, "a material", {"silk", "cotton", "wool", "denim", "leather", "reference"}))
+        material.preset = field.node->text;
+}
+
+} // namespace
+
+MaterialEntry parse_material(SceneReader& reader, const Field& field)
+{
+    MaterialEntry material;
+    material.line = field.line();
+    if (!field || reader.failed())
+        return material;
+    if (field.node->kind == JsonNode::Kind::String)
+    {
+        parse_preset(reader, field, material);
+        return material;
+    }
+    if (!reader.object(field, {"preset", "areal_density", "stretch_stiffness", "shear_stiffness", "bending_stiffness",
+                               "damping_ratio", "thickness", "static_friction", "kinetic_friction", "air_drag_normal",
+                               "air_drag_tangential", "strain_limit", "bending_model", "vertex_mass",
+                               "spring_stiffness", "spring_damping", "linear_drag"}))
+        return material;
+    parse_preset(reader, SceneReader::child(field, "preset"), material);
+    reader.read(SceneReader::child(field, "areal_density"), k_positive, material.areal_density);
+    parse_stretch_stiffness(reader, SceneReader::child(field, "stretch_stiffness"), material);
+    reader.read(SceneReader::child(field, "shear_stiffness"), k_not_negative, material.shear_stiffness);
+    reader.read(SceneReader::child(field, "bending_stiffness"), k_not_negative, material.bending_stiffness);
+    reader.read(SceneReader::child(field, "damping_ratio"), k_not_negative, material.damping_ratio);
+    reader.read(SceneReader::child(field, "thickness"), k_positive, material.thickness);
+    reader.read(SceneReader::child(field, "static_friction"), k_not_negative, material.static_friction);
+    reader.read(SceneReader::child(field, "kinetic_friction"), k_not_negative, material.kinetic_friction);
+    reader.read(SceneReader::child(field, "air_drag_normal"), k_not_negative, material.air_drag_normal);
+    reader.read(SceneReader::child(field, "air_drag_tangential"), k_not_negative, material.air_drag_tangential);
+    reader.read(SceneReader::child(field, "strain_limit"), k_not_negative, material.strain_limit);
+    const Field model = SceneReader::child(field, "bending_model");
+    if (const auto word = reader.read_word(model, "a bending model", {"springs", "isometric"}))
+        material.bending_model = static_cast<BendingModel>(*word);
+    parse_raw_constants(reader, field, material);
+    if (!reader.failed() && material.static_friction && material.kinetic_friction &&
+        *material.kinetic_friction > *material.static_friction)
+        reader.fail(SceneReader::child(field, "kinetic_friction"),
+                    "is above static_friction, " + number_text(static_cast<double>(*material.static_friction)));
+    return material;
+}
+
+PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid)
+{
+    PinEntry pin;
+    pin.line = field.line();
+    const bool is_object = field && field.node->kind == JsonNode::Kind::Object;
+    if (is_object && (field.node->find("at") != nullptr || field.node->find("motion") != nullptr))
+    {
+        if (!reader.object(field, {"at", "motion"}))
+            return pin;
+        parse_pin_place(reader, reader.required(field, "at"), grid, pin);
+        if (const Field motion = SceneReader::child(field, "motion"))
+            pin.motion = parse_motion(reader, motion);
+        return pin;
+    }
+    if (is_object && !reader.object(field, {"box", "at", "motion"}))
+        return pin;
+    parse_pin_place(reader, field, grid, pin);
+    return pin;
+}
+
+ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
+{
+    SceneReader& reader = context.reader;
+    ClothEntry cloth;
+    cloth.line = field.line();
+    if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "velocity", "integrator",
+                               "self_collision"}))
+        return cloth;
+    cloth.name = "cloth_" + std::to_string(index);
+    const Field name = SceneReader::child(field, "name");
+    reader.read(name, cloth.name);
+    check_name(reader, name, cloth.name);
+
+    const Field grid = SceneReader::child(field, "grid");
+    const Field mesh = SceneReader::child(field, "mesh");
+    if (static_cast<bool>(grid) == static_cast<bool>(mesh))
+        reader.fail(field, grid ? "has both \"grid\" and \"mesh\"" : "has neither \"grid\" nor \"mesh\"");
+    else if (grid)
+        cloth.form = parse_grid(reader, grid);
+    else
+        cloth.form = parse_mesh_path(context, mesh);
+
+    cloth.transform = parse_transform(reader, SceneReader::child(field, "transform"));
+    cloth.material = parse_material(reader, SceneReader::child(field, "material"));
+    const Field pins = SceneReader::child(field, "pins");
+    if (reader.array(pins))
+    {
+        for (size_t i = 0; i < pins.node->items.size(); ++i)
+            cloth.pins.push_back(parse_pin(reader, SceneReader::item(pins, i), std::get_if<GridEntry>(&cloth.form)));
+    }
+    reader.read(SceneReader::child(field, "velocity"), k_any, cloth.velocity);
+    if (const auto word =
+            reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
+        cloth.integrator = static_cast<Integrator>(*word);
+    reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);
+    return cloth;
+}
+
+} // namespace viewer

@@ -1,0 +1,211 @@
+// Colliders, transforms and motions of a scene file.
+#include "samples/viewer/scene_parse.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace viewer
+{
+namespace
+{
+
+PlaneShape parse_plane(SceneReader& reader, const Field& field)
+{
+    PlaneShape plane;
+    if (reader.object(field, {"y"}))
+        reader.read(reader.required(field, "y"), k_any, plane.y);
+    return plane;
+}
+
+SphereShape parse_sphere(SceneReader& reader, const Field& field)
+{
+    SphereShape sphere;
+    if (!reader.object(field, {"center", "radius"}))
+        return sphere;
+    reader.read(reader.required(field, "center"), k_any, sphere.center);
+    reader.read(reader.required(field, "radius"), k_positive, sphere.radius);
+    return sphere;
+}
+
+CapsuleShape parse_capsule(SceneReader& reader, const Field& field)
+{
+    CapsuleShape capsule;
+    if (!reader.object(field, {"from", "to", "radius"}))
+        return capsule;
+    reader.read(reader.required(field, "from"), k_any, capsule.from);
+    reader.read(reader.required(field, "to"), k_any, capsule.to);
+    reader.read(reader.required(field, "radius"), k_positive, capsule.radius);
+    return capsule;
+}
+
+BoxShape parse_box(SceneReader& reader, const Field& field)
+{
+    BoxShape box;
+    if (!reader.object(field, {"min", "max"}))
+        return box;
+    reader.read(reader.required(field, "min"), k_any, box.min);
+    reader.read(reader.required(field, "max"), k_any, box.max);
+    if (!reader.failed() && !glm::all(glm::lessThan(box.min, box.max)))
+        reader.fail(field, "is empty: each number of min must be below that of max");
+    return box;
+}
+
+// Two coefficients, or one number for both. Where one of the two is missing, it equals the other.
+FrictionEntry parse_friction(SceneReader& reader, const Field& field)
+{
+    FrictionEntry friction;
+    if (field.node->kind == JsonNode::Kind::Number)
+    {
+        reader.read(field, k_not_negative, friction.static_friction);
+        friction.kinetic_friction = friction.static_friction;
+        return friction;
+    }
+    if (!reader.object(field, {"static", "kinetic"}))
+        return friction;
+    std::optional<float> at_rest;
+    std::optional<float> sliding;
+    reader.read(SceneReader::child(field, "static"), k_not_negative, at_rest);
+    reader.read(SceneReader::child(field, "kinetic"), k_not_negative, sliding);
+    if (!at_rest && !sliding)
+        reader.fail(field, "has neither \"static\" nor \"kinetic\"");
+    friction.static_friction = at_rest.value_or(sliding.value_or(0.f));
+    friction.kinetic_friction = sliding.value_or(friction.static_friction);
+    if (friction.kinetic_friction > friction.static_friction)
+        reader.fail(field, "has a kinetic coefficient above the static one");
+    return friction;
+}
+
+// One %d or %04d in the file's name, and no other %.
+bool is_frame_pattern(const std::string& name)
+{
+    const size_t percent = name.find('%');
+    if (percent == std::string::npos || name.find('%', percent + 1) != std::string::npos)
+        return false;
+    size_t end = percent + 1;
+    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0)
+        ++end;
+    // More than two digits of width serve nobody, and would ask for gigabytes of zeros.
+    const bool width_ok = end == percent + 1 || (name[percent + 1] == '0' && end - percent <= 3);
+    return width_ok && end < name.size() && name[end] == 'd';
+}
+
+// `holder` has "frames" and perhaps "rate": the collider itself, or its motion.
+void parse_frames(ParseContext& context, const Field& holder, ColliderEntry& collider)
+{
+    SceneReader& reader = context.reader;
+    const Field frames = SceneReader::child(holder, "frames");
+    const Field rate = SceneReader::child(holder, "rate");
+    if (!frames)
+    {
+        if (rate)
+            reader.fail(rate, "needs \"frames\" beside it");
+        return;
+    }
+    if (collider.frames)
+        return reader.fail(frames, "is given twice: in the collider and in its motion");
+    FrameSequence sequence;
+    sequence.pattern = parse_mesh_path(context, frames);
+    if (!reader.failed() && !is_frame_pattern(sequence.pattern.filename().string()))
+        reader.fail(frames, "is \"" + frames.node->text + "\"; a file name with one %d or %04d is expected");
+    reader.read(rate, Range{0, 1000, true}, sequence.rate);
+    collider.frames = sequence;
+}
+
+void parse_shape(ParseContext& context, const Field& field, ColliderEntry& collider)
+{
+    SceneReader& reader = context.reader;
+    Field shape;
+    for (const char* key : {"mesh", "plane", "sphere", "capsule", "box"})
+    {
+        const Field candidate = SceneReader::child(field, key);
+        if (candidate && shape)
+            return reader.fail(field, "has both \"" + shape.path.substr(field.path.size() + 1) + "\" and \"" + key +
+                                          "\"; it needs one of them");
+        if (candidate)
+            shape = candidate;
+    }
+    const std::string key = shape ? shape.path.substr(field.path.size() + 1) : "";
+    if (key == "mesh")
+        collider.shape = MeshShape{parse_mesh_path(context, shape)};
+    else if (key == "plane")
+        collider.shape = parse_plane(reader, shape);
+    else if (key == "sphere")
+        collider.shape = parse_sphere(reader, shape);
+    else if (key == "capsule")
+        collider.shape = parse_capsule(reader, shape);
+    else if (key == "box")
+        collider.shape = parse_box(reader, shape);
+    else if (!collider.frames)
+        reader.fail(field, "has no shape: mesh, plane, sphere, capsule, box or frames");
+    if (collider.frames && shape && key != "mesh")
+        reader.fail(field, "has \"frames\", which deform a mesh, and a " + key);
+}
+
+MotionEntry read_motion(SceneReader& reader, const Field& field)
+{
+    MotionEntry motion;
+    reader.read(SceneReader::child(field, "velocity"), k_any, motion.velocity);
+    reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
+    reader.read(SceneReader::child(field, "pivot"), k_any, motion.pivot);
+    return motion;
+}
+
+} // namespace
+
+TransformEntry parse_transform(SceneReader& reader, const Field& field)
+{
+    TransformEntry transform;
+    if (!reader.object(field, {"translate", "rotate", "scale"}))
+        return transform;
+    reader.read(SceneReader::child(field, "translate"), k_any, transform.translate);
+    reader.read(SceneReader::child(field, "rotate"), k_any, transform.rotate);
+    reader.read(SceneReader::child(field, "scale"), k_positive, transform.scale);
+    return transform;
+}
+
+MotionEntry parse_motion(SceneReader& reader, const Field& field)
+{
+    if (!reader.object(field, {"velocity", "spin", "pivot"}))
+        return {};
+    return read_motion(reader, field);
+}
+
+std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field)
+{
+    std::string text;
+    context.reader.read(field, text);
+    if (context.reader.failed() || !field)
+        return {};
+    std::string extension = std::filesystem::path(text).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".obj" && extension != ".ply")
+        context.reader.fail(field, "is \"" + text + "\"; expected a file that ends in .obj or .ply");
+    return (context.folder / text).lexically_normal();
+}
+
+ColliderEntry parse_collider(ParseContext& context, const Field& field)
+{
+    SceneReader& reader = context.reader;
+    ColliderEntry collider;
+    collider.line = field.line();
+    if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion",
+                               "frames", "rate"}))
+        return collider;
+    parse_frames(context, field, collider);
+    const Field motion = SceneReader::child(field, "motion");
+    if (reader.object(motion, {"velocity", "spin", "pivot", "frames", "rate"}))
+    {
+        parse_frames(context, motion, collider);
+        collider.motion = read_motion(reader, motion);
+    }
+    parse_shape(context, field, collider);
+    const Field transform = SceneReader::child(field, "transform");
+    collider.placed = static_cast<bool>(transform);
+    collider.transform = parse_transform(reader, transform);
+    if (const Field friction = SceneReader::child(field, "friction"); friction && !reader.failed())
+        collider.friction = parse_friction(reader, friction);
+    return collider;
+}
+
+} // namespace viewer

@@ -1,0 +1,235 @@
+// A scene as a whole: reading, the top-level keys, and the files that it names.
+#include "samples/viewer/scene_file.hpp"
+
+#include "samples/viewer/scene_parse.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+namespace viewer
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr size_t k_largest_file = size_t{16} << 20; // bytes; a scene is text that somebody wrote
+
+gpu::Result<std::string> read_text(const fs::path& path)
+{
+    const std::string name = one_line(path.string());
+    std::error_code problem;
+    const fs::file_status status = fs::status(path, problem);
+    if (status.type() == fs::file_type::not_found)
+        return gpu::Error{name + ": the file does not exist"};
+    if (status.type() == fs::file_type::directory)
+        return gpu::Error{name + ": this is a folder, not a scene file"};
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::string text(k_largest_file + 1, '\0');
+    if (file)
+        file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad() || (!file && !file.eof()))
+        return gpu::Error{name + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO)};
+    text.resize(static_cast<size_t>(file.gcount()));
+    if (text.size() > k_largest_file)
+        return gpu::Error{name + ": larger than 16 MiB, which is no scene file"};
+    return text;
+}
+
+void parse_step(SceneReader& reader, const Field& field, StepEntry& step)
+{
+    if (!reader.object(field, {"rate", "substeps"}))
+        return;
+    reader.read(SceneReader::child(field, "rate"), Range{1, 1000}, step.rate);
+    const Field substeps = SceneReader::child(field, "substeps");
+    if (!substeps || reader.failed())
+        return;
+    if (substeps.node->kind == JsonNode::Kind::String && substeps.node->text == "auto")
+        return;
+    if (substeps.node->kind != JsonNode::Kind::Number)
+        return reader.fail(substeps, "is neither \"auto\" nor a whole number within 1 to 1000");
+    uint32_t count = 0;
+    reader.read_integer(substeps, 1, k_most_substeps, count);
+    step.substeps = count;
+}
+
+void parse_camera(SceneReader& reader, const Field& field, std::optional<CameraEntry>& camera)
+{
+    if (!reader.object(field, {"position", "target", "fov"}))
+        return;
+    CameraEntry entry;
+    reader.read(reader.required(field, "position"), k_any, entry.position);
+    reader.read(reader.required(field, "target"), k_any, entry.target);
+    reader.read(SceneReader::child(field, "fov"), Range{1, 170}, entry.fov);
+    if (!reader.failed() && entry.position == entry.target)
+        reader.fail(field, "has its target where its position is");
+    camera = entry;
+}
+
+void parse_cloths(ParseContext& context, const Field& root, std::vector<ClothEntry>& cloths)
+{
+    SceneReader& reader = context.reader;
+    const Field field = reader.required(root, "cloths");
+    if (!reader.array(field))
+        return;
+    if (field.node->items.empty())
+        reader.fail(field, "is empty; a scene needs a cloth");
+    std::set<std::string> names;
+    for (size_t i = 0; i < field.node->items.size() && !reader.failed(); ++i)
+    {
+        cloths.push_back(parse_cloth(context, SceneReader::item(field, i), i));
+        if (!names.insert(cloths.back().name).second)
+            reader.fail(SceneReader::item(field, i), "has the name \"" + cloths.back().name + "\" of another cloth");
+    }
+}
+
+void parse_colliders(ParseContext& context, const Field& field, std::vector<ColliderEntry>& colliders)
+{
+    if (!context.reader.array(field))
+        return;
+    for (size_t i = 0; i < field.node->items.size() && !context.reader.failed(); ++i)
+        colliders.push_back(parse_collider(context, SceneReader::item(field, i)));
+}
+
+// XYZ as in the file: about x first, then y, then z.
+glm::mat4 rotation(const glm::vec3& degrees)
+{
+    glm::mat4 result = glm::rotate(glm::mat4(1.f), glm::radians(degrees.z), glm::vec3(0.f, 0.f, 1.f));
+    result = glm::rotate(result, glm::radians(degrees.y), glm::vec3(0.f, 1.f, 0.f));
+    return glm::rotate(result, glm::radians(degrees.x), glm::vec3(1.f, 0.f, 0.f));
+}
+
+gpu::Result<void> check_file(const SceneFile& scene, uint32_t line, const std::string& entry, const fs::path& file)
+{
+    std::error_code problem;
+    const fs::file_type type = fs::status(file, problem).type();
+    if (type == fs::file_type::regular || type == fs::file_type::fifo)
+        return {};
+    const char* reason = type == fs::file_type::directory ? " is a folder" : " does not exist";
+    return gpu::Error{one_line(place(scene, line) + ": " + entry + ".mesh: " + file.string() + reason)};
+}
+
+gpu::Result<void> check_files(const SceneFile& scene)
+{
+    for (size_t i = 0; i < scene.cloths.size(); ++i)
+    {
+        const ClothEntry& cloth = scene.cloths[i];
+        const std::string entry = "cloths[" + std::to_string(i) + "]";
+        if (const auto* mesh = std::get_if<fs::path>(&cloth.form))
+        {
+            if (auto result = check_file(scene, cloth.line, entry, *mesh); !result)
+                return result;
+        }
+    }
+    for (size_t i = 0; i < scene.colliders.size(); ++i)
+    {
+        const ColliderEntry& collider = scene.colliders[i];
+        const std::string entry = "colliders[" + std::to_string(i) + "]";
+        const auto* mesh = std::get_if<MeshShape>(&collider.shape);
+        if (mesh != nullptr && !mesh->file.empty())
+        {
+            if (auto result = check_file(scene, collider.line, entry, mesh->file); !result)
+                return result;
+        }
+        if (!collider.frames)
+            continue;
+        if (auto files = frame_files(*collider.frames); !files)
+            return gpu::Error{one_line(place(scene, collider.line) + ": " + entry + ".frames: " +
+                                       files.error().message)};
+    }
+    return {};
+}
+
+fs::path frame_path(const fs::path& pattern, uint32_t number)
+{
+    std::string name = pattern.filename().string();
+    const size_t percent = name.find('%');
+    const size_t end = name.find('d', percent);
+    if (percent == std::string::npos || end == std::string::npos)
+        return pattern;
+    const size_t width = end > percent + 1 ? static_cast<size_t>(std::atoi(name.c_str() + percent + 1)) : 0;
+    std::string digits = std::to_string(number);
+    if (digits.size() < width)
+        digits.insert(0, width - digits.size(), '0');
+    return pattern.parent_path() / name.replace(percent, end - percent + 1, digits);
+}
+
+} // namespace
+
+gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
+{
+    const gpu::Result<JsonNode> tree = parse_json(text, path.string());
+    if (!tree)
+        return tree.error();
+    SceneReader reader(path.string());
+    ParseContext context{reader, path.parent_path()};
+    SceneFile scene;
+    scene.path = path;
+    scene.name = path.stem().string();
+    const Field root{&tree.value(), ""};
+    if (reader.object(root, {"gravity", "wind", "step", "cloths", "colliders", "camera"}))
+    {
+        reader.read(SceneReader::child(root, "gravity"), k_any, scene.gravity);
+        if (const Field wind = SceneReader::child(root, "wind"); reader.object(wind, {"velocity", "gust"}))
+        {
+            reader.read(SceneReader::child(wind, "velocity"), k_any, scene.wind.velocity);
+            reader.read(SceneReader::child(wind, "gust"), k_not_negative, scene.wind.gust);
+        }
+        parse_step(reader, SceneReader::child(root, "step"), scene.step);
+        parse_cloths(context, root, scene.cloths);
+        parse_colliders(context, SceneReader::child(root, "colliders"), scene.colliders);
+        parse_camera(reader, SceneReader::child(root, "camera"), scene.camera);
+    }
+    if (reader.failed())
+        return reader.error();
+    return scene;
+}
+
+gpu::Result<SceneFile> load_scene(const fs::path& path)
+{
+    const gpu::Result<std::string> text = read_text(path);
+    if (!text)
+        return text.error();
+    gpu::Result<SceneFile> scene = parse_scene(text.value(), path);
+    if (!scene)
+        return scene;
+    if (const gpu::Result<void> files = check_files(scene.value()); !files)
+        return files.error();
+    return scene;
+}
+
+std::string place(const SceneFile& scene, uint32_t line) { return scene.path.string() + ":" + std::to_string(line); }
+
+gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
+{
+    std::vector<fs::path> files;
+    std::error_code problem;
+    for (const uint32_t first : {0u, 1u})
+    {
+        for (uint32_t number = first; fs::is_regular_file(frame_path(sequence.pattern, number), problem); ++number)
+            files.push_back(frame_path(sequence.pattern, number));
+        if (!files.empty())
+            return files;
+    }
+    return gpu::Error{one_line(sequence.pattern.string() + ": there is no frame 0 and no frame 1")};
+}
+
+glm::mat4 matrix(const TransformEntry& transform)
+{
+    const glm::mat4 moved = glm::translate(glm::mat4(1.f), transform.translate);
+    return glm::scale(moved * rotation(transform.rotate), glm::vec3(transform.scale));
+}
+
+glm::mat4 matrix(const MotionEntry& motion, double seconds)
+{
+    const auto time = static_cast<float>(seconds);
+    const glm::mat4 back = glm::translate(glm::mat4(1.f), -motion.pivot);
+    return glm::translate(glm::mat4(1.f), motion.pivot + motion.velocity * time) * rotation(motion.spin * time) * back;
+}
+
+} // namespace viewer

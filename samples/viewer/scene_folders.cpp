@@ -1,0 +1,91 @@
+// Scenes by name.
+#include "samples/viewer/scene_file.hpp"
+
+#include "samples/viewer/json_tree.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+namespace viewer
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::string known_scenes(const std::vector<fs::path>& folders)
+{
+    std::set<std::string> names;
+    for (const fs::path& folder : folders)
+    {
+        std::error_code problem;
+        for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem))
+        {
+            if (it->path().extension() == ".json")
+                names.insert(it->path().stem().string());
+        }
+    }
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+} // namespace
+
+std::vector<fs::path> scene_folders()
+{
+    std::vector<fs::path> folders;
+    if (const char* variable = std::getenv("VOILE_SCENES"))
+    {
+        std::string rest = variable;
+        while (!rest.empty())
+        {
+            const size_t colon = rest.find(':');
+            if (colon != 0)
+                folders.emplace_back(rest.substr(0, colon));
+            rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+        }
+    }
+    std::error_code problem;
+    const fs::path program = fs::read_symlink("/proc/self/exe", problem);
+    if (!problem)
+    {
+        const fs::path beside = program.parent_path();
+        folders.push_back(beside.parent_path() / "scenes");
+        folders.push_back(beside / "scenes");
+        folders.push_back(beside.parent_path() / "share" / "voile" / "scenes");
+    }
+    return folders;
+}
+
+gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::path>& folders)
+{
+    std::error_code problem;
+    // A folder may happen to have a scene's name: it does not hide the scene.
+    if (fs::exists(name, problem) && !fs::is_directory(name, problem))
+        return fs::path(name);
+    const bool plain = !name.empty() && name.find('/') == std::string::npos;
+    if (plain)
+    {
+        for (const fs::path& folder : folders)
+        {
+            for (const std::string& file : {name, name + ".json"})
+            {
+                if (fs::is_regular_file(folder / file, problem))
+                    return folder / file;
+            }
+        }
+    }
+    if (fs::is_directory(name, problem))
+        return gpu::Error{one_line(name + ": this is a folder, not a scene file")};
+    const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
+    const std::string list = known_scenes(folders);
+    const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
+    if (looks_like_path)
+        return gpu::Error{one_line(name + ": the file does not exist; " + known)};
+    return gpu::Error{one_line("scene \"" + name + "\" is unknown; " + known)};
+}
+
+} // namespace viewer

@@ -1,0 +1,26 @@
+// The entries of a scene file, one function each. Internal to the viewer's parts.
+#pragma once
+
+#include "samples/viewer/scene_file.hpp"
+#include "samples/viewer/scene_reader.hpp"
+
+namespace viewer
+{
+
+struct ParseContext
+{
+    SceneReader& reader;
+    std::filesystem::path folder; // that paths are relative to
+};
+
+// They report through the reader; what they return is meaningless once it has failed.
+ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index);
+ColliderEntry parse_collider(ParseContext& context, const Field& field);
+MaterialEntry parse_material(SceneReader& reader, const Field& field);
+PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid);
+TransformEntry parse_transform(SceneReader& reader, const Field& field);
+MotionEntry parse_motion(SceneReader& reader, const Field& field);
+// A resolved path that ends in .obj or .ply.
+std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field);
+
+} // namespace viewer
