@@ -168,7 +168,7 @@ void clean(Parsed& parsed, MeshReport& report)
         });
 }
 
-// One a position, zero where no triangle is. Each triangle's normal counts by its angle at the corner, so that the
+// One a position. Each triangle's normal counts by its angle at the corner, so that the
 // result does not depend on how a flat face is cut (Thürmer and Wüthrich 1998).
 std::vector<glm::vec3> compute_normals(const Parsed& parsed)
 {
@@ -187,12 +187,11 @@ std::vector<glm::vec3> compute_normals(const Parsed& parsed)
             sums[static_cast<size_t>(t[i].vertex_index)] += angle * normal;
         }
     }
-    std::vector<glm::vec3> normals(sums.size(), glm::vec3(0.f));
+    // Where the triangles cancel out any direction is as good.
+    std::vector<glm::vec3> normals(sums.size(), glm::vec3(0.f, 1.f, 0.f));
     for (size_t i = 0; i < sums.size(); ++i)
         if (const double length = glm::length(sums[i]); length > 1e-9)
             normals[i] = sums[i] / length;
-        else if (length > 0 || sums[i] != glm::dvec3(0.))
-            normals[i] = glm::vec3(0.f, 1.f, 0.f);
     return normals;
 }
 

@@ -166,6 +166,8 @@ const std::string& Solver::name(ClothId cloth) const
     return state_->model.cloth_names[cloth.index];
 }
 
+const gpu::Context& Solver::context() const { return state_->context; }
+
 uint32_t Solver::vertex_count() const
 {
     return static_cast<uint32_t>(state_->model.positions.size());

@@ -137,6 +137,7 @@ public:
     [[nodiscard]] std::vector<glm::vec2> texture_coordinates(ClothId cloth) const;
     [[nodiscard]] const std::string& name(ClothId cloth) const;
 
+    [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;               // of all cloths
     [[nodiscard]] uint32_t triangle_count() const;             // of all cloths
     [[nodiscard]] uint32_t dispatches(const Step& step) const; // that record makes

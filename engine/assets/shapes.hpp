@@ -1,0 +1,15 @@
+// Simple meshes made by rule.
+#pragma once
+
+#include "engine/assets/mesh.hpp"
+
+namespace engine
+{
+
+// `rings` bands from pole to pole, twice as many segments around.
+Mesh make_sphere(const glm::vec3& center, float radius, uint32_t rings = 48);
+
+// A square in the plane y = `y`, centred under the origin, `half_size` m to each side, facing up.
+Mesh make_ground(float half_size, float y = 0);
+
+} // namespace engine

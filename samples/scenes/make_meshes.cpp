@@ -1,0 +1,48 @@
+// make_meshes OUTPUT_DIR: writes the meshes of the sample scenes as OBJ.
+#include "heart.hpp"
+
+#include "engine/assets/obj.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+namespace
+{
+
+bool save(const std::filesystem::path& path, const engine::Mesh& mesh)
+{
+    const gpu::Result<void> saved = engine::save_obj(path, mesh);
+    if (!saved)
+        std::fprintf(stderr, "make_meshes: %s\n", saved.error().message.c_str());
+    return saved.ok();
+}
+
+int run(const std::filesystem::path& folder)
+{
+    std::filesystem::create_directories(folder);
+    const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
+                       save(folder / "ground.obj", scenes::make_ground()) &&
+                       save(folder / "drape_heart.obj", scenes::make_drape_heart());
+    return saved ? 0 : 1;
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    if (count != 2)
+    {
+        std::fprintf(stderr, "usage: make_meshes OUTPUT_DIR\n");
+        return 2;
+    }
+    try
+    {
+        return run(arguments[1]);
+    }
+    catch (const std::exception& error)
+    {
+        std::fprintf(stderr, "make_meshes: %s\n", error.what());
+        return 1;
+    }
+}

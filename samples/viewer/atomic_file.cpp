@@ -1,0 +1,152 @@
+#include "samples/viewer/atomic_file.hpp"
+
+#include "samples/viewer/json_tree.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace viewer
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+gpu::Error file_error(const fs::path& path, const std::string& reason)
+{
+    return gpu::Error{one_line(path.string() + ": " + reason)};
+}
+
+} // namespace
+
+fs::path temporary_name(const fs::path& target)
+{
+    // Two writers of one target must not share a temporary file, whether they are threads or processes.
+    static std::atomic<unsigned> counter{0};
+    const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    return target.parent_path() / ("." + target.filename().string() + "." + unique + ".part");
+}
+
+gpu::Result<fs::path> resolve_target(const fs::path& path)
+{
+    std::error_code problem;
+    if (path.filename().empty() || fs::is_directory(path, problem))
+        return file_error(path, "cannot be written: it is a folder");
+    const fs::path folder = path.parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, problem))
+        return file_error(path, "cannot be written: there is no folder " + folder.string());
+    if (!fs::is_symlink(path, problem))
+        return path;
+    const fs::path target = fs::weakly_canonical(path, problem);
+    if (problem)
+        return file_error(path, "cannot be written: " + problem.message());
+    return target;
+}
+
+gpu::Result<void> rename_file(const fs::path& from, const fs::path& to)
+{
+    std::error_code problem;
+    fs::rename(from, to, problem);
+    if (problem)
+        return file_error(to, "cannot be written: " + problem.message());
+    return {};
+}
+
+gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
+{
+    const gpu::Result<fs::path> target = resolve_target(path);
+    if (!target)
+        return target.error();
+    AtomicFile result;
+    result.path_ = path;
+    result.target_ = target.value();
+    std::error_code problem;
+    // A device or a pipe must not be replaced by a file.
+    const bool direct = fs::exists(result.target_, problem) && !fs::is_regular_file(result.target_, problem);
+    const fs::path opened = direct ? result.target_ : temporary_name(result.target_);
+    errno = 0;
+    result.file_ = std::fopen(opened.c_str(), "wb");
+    if (result.file_ == nullptr)
+        return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+    if (!direct)
+        result.temporary_ = opened;
+    return result;
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)), target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})), file_(std::exchange(other.file_, nullptr)),
+      failure_(other.failure_)
+{
+}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept
+{
+    if (this != &other)
+    {
+        discard();
+        path_ = std::move(other.path_);
+        target_ = std::move(other.target_);
+        temporary_ = std::exchange(other.temporary_, {});
+        file_ = std::exchange(other.file_, nullptr);
+        failure_ = other.failure_;
+    }
+    return *this;
+}
+
+void AtomicFile::discard() noexcept
+{
+    if (file_ != nullptr)
+        (void)std::fclose(std::exchange(file_, nullptr));
+    if (!temporary_.empty())
+        (void)::unlink(temporary_.c_str());
+    temporary_.clear();
+}
+
+void AtomicFile::write(const void* data, size_t size)
+{
+    if (failure_ != 0 || file_ == nullptr || size == 0)
+        return;
+    errno = 0;
+    if (std::fwrite(data, 1, size, file_) != size)
+        failure_ = errno != 0 ? errno : EIO;
+}
+
+void AtomicFile::seek(long offset)
+{
+    if (failure_ != 0 || file_ == nullptr)
+        return;
+    if (std::fseek(file_, offset, SEEK_SET) != 0)
+        failure_ = errno != 0 ? errno : EIO;
+}
+
+gpu::Result<void> AtomicFile::commit()
+{
+    if (file_ == nullptr)
+        return file_error(path_, "was written already");
+    // A full disk may show itself no sooner than here.
+    if (std::fflush(file_) != 0 && failure_ == 0)
+        failure_ = errno;
+    if (std::fclose(std::exchange(file_, nullptr)) != 0 && failure_ == 0)
+        failure_ = errno;
+    if (failure_ != 0)
+    {
+        discard();
+        return file_error(path_, std::string("cannot be written: ") + std::strerror(failure_));
+    }
+    if (temporary_.empty())
+        return {};
+    gpu::Result<void> renamed = rename_file(temporary_, target_);
+    if (renamed)
+        temporary_.clear();
+    discard();
+    return renamed;
+}
+
+} // namespace viewer
