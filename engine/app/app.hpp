@@ -20,7 +20,7 @@ struct AppOptions
     std::string title = "voile";
     VkExtent2D extent{1280, 720};
     bool headless = false; // no window, even with a display
-    DeviceOptions device;
+    DeviceOptions device{};
     uint32_t slots = 2;         // frames in flight
     float time_step = 1.f / 60; // s a frame
     bool timestamps = false;    // time the passes on the GPU

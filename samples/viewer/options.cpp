@@ -10,6 +10,7 @@
 #include <cctype>
 #include <charconv>
 #include <exception>
+#include <memory>
 #include <string_view>
 
 #ifndef VOILE_VERSION
@@ -25,6 +26,16 @@ namespace fs = std::filesystem;
 
 constexpr uint32_t k_largest_side = 16384;     // pixels
 constexpr uint32_t k_most_frames = 100'000'000; // 19 days of simulated time
+
+// CLI11 would write "[scene(0x)]", for what it was told about repetitions.
+class Formatter : public CLI::Formatter
+{
+public:
+    std::string make_usage(const CLI::App*, std::string name) const override
+    {
+        return "\nUsage: " + name + " [options] [SCENE.json|NAME]\n\n";
+    }
+};
 
 // Options as they were typed. They are converted after CLI11 is done, so that every message is worded here.
 struct Typed
@@ -51,7 +62,8 @@ void declare_simulation(CLI::App& app, Typed& typed, Options& options)
     app.add_option("scene", typed.scenes, "A scene file, or the name of a scene that ships (default: reference)")
         ->type_name("SCENE.json|NAME")
         ->expected(0, 1000000); // more than one is refused by us, by name
-    app.add_flag("--headless", options.headless, "No window; the default where there is no display");
+    app.add_flag("--headless", options.headless, "No window; the default where there is no display")
+        ->disable_flag_override();
     app.add_option("--frames", typed.frames,
                    "Frames to simulate, 1/60 s each (default: 300 without a window, no end with one)")
         ->type_name("N");
@@ -77,12 +89,13 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
     app.add_option("--video", typed.video, "Writes a film; needs ffmpeg")->type_name("FILE.mp4")->group(group);
     app.add_option("--stats", typed.stats, "Writes statistics")->type_name("FILE.json")->group(group);
     app.add_option("--export", typed.export_file,
-                   "Writes the last state as OBJ or PLY, or every frame as a PC2 point cache; one file a cloth, with "
-                   "its name added when there are several")
+                   "Writes the last state as OBJ or PLY, or every frame as a PC2 point cache;\n"
+                   "one file a cloth, with its name added when there are several")
         ->type_name("FILE.obj|.ply|.pc2")
         ->group(group);
     app.add_flag("--verify", options.verify,
-                 "Adds exact checks of the final state to the statistics: penetration and self-intersection")
+                 "Adds exact checks of the final state to the statistics:\npenetration and self-intersection")
+        ->disable_flag_override()
         ->group(group);
 }
 
@@ -92,9 +105,12 @@ void declare_device(CLI::App& app, Typed& typed, Options& options)
     app.add_option("--device", typed.device, "The device (default: a discrete GPU, else what there is)")
         ->type_name("INDEX|NAME")
         ->group(group);
-    app.add_flag("--list-devices", options.list_devices, "Lists the devices and leaves")->group(group);
+    app.add_flag("--list-devices", options.list_devices, "Lists the devices and leaves")
+        ->disable_flag_override()
+        ->group(group);
     app.add_flag("--validate", options.validate,
                  "Validation and synchronization validation; any message makes the exit code 2")
+        ->disable_flag_override()
         ->group(group);
     app.add_option("--capture", typed.capture, "A RenderDoc capture of that frame, when RenderDoc is there")
         ->type_name("FRAME")
@@ -275,9 +291,9 @@ gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
         }
         return gpu::Error{one_line(word + ": unknown option" + suggestion(word, known))};
     }
-    const std::string option = text.substr(0, text.find(':'));
+    const std::string option = text.substr(0, text.find_first_of(": "));
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr && option.starts_with("--"))
-        return gpu::Error{one_line(option + ": a value is missing")};
+        return gpu::Error{one_line(option + (text[option.size()] == ':' ? ": a value is missing" : ": takes no value"))};
     return gpu::Error{one_line(text)};
 }
 
@@ -285,8 +301,8 @@ gpu::Result<Options> parse(int argument_count, const char* const* arguments)
 {
     CLI::App app(k_description, "viewer");
     app.footer(k_footer);
+    app.formatter(std::make_shared<Formatter>());
     app.get_formatter()->column_width(34);
-    app.get_formatter()->label("OPTIONS", "options");
     app.set_version_flag("--version", "viewer " VOILE_VERSION, "Prints the version and leaves");
     app.set_help_flag("-h,--help", "Prints this help and leaves");
     app.option_defaults()->take_all(); // repetition is ours to refuse

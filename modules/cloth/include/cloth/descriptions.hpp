@@ -25,8 +25,8 @@ struct Grid
     float depth = 1;            // m along z, > 0
     glm::mat4 transform{1.f};   // world from grid; affine. Rest lengths are the grid's, not the transformed ones
     glm::vec3 velocity{0.f};    // m/s, of every vertex at the start
-    Material material;
-    std::vector<uint32_t> held; // vertices that never move (inverse mass 0)
+    Material material{};
+    std::vector<uint32_t> held{};// vertices that never move (inverse mass 0)
 };
 
 struct Friction
@@ -42,10 +42,10 @@ struct Friction
 struct MeshCollider
 {
     std::string name = "mesh";
-    std::span<const glm::vec3> positions;  // m, in the mesh's space
-    std::span<const glm::uvec3> triangles; // indices into positions; triangles without area are dropped
+    std::span<const glm::vec3> positions{}; // m, in the mesh's space
+    std::span<const glm::uvec3> triangles{}; // indices into positions; triangles without area are dropped
     glm::mat4 transform{1.f};              // world from mesh; affine
-    std::optional<Friction> friction;
+    std::optional<Friction> friction{};
 };
 
 // Everything below the plane is solid.
@@ -54,7 +54,7 @@ struct PlaneCollider
     std::string name = "plane";
     glm::vec3 normal{0, 1, 0}; // unit length
     float offset = 0;          // m; normal . x = offset on the plane
-    std::optional<Friction> friction;
+    std::optional<Friction> friction{};
 };
 
 struct SphereCollider
@@ -62,7 +62,7 @@ struct SphereCollider
     std::string name = "sphere";
     glm::vec3 center{0.f}; // m
     float radius = 1;      // m, > 0
-    std::optional<Friction> friction;
+    std::optional<Friction> friction{};
 };
 
 // Names of what was added; only valid in the solver that gave them.

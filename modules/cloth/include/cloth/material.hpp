@@ -34,7 +34,7 @@ struct SpringSet
 struct Material
 {
     float vertex_mass = 0.01f; // kg, > 0; the same for every vertex
-    SpringSet springs;
+    SpringSet springs{};
     float thickness = 0.005f;      // m, > 0; the distance that contact keeps between a vertex and a surface
     float static_friction = 0.4f;  // Coulomb, >= kinetic_friction
     float kinetic_friction = 0.4f; // Coulomb, >= 0

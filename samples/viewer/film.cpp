@@ -1,0 +1,222 @@
+#include "samples/viewer/film.hpp"
+
+#include "samples/viewer/atomic_file.hpp"
+#include "samples/viewer/json_tree.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+extern char** environ; // NOLINT(readability-redundant-declaration): POSIX leaves declaring it to the program
+
+namespace viewer
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+gpu::Error film_error(const fs::path& path, const std::string& reason)
+{
+    return gpu::Error{one_line(path.string() + ": no film: " + reason)};
+}
+
+std::vector<std::string> encoder_arguments(const FilmSettings& settings, const fs::path& file)
+{
+    std::ostringstream rate;
+    rate.imbue(std::locale::classic());
+    rate << settings.rate;
+    const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
+    // 4:2:0 needs even sides. Players take films of this kind for BT.709: so they are converted to it, and say it.
+    const std::string filter = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+    return {settings.program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
+            // What comes in:
+            "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", size, "-framerate", rate.str(), "-i", "pipe:0",
+            // What goes out. "file:" keeps a name with a colon from being read as a protocol:
+            "-an", "-vf", filter, "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-colorspace", "bt709",
+            "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4",
+            "file:" + file.string()};
+}
+
+// Starts it with `input` and `messages` as its standard input and error. Returns an errno, 0 for none.
+int spawn_encoder(std::vector<std::string> arguments, int input, int messages, pid_t& process)
+{
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments)
+        pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    (void)posix_spawn_file_actions_init(&actions);
+    (void)posix_spawnattr_init(&attributes);
+    (void)posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    (void)posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
+    // A process group of its own: Ctrl-C reaches the viewer, which then ends or removes the film.
+    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    (void)posix_spawnattr_setpgroup(&attributes, 0);
+    const int problem = posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
+    (void)posix_spawnattr_destroy(&attributes);
+    (void)posix_spawn_file_actions_destroy(&actions);
+    return problem;
+}
+
+void close_descriptor(int& descriptor)
+{
+    if (descriptor >= 0)
+        (void)::close(std::exchange(descriptor, -1));
+}
+
+std::string last_line(std::FILE* file)
+{
+    std::string text;
+    std::array<char, 4096> block{};
+    std::rewind(file);
+    for (size_t n = 0; (n = std::fread(block.data(), 1, block.size(), file)) > 0;)
+        text.append(block.data(), n);
+    const size_t end = text.find_last_not_of(" \r\n");
+    if (end == std::string::npos)
+        return {};
+    text.resize(end + 1);
+    const size_t newline = text.rfind('\n');
+    return newline == std::string::npos ? text : text.substr(newline + 1);
+}
+
+} // namespace
+
+gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSettings& settings)
+{
+    if (settings.width == 0 || settings.height == 0)
+        return film_error(path, "a picture without pixels");
+    if (!std::isfinite(settings.rate) || settings.rate <= 0)
+        return film_error(path, "the frame rate is not positive");
+    const gpu::Result<fs::path> target = resolve_target(path);
+    if (!target)
+        return target.error();
+
+    FilmWriter film;
+    film.path_ = path;
+    film.target_ = target.value();
+    film.frame_bytes_ = size_t{4} * settings.width * settings.height;
+    film.messages_ = std::tmpfile();
+    if (film.messages_ == nullptr)
+        return film_error(path, std::string("no temporary file: ") + std::strerror(errno));
+    // The encoder gets it as its standard error alone.
+    (void)::fcntl(::fileno(film.messages_), F_SETFD, FD_CLOEXEC);
+
+    // A socket and not a pipe: sending can leave out SIGPIPE by the call, a pipe only for the whole process.
+    std::array<int, 2> ends{-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        return film_error(path, std::string("no socket: ") + std::strerror(errno));
+    film.socket_ = ends[0];
+    film.temporary_ = temporary_name(film.target_);
+    const int problem = spawn_encoder(encoder_arguments(settings, film.temporary_), ends[1],
+                                      ::fileno(film.messages_), film.encoder_);
+    close_descriptor(ends[1]);
+    if (problem == 0)
+        return film;
+    film.encoder_ = -1;
+    if (problem == ENOENT)
+        return film_error(path, settings.program + " is not installed (or not in PATH)");
+    return film_error(path, settings.program + " cannot be started: " + std::strerror(problem));
+}
+
+FilmWriter::~FilmWriter() { discard(); }
+
+FilmWriter::FilmWriter(FilmWriter&& other) noexcept
+    : path_(std::move(other.path_)), target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})), frame_bytes_(other.frame_bytes_), frames_(other.frames_),
+      encoder_(std::exchange(other.encoder_, -1)), socket_(std::exchange(other.socket_, -1)),
+      messages_(std::exchange(other.messages_, nullptr))
+{
+}
+
+int FilmWriter::wait_for_encoder()
+{
+    close_descriptor(socket_);
+    int status = -1;
+    if (encoder_ > 0)
+    {
+        while (::waitpid(encoder_, &status, 0) < 0 && errno == EINTR)
+        {
+        }
+        encoder_ = -1;
+    }
+    return status;
+}
+
+void FilmWriter::discard() noexcept
+{
+    if (encoder_ > 0)
+        (void)::kill(encoder_, SIGKILL);
+    (void)wait_for_encoder();
+    if (messages_ != nullptr)
+        (void)std::fclose(std::exchange(messages_, nullptr));
+    if (!temporary_.empty())
+        (void)::unlink(temporary_.c_str());
+    temporary_.clear();
+}
+
+gpu::Error FilmWriter::encoder_error()
+{
+    const std::string said = messages_ != nullptr ? last_line(messages_) : "";
+    const gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "ffmpeg: " + said);
+    discard();
+    return error;
+}
+
+gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
+{
+    if (socket_ < 0)
+        return film_error(path_, "the film was ended already");
+    if (rgba.size() != frame_bytes_)
+        return film_error(path_, "a frame of " + std::to_string(rgba.size()) + " bytes instead of " +
+                                     std::to_string(frame_bytes_));
+    while (!rgba.empty())
+    {
+        const ssize_t sent = ::send(socket_, rgba.data(), rgba.size(), MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent < 0)
+        {
+            (void)wait_for_encoder(); // so that all of its words are there
+            return encoder_error();
+        }
+        rgba = rgba.subspan(static_cast<size_t>(sent));
+    }
+    ++frames_;
+    return {};
+}
+
+gpu::Result<void> FilmWriter::finish()
+{
+    if (socket_ < 0)
+        return film_error(path_, "the film was ended already");
+    if (frames_ == 0)
+    {
+        discard();
+        return film_error(path_, "there are no frames");
+    }
+    const int status = wait_for_encoder();
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return encoder_error();
+    gpu::Result<void> renamed = rename_file(temporary_, target_);
+    if (renamed)
+        temporary_.clear();
+    discard();
+    return renamed;
+}
+
+} // namespace viewer

@@ -1,0 +1,143 @@
+#include "samples/viewer/statistics_file.hpp"
+
+#include "samples/viewer/atomic_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace viewer
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json; // keys in the order of the README
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json count(const std::optional<uint64_t>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json pair(const Percentiles& values) { return {{"median", number(values.median)}, {"p95", number(values.p95)}}; }
+
+Json summary_json(const StatisticsSummary& summary)
+{
+    Json passes = Json::object();
+    for (const auto& [name, milliseconds] : summary.gpu_pass_ms)
+        passes[name] = number(milliseconds);
+    Json gpu = {{"frame", pair(summary.gpu_frame_ms)}, {"cloth", pair(summary.gpu_cloth_ms)}};
+    gpu["passes"] = std::move(passes);
+    Json result = {{"substeps_per_frame", summary.substeps_per_frame},
+                   {"vertices", summary.vertices},
+                   {"triangles", summary.triangles},
+                   {"max_stretch", number(summary.max_stretch)},
+                   {"mean_stretch", number(summary.mean_stretch)},
+                   {"kinetic_energy", number(summary.kinetic_energy)},
+                   {"penetrating_vertices", count(summary.penetrating_vertices)},
+                   {"deepest_penetration", number(summary.deepest_penetration)},
+                   {"self_intersections", count(summary.self_intersections)},
+                   {"nan_vertices", count(summary.nan_vertices)},
+                   {"contact_overflows", count(summary.contact_overflows)},
+                   {"verified", summary.verified}};
+    result["gpu_ms"] = std::move(gpu);
+    result["cpu_record_ms"] = pair(summary.cpu_record_ms);
+    result["state_hash"] = hash_text(summary.state_hash);
+    return result;
+}
+
+Json frame_json(const FrameStatistics& frame)
+{
+    return {{"frame", frame.frame},
+            {"substeps", frame.substeps},
+            {"max_stretch", number(frame.max_stretch)},
+            {"mean_stretch", number(frame.mean_stretch)},
+            {"kinetic_energy", number(frame.kinetic_energy)},
+            {"penetrating_vertices", count(frame.penetrating_vertices)},
+            {"deepest_penetration", number(frame.deepest_penetration)},
+            {"nan_vertices", count(frame.nan_vertices)},
+            {"contact_overflows", count(frame.contact_overflows)},
+            {"gpu_frame_ms", number(frame.gpu_frame_ms)},
+            {"gpu_cloth_ms", number(frame.gpu_cloth_ms)},
+            {"cpu_record_ms", number(frame.cpu_record_ms)}};
+}
+
+std::string dump(const Json& json, int indent)
+{
+    // A driver's name need not be valid UTF-8; a replaced character is better than no statistics.
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<double> sorted_finite(std::span<const double> values)
+{
+    std::vector<double> sorted;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+}
+
+} // namespace
+
+double median(std::span<const double> values)
+{
+    const std::vector<double> sorted = sorted_finite(values);
+    if (sorted.empty())
+        return k_not_measured;
+    const size_t middle = sorted.size() / 2;
+    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+}
+
+double p95(std::span<const double> values)
+{
+    const std::vector<double> sorted = sorted_finite(values);
+    if (sorted.empty())
+        return k_not_measured;
+    const size_t rank = (sorted.size() * 95 + 99) / 100; // rounded up, from 1
+    return sorted[rank - 1];
+}
+
+Percentiles percentiles(std::span<const double> values) { return {median(values), p95(values)}; }
+
+void StateHash::add(std::span<const std::byte> bytes)
+{
+    for (const std::byte byte : bytes)
+    {
+        value_ ^= static_cast<uint64_t>(byte);
+        value_ *= 0x100000001b3u;
+    }
+}
+
+std::string hash_text(uint64_t hash)
+{
+    std::array<char, 17> text{};
+    (void)std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+    return text.data();
+}
+
+std::string statistics_text(const Statistics& statistics)
+{
+    const Json head = {{"scene", statistics.scene},
+                       {"device", statistics.device},
+                       {"driver", statistics.driver},
+                       {"frames", statistics.frames},
+                       {"summary", summary_json(statistics.summary)}};
+    std::string text = dump(head, 1);
+    // A line a frame: readable, and a run of thousands stays small.
+    text.resize(text.rfind('\n'));
+    text += ",\n \"per_frame\": [";
+    for (size_t i = 0; i < statistics.per_frame.size(); ++i)
+        text += (i == 0 ? "\n  " : ",\n  ") + dump(frame_json(statistics.per_frame[i]), -1);
+    return text + (statistics.per_frame.empty() ? "]\n}\n" : "\n ]\n}\n");
+}
+
+gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
+{
+    gpu::Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file)
+        return file.error();
+    file.value().write(statistics_text(statistics));
+    return file.value().commit();
+}
+
+} // namespace viewer
