@@ -5,7 +5,7 @@
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/frames.hpp"
 
-#include "gpu/buffer.hpp"
+#include "gpu/recorder.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/glm.hpp>

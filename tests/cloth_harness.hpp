@@ -1,0 +1,84 @@
+// ClothHarness: a solver on the test device, stepped and read back.
+#pragma once
+
+#include "gpu_fixture.hpp"
+
+#include "cloth/solver.hpp"
+
+#include <random>
+
+namespace tests
+{
+
+// A grid whose vertices are moved at random, so that no force vanishes by symmetry. Deterministic.
+inline glm::mat4 tilted()
+{
+    glm::mat4 m(1.f);
+    m[0] = {0.96f, 0.28f, 0, 0}; // a rotation (0.96, 0.28)
+    m[1] = {-0.28f, 0.96f, 0, 0};
+    m[3] = {0.1f, 2, -0.3f, 1};
+    return m;
+}
+
+class ClothHarness : public GpuFixture
+{
+public:
+    explicit ClothHarness(const cloth::SolverOptions& options = {})
+        : solver(engine::take(cloth::Solver::create(device().context().handles, options)))
+    {
+    }
+
+    void upload()
+    {
+        cloth::Upload kept;
+        run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+    }
+
+    void step(const cloth::Step& step, uint32_t times = 1)
+    {
+        for (uint32_t i = 0; i < times; ++i)
+            run([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+    }
+
+    cloth::Statistics statistics()
+    {
+        run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+        return solver.statistics(0);
+    }
+
+    std::vector<glm::vec4> positions(cloth::ClothId cloth)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth);
+        return read<glm::vec4>(streams.positions, streams.vertices, streams.offset);
+    }
+
+    std::vector<glm::vec4> velocities(cloth::ClothId cloth)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth);
+        return read<glm::vec4>(streams.velocities, streams.vertices, streams.offset);
+    }
+
+    std::vector<glm::vec4> normals(cloth::ClothId cloth)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth);
+        return read<glm::vec4>(streams.normals, streams.vertices, streams.offset);
+    }
+
+    cloth::Solver solver;
+};
+
+// ||a - b|| / ||b|| over all components.
+inline double relative_error(const std::vector<glm::vec4>& a, const std::vector<glm::dvec3>& b)
+{
+    double difference = 0;
+    double size = 0;
+    for (size_t i = 0; i < b.size(); ++i)
+    {
+        const glm::dvec3 d = glm::dvec3(a[i]) - b[i];
+        difference += glm::dot(d, d);
+        size += glm::dot(b[i], b[i]);
+    }
+    return std::sqrt(difference / size);
+}
+
+} // namespace tests

@@ -1,0 +1,187 @@
+// The cloth model in double precision on the CPU: springs, drag, gravity and RK4 as physics.md-style formulas, written
+// without a look at the shaders' structure (one loop over springs that adds to both ends).
+#pragma once
+
+#include "cloth/descriptions.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace reference
+{
+
+struct Spring
+{
+    uint32_t a;
+    uint32_t b;
+    double stiffness;
+    double damping;
+    double rest_length;
+};
+
+struct ClothState
+{
+    std::vector<glm::dvec3> x;
+    std::vector<glm::dvec3> v;
+};
+
+struct Environment
+{
+    glm::dvec3 gravity{0, -9.81, 0};
+    glm::dvec3 wind{0.0};
+    double air_density = 1.225;
+};
+
+class Cloth
+{
+public:
+    explicit Cloth(const cloth::Grid& grid) : grid_(grid), inverse_mass_(size(), 1 / double(grid.material.vertex_mass))
+    {
+        const double du = double(grid.width) / (grid.columns - 1);
+        const double dv = double(grid.depth) / (grid.rows - 1);
+        for (uint32_t row = 0; row < grid.rows; ++row)
+            for (uint32_t column = 0; column < grid.columns; ++column)
+            {
+                const double u = double(column) / (grid.columns - 1) - 0.5;
+                const double v = double(row) / (grid.rows - 1) - 0.5;
+                state.x.emplace_back(glm::dmat4(grid.transform) *
+                                     glm::dvec4(u * double(grid.width), 0, v * double(grid.depth), 1));
+                state.v.emplace_back(grid.velocity);
+            }
+        for (const uint32_t held : grid.held)
+        {
+            inverse_mass_[held] = 0;
+            state.v[held] = glm::dvec3(0);
+        }
+        const cloth::SpringSet& s = grid.material.springs;
+        const double diagonal = std::hypot(du, dv);
+        add_family(1, 0, s.structural_warp, du);
+        add_family(0, 1, s.structural_weft, dv);
+        add_family(1, 1, s.shear, diagonal);
+        add_family(-1, 1, s.shear, diagonal);
+        add_family(2, 0, s.bend_warp, 2 * du);
+        add_family(0, 2, s.bend_weft, 2 * dv);
+        add_family(2, 2, s.diagonal_bend, 2 * diagonal);
+        add_family(-2, 2, s.diagonal_bend, 2 * diagonal);
+    }
+
+    [[nodiscard]] size_t size() const { return size_t{grid_.columns} * grid_.rows; }
+
+    [[nodiscard]] std::vector<glm::dvec3> accelerations(const ClothState& s, const Environment& environment) const
+    {
+        std::vector<glm::dvec3> force(size());
+        for (size_t i = 0; i < size(); ++i)
+            force[i] = double(grid_.material.linear_drag) * (environment.wind - s.v[i]) + air_force(s, i, environment);
+        for (const Spring& spring : springs)
+        {
+            const glm::dvec3 delta = s.x[spring.b] - s.x[spring.a];
+            const double length = glm::length(delta);
+            const glm::dvec3 d = delta / length;
+            const glm::dvec3 f = (spring.stiffness * (length - spring.rest_length) +
+                                  spring.damping * glm::dot(s.v[spring.b] - s.v[spring.a], d)) *
+                                 d;
+            force[spring.a] += f;
+            force[spring.b] -= f;
+        }
+        std::vector<glm::dvec3> result(size(), glm::dvec3(0));
+        for (size_t i = 0; i < size(); ++i)
+            if (inverse_mass_[i] > 0)
+                result[i] = environment.gravity + inverse_mass_[i] * force[i];
+        return result;
+    }
+
+    // Kutta 1901.
+    void step(double h, const Environment& environment)
+    {
+        const ClothState& s1 = state;
+        const auto a1 = accelerations(s1, environment);
+        const ClothState s2 = advanced(s1.v, a1, h / 2);
+        const auto a2 = accelerations(s2, environment);
+        const ClothState s3 = advanced(s2.v, a2, h / 2);
+        const auto a3 = accelerations(s3, environment);
+        const ClothState s4 = advanced(s3.v, a3, h);
+        const auto a4 = accelerations(s4, environment);
+        ClothState next = state;
+        for (size_t i = 0; i < size(); ++i)
+        {
+            next.x[i] += h / 6 * (s1.v[i] + 2.0 * s2.v[i] + 2.0 * s3.v[i] + s4.v[i]);
+            next.v[i] += h / 6 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
+        }
+        state = next;
+    }
+
+    [[nodiscard]] double energy(const Environment& environment) const // kinetic, elastic and potential, J
+    {
+        double total = 0;
+        for (size_t i = 0; i < size(); ++i)
+            if (inverse_mass_[i] > 0)
+                total += (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(environment.gravity, state.x[i])) /
+                         inverse_mass_[i];
+        for (const Spring& spring : springs)
+        {
+            const double stretch = glm::length(state.x[spring.b] - state.x[spring.a]) - spring.rest_length;
+            total += 0.5 * spring.stiffness * stretch * stretch;
+        }
+        return total;
+    }
+
+    ClothState state;
+    std::vector<Spring> springs;
+
+private:
+    void add_family(int columns, int rows, const cloth::Spring& spring, double rest_length)
+    {
+        for (int row = 0; row + rows < int(grid_.rows); ++row)
+            for (int column = 0; column < int(grid_.columns); ++column)
+            {
+                const int other = column + columns;
+                if (other < 0 || other >= int(grid_.columns))
+                    continue;
+                springs.push_back({uint32_t(row) * grid_.columns + uint32_t(column),
+                                   uint32_t(row + rows) * grid_.columns + uint32_t(other), double(spring.stiffness),
+                                   double(spring.damping), rest_length});
+            }
+    }
+
+    [[nodiscard]] ClothState advanced(const std::vector<glm::dvec3>& v, const std::vector<glm::dvec3>& a,
+                                      double h) const
+    {
+        ClothState result = state;
+        for (size_t i = 0; i < size(); ++i)
+        {
+            if (inverse_mass_[i] > 0)
+                result.x[i] += h * v[i];
+            result.v[i] += h * a[i];
+        }
+        return result;
+    }
+
+    [[nodiscard]] glm::dvec3 air_force(const ClothState& s, size_t i, const Environment& environment) const
+    {
+        const double c_n = grid_.material.air_drag_normal;
+        const double c_t = grid_.material.air_drag_tangential;
+        if (c_n + c_t == 0)
+            return glm::dvec3(0);
+        const uint32_t row = uint32_t(i) / grid_.columns;
+        const uint32_t column = uint32_t(i) % grid_.columns;
+        const auto at = [&](uint32_t r, uint32_t c) { return s.x[size_t{r} * grid_.columns + c]; };
+        const glm::dvec3 along_row =
+            at(row, std::min(column + 1, grid_.columns - 1)) - at(row, column == 0 ? 0 : column - 1);
+        const glm::dvec3 along_column =
+            at(std::min(row + 1, grid_.rows - 1), column) - at(row == 0 ? 0 : row - 1, column);
+        const glm::dvec3 across = glm::cross(along_column, along_row);
+        const glm::dvec3 n = glm::normalize(across);
+        const double area = glm::length(across) / 4;
+        const glm::dvec3 u = environment.wind - s.v[i];
+        const double u_n = glm::dot(u, n);
+        const glm::dvec3 u_t = u - u_n * n;
+        return 0.5 * environment.air_density * area * (c_n * std::abs(u_n) * u_n * n + c_t * glm::length(u_t) * u_t);
+    }
+
+    cloth::Grid grid_;
+    std::vector<double> inverse_mass_;
+};
+
+} // namespace reference

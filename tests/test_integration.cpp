@@ -1,0 +1,226 @@
+// RK4 on the GPU: against the double-precision reference at awkward sizes, its order, free fall, held vertices, many
+// cloths, and equality of two runs to the bit.
+#include "cloth_harness.hpp"
+#include "reference/cloth_reference.hpp"
+
+#include <cmath>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+// A sheet in which every spring is stretched or compressed: its transform scales what its rest lengths do not.
+cloth::Grid uneven_sheet(uint32_t columns, uint32_t rows)
+{
+    cloth::Grid grid;
+    grid.columns = columns;
+    grid.rows = rows;
+    grid.width = 0.05f * static_cast<float>(columns - 1);
+    grid.depth = 0.06f * static_cast<float>(rows - 1);
+    grid.transform = tests::tilted();
+    grid.transform[0] *= 1.1f;
+    grid.transform[2] *= 0.9f;
+    grid.velocity = {0.3f, -0.2f, 0.5f};
+    grid.material = cloth::reference_material();
+    grid.material.springs.shear = {120, 1};
+    grid.material.springs.bend_weft = {60, 0.5f};
+    grid.material.springs.diagonal_bend = {30, 0.2f};
+    grid.material.air_drag_normal = 1.28f;
+    grid.material.air_drag_tangential = 0.1f;
+    return grid;
+}
+
+constexpr float k_step = 1e-3f;
+
+} // namespace
+
+TEST_CASE("one step equals the double-precision reference at awkward sizes")
+{
+    struct Size
+    {
+        uint32_t columns;
+        uint32_t rows;
+    };
+    // 4, 63, 64, 65, 1234 and 16384 vertices, and strips as narrow as a grid can be.
+    const Size sizes[] = {{2, 2}, {9, 7}, {8, 8}, {13, 5}, {617, 2}, {2, 617}, {128, 128}};
+    for (const Size& size : sizes)
+    {
+        CAPTURE(size.columns);
+        CAPTURE(size.rows);
+        const cloth::Grid grid = uneven_sheet(size.columns, size.rows);
+        ClothHarness harness;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        harness.upload();
+        reference::Cloth reference(grid);
+        const auto before = reference.state;
+
+        harness.step({.duration = k_step, .substeps = 1, .wind = {1, 0.5f, -2}});
+        reference.step(k_step, {.wind = {1, 0.5, -2}});
+
+        // Positions: stored in float, so half an ulp of coordinates of size |x| each, twice (upload and result).
+        CHECK(tests::relative_error(harness.positions(id), reference.state.x) < 4 * std::exp2(-24));
+        // Velocities: what the step adds is a sum of 16 spring forces whose elongation l - L loses |x| / (l - L) of its
+        // relative accuracy to cancellation: coordinates of 2 m and more against elongations near 5 mm.
+        double added = 0;
+        double size_of_v = 0;
+        for (size_t i = 0; i < before.v.size(); ++i)
+        {
+            added += glm::dot(reference.state.v[i] - before.v[i], reference.state.v[i] - before.v[i]);
+            size_of_v += glm::dot(reference.state.v[i], reference.state.v[i]);
+        }
+        const double extent = 2 + 0.06 * std::max(size.columns, size.rows);
+        const double amplification = extent / 0.005;
+        const double bound = std::exp2(-24) * (4 + 4 * amplification * std::sqrt(added / size_of_v));
+        CHECK(tests::relative_error(harness.velocities(id), reference.state.v) < bound);
+    }
+}
+
+TEST_CASE("a short trajectory follows the reference")
+{
+    cloth::Grid grid = uneven_sheet(13, 11);
+    grid.held = {0, 12};
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    reference::Cloth reference(grid);
+    harness.step({.duration = 0.05f, .substeps = 50}, 2);
+    for (int i = 0; i < 100; ++i)
+        reference.step(1e-3, {});
+    // 100 steps of rounding at 2^-24 of metres, amplified by the motion's own divergence, which is mild over 0.1 s.
+    CHECK(tests::relative_error(harness.positions(id), reference.state.x) < 100 * std::exp2(-24));
+    const auto x = harness.positions(id);
+    CHECK(x[0].y == doctest::Approx(reference.state.x[0].y));
+    CHECK(harness.velocities(id)[12] == glm::vec4(0));
+}
+
+TEST_CASE("free fall does not feel internal damping")
+{
+    cloth::Grid grid;
+    grid.columns = 17;
+    grid.rows = 9;
+    grid.transform[3] = {0, 4, 0, 1};
+    grid.material = cloth::reference_material();
+    grid.material.linear_drag = 0;
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    harness.step({.duration = 0.5f, .substeps = 330});
+    const double t = 0.5;
+    const double fallen = 0.5 * 9.81 * t * t;
+    for (const glm::vec4& x : harness.positions(id))
+        CHECK(double(x.y) == doctest::Approx(4 - fallen).epsilon(330 * std::exp2(-24)));
+    for (const glm::vec4& v : harness.velocities(id))
+        CHECK(double(v.y) == doctest::Approx(-9.81 * t).epsilon(330 * std::exp2(-24)));
+}
+
+TEST_CASE("a spring pair swings with period 2 pi sqrt(m / 2 k)")
+{
+    // A 2 x 2 grid with springs along rows only is two pairs. Stretched by 5 % and let go without gravity.
+    cloth::Grid grid;
+    grid.columns = grid.rows = 2;
+    grid.transform[0] *= 1.05f;
+    grid.material = {};
+    grid.material.vertex_mass = 0.2f;
+    grid.material.springs.structural_warp = {50, 0};
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    const double period = 2 * 3.14159265358979 * std::sqrt(0.2 / (2 * 50.0));
+    harness.step({.duration = static_cast<float>(period), .substeps = 400, .gravity = {0, 0, 0}}, 4);
+    const auto x = harness.positions(id);
+    CHECK(double(x[1].x - x[0].x) == doctest::Approx(1.05).epsilon(1e-5));
+    harness.step({.duration = static_cast<float>(period / 2), .substeps = 200, .gravity = {0, 0, 0}});
+    const auto half = harness.positions(id);
+    CHECK(double(half[1].x - half[0].x) == doctest::Approx(0.95).epsilon(1e-5));
+}
+
+TEST_CASE("the error falls with the fourth power of the step")
+{
+    // The same pair with a large amplitude, so that truncation stands far above float rounding.
+    cloth::Grid grid;
+    grid.columns = grid.rows = 2;
+    grid.width = 1;
+    grid.transform[0] *= 1.5f;
+    grid.material = {};
+    grid.material.vertex_mass = 1;
+    grid.material.springs.structural_warp = {50, 0};
+    const double omega = std::sqrt(2 * 50.0);
+    const double t = 1;
+    const double exact = 1 + 0.5 * std::cos(omega * t);
+    std::vector<double> errors;
+    for (const uint32_t substeps : {12u, 24u, 48u})
+    {
+        ClothHarness harness;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        harness.upload();
+        harness.step({.duration = static_cast<float>(t), .substeps = substeps, .gravity = {0, 0, 0}});
+        const auto x = harness.positions(id);
+        errors.push_back(std::abs(double(x[1].x) - double(x[0].x) - exact));
+    }
+    for (size_t i = 1; i < errors.size(); ++i)
+    {
+        CAPTURE(errors[i]);
+        const double slope = std::log2(errors[i - 1] / errors[i]);
+        CHECK(slope == doctest::Approx(4).epsilon(0.05));
+    }
+}
+
+TEST_CASE("cloths in one solver do not feel each other, and late ones leave the early ones' state alone")
+{
+    const cloth::Grid first = uneven_sheet(13, 5);
+    const cloth::Grid second = uneven_sheet(9, 7);
+    const cloth::Step step{.duration = 0.01f, .substeps = 10};
+
+    ClothHarness alone;
+    const cloth::ClothId alone_id = engine::take(alone.solver.add_cloth(first));
+    alone.upload();
+    alone.step(step, 2);
+
+    ClothHarness together;
+    const cloth::ClothId first_id = engine::take(together.solver.add_cloth(first));
+    together.upload();
+    together.step(step);
+    const cloth::ClothId second_id = engine::take(together.solver.add_cloth(second));
+    together.upload();
+    together.step(step);
+
+    CHECK(together.positions(first_id) == alone.positions(alone_id));
+    CHECK(together.velocities(first_id) == alone.velocities(alone_id));
+    reference::Cloth reference(second);
+    for (int i = 0; i < 10; ++i)
+        reference.step(1e-3, {});
+    CHECK(tests::relative_error(together.positions(second_id), reference.state.x) < 10 * std::exp2(-24));
+}
+
+TEST_CASE("the workgroup size changes nothing, not a bit")
+{
+    std::vector<std::vector<glm::vec4>> results;
+    for (const uint32_t size : {32u, 64u, 128u})
+    {
+        cloth::SolverOptions options;
+        options.workgroup_size = size;
+        ClothHarness harness(options);
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(uneven_sheet(23, 17)));
+        harness.upload();
+        harness.step({.duration = 0.02f, .substeps = 20});
+        results.push_back(harness.positions(id));
+    }
+    CHECK(results[0] == results[1]);
+    CHECK(results[0] == results[2]);
+}
+
+TEST_CASE("normals are the normals of a curved sheet")
+{
+    cloth::Grid grid;
+    grid.columns = 33;
+    grid.rows = 17;
+    grid.transform = tests::tilted();
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    harness.step({.duration = 1e-4f, .substeps = 1, .gravity = {0, 0, 0}});
+    const glm::vec3 expected(tests::tilted() * glm::vec4(0, 1, 0, 0));
+    for (const glm::vec4& n : harness.normals(id))
+        CHECK(glm::length(glm::vec3(n) - expected) < 1e-5f);
+}
