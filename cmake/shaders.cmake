@@ -23,13 +23,13 @@ function(voile_add_shaders)
             DEPENDS ${source}
             DEPFILE ${spirv}.d
             COMMENT "Compiling shader ${shader}"
-            VERBATIM)
+            COMMAND_EXPAND_LISTS VERBATIM)
         add_custom_command(
             OUTPUT ${cpp}
             COMMAND ${CMAKE_COMMAND} -DINPUT=${spirv} -DOUTPUT=${cpp} -DNAMESPACE=${ARG_NAMESPACE}
                     -DSYMBOL=k_${symbol} -P ${VOILE_EMBED_SCRIPT}
             DEPENDS ${spirv} ${VOILE_EMBED_SCRIPT}
-            VERBATIM)
+            COMMAND_EXPAND_LISTS VERBATIM)
         target_sources(${ARG_TARGET} PRIVATE ${cpp})
         string(APPEND declarations "extern const std::span<const uint32_t> k_${symbol};\n")
     endforeach()

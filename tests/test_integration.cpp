@@ -147,22 +147,23 @@ TEST_CASE("the error falls with the fourth power of the step")
     grid.material.springs.structural_warp = {50, 0};
     const double omega = std::sqrt(2 * 50.0);
     const double t = 1;
-    const double exact = 1 + 0.5 * std::cos(omega * t);
-    std::vector<double> errors;
-    for (const uint32_t substeps : {12u, 24u, 48u})
+    std::vector<double> errors; // in phase space, where amplitude and phase errors cannot cancel
+    for (const uint32_t substeps : {20u, 40u, 80u})
     {
         ClothHarness harness;
         const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
         harness.upload();
         harness.step({.duration = static_cast<float>(t), .substeps = substeps, .gravity = {0, 0, 0}});
         const auto x = harness.positions(id);
-        errors.push_back(std::abs(double(x[1].x) - double(x[0].x) - exact));
+        const auto v = harness.velocities(id);
+        errors.push_back(std::hypot(double(x[1].x - x[0].x) - (1 + 0.5 * std::cos(omega * t)),
+                                    double(v[1].x - v[0].x) / omega + 0.5 * std::sin(omega * t)));
     }
     for (size_t i = 1; i < errors.size(); ++i)
     {
         CAPTURE(errors[i]);
         const double slope = std::log2(errors[i - 1] / errors[i]);
-        CHECK(slope == doctest::Approx(4).epsilon(0.05));
+        CHECK(std::abs(slope - 4) < 0.1);
     }
 }
 

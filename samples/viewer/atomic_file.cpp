@@ -77,12 +77,14 @@ gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
     return result;
 }
 
-AtomicFile::~AtomicFile() { discard(); }
+AtomicFile::~AtomicFile()
+{
+    discard();
+}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)), target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})), file_(std::exchange(other.file_, nullptr)),
-      failure_(other.failure_)
+    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+      file_(std::exchange(other.file_, nullptr)), failure_(other.failure_)
 {
 }
 

@@ -47,9 +47,8 @@ std::optional<size_t> first_not_finite(std::span<const glm::vec3> values)
 
 gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
 {
-    const auto error = [&](const std::string& reason) {
-        return gpu::Error{one_line(path.string() + ": cloth \"" + surface.name + "\" " + reason)};
-    };
+    const auto error = [&](const std::string& reason)
+    { return gpu::Error{one_line(path.string() + ": cloth \"" + surface.name + "\" " + reason)}; };
     const size_t count = surface.positions.size();
     if (count > k_most_int32 || surface.triangles.size() > k_most_int32)
         return error("has too many vertices or triangles for the format");
@@ -249,9 +248,8 @@ gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uin
 
 gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
 {
-    const auto error = [&](const std::string& reason) {
-        return gpu::Error{one_line(path_.string() + ": sample " + std::to_string(samples_) + " " + reason)};
-    };
+    const auto error = [&](const std::string& reason)
+    { return gpu::Error{one_line(path_.string() + ": sample " + std::to_string(samples_) + " " + reason)}; };
     if (positions.size() != points_)
         return error("has " + std::to_string(positions.size()) + " points instead of " + std::to_string(points_));
     if (const auto vertex = first_not_finite(positions))

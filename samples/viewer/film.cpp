@@ -122,8 +122,8 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
         return film_error(path, std::string("no socket: ") + std::strerror(errno));
     film.socket_ = ends[0];
     film.temporary_ = temporary_name(film.target_);
-    const int problem = spawn_encoder(encoder_arguments(settings, film.temporary_), ends[1],
-                                      ::fileno(film.messages_), film.encoder_);
+    const int problem =
+        spawn_encoder(encoder_arguments(settings, film.temporary_), ends[1], ::fileno(film.messages_), film.encoder_);
     close_descriptor(ends[1]);
     if (problem == 0)
         return film;
@@ -133,13 +133,15 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
     return film_error(path, settings.program + " cannot be started: " + std::strerror(problem));
 }
 
-FilmWriter::~FilmWriter() { discard(); }
+FilmWriter::~FilmWriter()
+{
+    discard();
+}
 
 FilmWriter::FilmWriter(FilmWriter&& other) noexcept
-    : path_(std::move(other.path_)), target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})), frame_bytes_(other.frame_bytes_), frames_(other.frames_),
-      encoder_(std::exchange(other.encoder_, -1)), socket_(std::exchange(other.socket_, -1)),
-      messages_(std::exchange(other.messages_, nullptr))
+    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+      frame_bytes_(other.frame_bytes_), frames_(other.frames_), encoder_(std::exchange(other.encoder_, -1)),
+      socket_(std::exchange(other.socket_, -1)), messages_(std::exchange(other.messages_, nullptr))
 {
 }
 

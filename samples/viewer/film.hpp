@@ -16,9 +16,9 @@ namespace viewer
 
 struct FilmSettings
 {
-    uint32_t width = 0;            // pixels; an odd size is padded by one, for 4:2:0 needs even ones
+    uint32_t width = 0; // pixels; an odd size is padded by one, for 4:2:0 needs even ones
     uint32_t height = 0;
-    double rate = 60;              // frames per second, > 0
+    double rate = 60;               // frames per second, > 0
     std::string program = "ffmpeg"; // looked up in PATH, started directly and not by a shell
 };
 

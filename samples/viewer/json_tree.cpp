@@ -89,7 +89,8 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& problem) override
+    bool parse_error(std::size_t position, const std::string& token,
+                     const nlohmann::detail::exception& problem) override
     {
         constexpr int k_number_overflow = 406;
         if (problem.id == k_number_overflow)
@@ -198,12 +199,18 @@ const char* describe(JsonNode::Kind kind)
 {
     switch (kind)
     {
-    case JsonNode::Kind::Null: return "null";
-    case JsonNode::Kind::Boolean: return "true or false";
-    case JsonNode::Kind::Number: return "a number";
-    case JsonNode::Kind::String: return "a string";
-    case JsonNode::Kind::Array: return "an array";
-    case JsonNode::Kind::Object: return "an object";
+    case JsonNode::Kind::Null:
+        return "null";
+    case JsonNode::Kind::Boolean:
+        return "true or false";
+    case JsonNode::Kind::Number:
+        return "a number";
+    case JsonNode::Kind::String:
+        return "a string";
+    case JsonNode::Kind::Array:
+        return "an array";
+    case JsonNode::Kind::Object:
+        return "an object";
     }
     return "unknown";
 }

@@ -13,7 +13,15 @@ namespace viewer
 
 struct JsonNode
 {
-    enum class Kind { Null, Boolean, Number, String, Array, Object };
+    enum class Kind
+    {
+        Null,
+        Boolean,
+        Number,
+        String,
+        Array,
+        Object
+    };
 
     Kind kind = Kind::Null;
     uint32_t line = 0; // from 1; of a container, the line of its opening bracket
@@ -31,9 +39,9 @@ struct JsonNode
 // "a string", "an array" ..., for messages.
 const char* describe(JsonNode::Kind kind);
 
-// Parses strict JSON (no comments, no trailing commas). `file` only serves the messages. Errors, one line each: an empty
-// text, a syntax error (FILE:LINE:COLUMN: reason), a number that no double holds, a key that appears twice in an object,
-// more than 64 levels of nesting.
+// Parses strict JSON (no comments, no trailing commas). `file` only serves the messages. Errors, one line each: an
+// empty text, a syntax error (FILE:LINE:COLUMN: reason), a number that no double holds, a key that appears twice in an
+// object, more than 64 levels of nesting.
 gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file);
 
 // The same string without control characters, which would break a message into lines.

@@ -24,7 +24,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t k_largest_side = 16384;     // pixels
+constexpr uint32_t k_largest_side = 16384;      // pixels
 constexpr uint32_t k_most_frames = 100'000'000; // 19 days of simulated time
 
 // CLI11 would write "[scene(0x)]", for what it was told about repetitions.
@@ -33,7 +33,7 @@ class Formatter : public CLI::Formatter
 public:
     std::string make_usage(const CLI::App*, std::string name) const override
     {
-        return "\nUsage: " + name + " [options] [SCENE.json|NAME]\n\n";
+        return "\nUsage: " + name + " [options] [SCENE.json|NAME]\n";
     }
 };
 
@@ -41,7 +41,8 @@ public:
 struct Typed
 {
     std::vector<std::string> scenes;
-    std::vector<std::string> frames, size, out, every, video, stats, export_file, resolution, colliders, device, capture;
+    std::vector<std::string> frames, size, out, every, video, stats, export_file, resolution, colliders, device,
+        capture;
 };
 
 constexpr const char* k_description = "Simulates cloth on the GPU and shows it, in a window or as files.";
@@ -291,9 +292,12 @@ gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
         }
         return gpu::Error{one_line(word + ": unknown option" + suggestion(word, known))};
     }
-    const std::string option = text.substr(0, text.find_first_of(": "));
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr && option.starts_with("--"))
-        return gpu::Error{one_line(option + (text[option.size()] == ':' ? ": a value is missing" : ": takes no value"))};
+    const bool mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr;
+    if (mismatch && text.find("disallowed flag override") != std::string::npos)
+        return gpu::Error{one_line("--" + text.substr(0, text.find(' ')) + ": takes no value")};
+    const std::string option = text.substr(0, text.find(':'));
+    if (mismatch && option.starts_with("--"))
+        return gpu::Error{one_line(option + ": a value is missing")};
     return gpu::Error{one_line(text)};
 }
 

@@ -14,7 +14,12 @@ namespace viewer
 
 constexpr uint32_t k_headless_frames = 300; // where --frames is not given
 
-enum class ExportFormat { Obj, Ply, PointCache };
+enum class ExportFormat
+{
+    Obj,
+    Ply,
+    PointCache
+};
 
 struct Options
 {

@@ -38,7 +38,10 @@ std::string rate_text(uint32_t done, double seconds)
 
 } // namespace
 
-ProgressSettings default_progress() { return {&std::cerr, ::isatty(STDERR_FILENO) == 1, {}}; }
+ProgressSettings default_progress()
+{
+    return {&std::cerr, ::isatty(STDERR_FILENO) == 1, {}};
+}
 
 std::string duration_text(double seconds)
 {

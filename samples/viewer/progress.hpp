@@ -39,10 +39,10 @@ private:
     uint32_t frames_;
     ProgressSettings settings_;
     double start_ = 0;
-    double drawn_ = 0;       // when the bar was drawn last
+    double drawn_ = 0; // when the bar was drawn last
     uint32_t done_ = 0;
-    uint32_t tenths_ = 0;    // tenths of the run that were written
-    size_t bar_length_ = 0;  // characters of the line on the terminal, 0: none
+    uint32_t tenths_ = 0;   // tenths of the run that were written
+    size_t bar_length_ = 0; // characters of the line on the terminal, 0: none
 };
 
 // "0:07", "12:30", "1:02:03".

@@ -246,8 +246,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
             cloth.pins.push_back(parse_pin(reader, SceneReader::item(pins, i), std::get_if<GridEntry>(&cloth.form)));
     }
     reader.read(SceneReader::child(field, "velocity"), k_any, cloth.velocity);
-    if (const auto word =
-            reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
+    if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
         cloth.integrator = static_cast<Integrator>(*word);
     reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);
     return cloth;

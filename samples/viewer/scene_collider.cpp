@@ -189,8 +189,8 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     SceneReader& reader = context.reader;
     ColliderEntry collider;
     collider.line = field.line();
-    if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion",
-                               "frames", "rate"}))
+    if (!reader.object(
+            field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames", "rate"}))
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");

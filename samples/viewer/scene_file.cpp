@@ -139,8 +139,8 @@ gpu::Result<void> check_files(const SceneFile& scene)
         if (!collider.frames)
             continue;
         if (auto files = frame_files(*collider.frames); !files)
-            return gpu::Error{one_line(place(scene, collider.line) + ": " + entry + ".frames: " +
-                                       files.error().message)};
+            return gpu::Error{
+                one_line(place(scene, collider.line) + ": " + entry + ".frames: " + files.error().message)};
     }
     return {};
 }
@@ -203,7 +203,10 @@ gpu::Result<SceneFile> load_scene(const fs::path& path)
     return scene;
 }
 
-std::string place(const SceneFile& scene, uint32_t line) { return scene.path.string() + ":" + std::to_string(line); }
+std::string place(const SceneFile& scene, uint32_t line)
+{
+    return scene.path.string() + ":" + std::to_string(line);
+}
 
 gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {

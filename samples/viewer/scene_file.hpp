@@ -18,9 +18,9 @@
 namespace viewer
 {
 
-constexpr uint32_t k_least_grid_vertices = 2;    // along a side
-constexpr uint32_t k_most_grid_vertices = 8192;  // along a side
-constexpr uint32_t k_most_substeps = 1000;       // of a frame
+constexpr uint32_t k_least_grid_vertices = 2;   // along a side
+constexpr uint32_t k_most_grid_vertices = 8192; // along a side
+constexpr uint32_t k_most_substeps = 1000;      // of a frame
 
 // Scales, then rotates, then translates.
 struct TransformEntry
@@ -57,14 +57,28 @@ struct StepEntry
     std::optional<uint32_t> substeps; // of a frame, 1..1000; absent: "auto", from stability
 };
 
-enum class BendingModel { Springs, Isometric };
-enum class Integrator { Rk4, Verlet };
-enum class Edge { Top, Bottom, Left, Right }; // row 0, last row, column 0, last column
+enum class BendingModel
+{
+    Springs,
+    Isometric
+};
+enum class Integrator
+{
+    Rk4,
+    Verlet
+};
+enum class Edge
+{
+    Top,
+    Bottom,
+    Left,
+    Right
+}; // row 0, last row, column 0, last column
 
 // A preset, values, or a preset with some values replaced.
 struct MaterialEntry
 {
-    std::optional<std::string> preset; // silk, cotton, wool, denim, leather or reference
+    std::optional<std::string> preset;          // silk, cotton, wool, denim, leather or reference
     std::optional<float> areal_density;         // kg/m², > 0
     std::optional<glm::vec2> stretch_stiffness; // N/m, warp and weft, > 0
     std::optional<float> shear_stiffness;       // N/m, >= 0
@@ -88,9 +102,9 @@ struct MaterialEntry
 // Flat in x and z, centred on the origin. Vertex index = row * columns + column.
 struct GridEntry
 {
-    uint32_t columns = 0;   // along x, 2..8192
-    uint32_t rows = 0;      // along z, 2..8192
-    glm::vec2 size{0.f};    // m along x and z, > 0
+    uint32_t columns = 0; // along x, 2..8192
+    uint32_t rows = 0;    // along z, 2..8192
+    glm::vec2 size{0.f};  // m along x and z, > 0
 };
 
 struct CornerPin
@@ -183,7 +197,7 @@ struct CameraEntry
 struct SceneFile
 {
     std::filesystem::path path;
-    std::string name; // the file's name without folder and extension
+    std::string name;                    // the file's name without folder and extension
     glm::vec3 gravity{0.f, -9.81f, 0.f}; // m/s²
     WindEntry wind;
     StepEntry step;

@@ -11,7 +11,10 @@ namespace viewer
 namespace
 {
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+std::string quoted(const std::string& text)
+{
+    return "\"" + text + "\"";
+}
 
 // Levenshtein 1966: the fewest single-character insertions, deletions and replacements between two words.
 size_t edit_distance(const std::string& a, const std::string& b)
@@ -107,8 +110,7 @@ bool SceneReader::object(const Field& field, std::initializer_list<const char*> 
 
 bool SceneReader::array(const Field& field, size_t length)
 {
-    const std::string expected =
-        length == 0 ? "an array" : "an array of " + std::to_string(length) + " numbers";
+    const std::string expected = length == 0 ? "an array" : "an array of " + std::to_string(length) + " numbers";
     if (!expect(field, JsonNode::Kind::Array, expected.c_str()))
         return false;
     const size_t count = field.node->items.size();

@@ -16,11 +16,20 @@ namespace
 
 using Json = nlohmann::ordered_json; // keys in the order of the README
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
-Json count(const std::optional<uint64_t>& value) { return value ? Json(*value) : Json(nullptr); }
+Json count(const std::optional<uint64_t>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
 
-Json pair(const Percentiles& values) { return {{"median", number(values.median)}, {"p95", number(values.p95)}}; }
+Json pair(const Percentiles& values)
+{
+    return {{"median", number(values.median)}, {"p95", number(values.p95)}};
+}
 
 Json summary_json(const StatisticsSummary& summary)
 {
@@ -97,7 +106,10 @@ double p95(std::span<const double> values)
     return sorted[rank - 1];
 }
 
-Percentiles percentiles(std::span<const double> values) { return {median(values), p95(values)}; }
+Percentiles percentiles(std::span<const double> values)
+{
+    return {median(values), p95(values)};
+}
 
 void StateHash::add(std::span<const std::byte> bytes)
 {

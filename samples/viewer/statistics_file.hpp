@@ -46,9 +46,9 @@ struct StatisticsSummary
     std::optional<uint64_t> self_intersections;  // pairs of triangles; only --verify counts them
     std::optional<uint64_t> nan_vertices;
     std::optional<uint64_t> contact_overflows;
-    bool verified = false;       // the counts are those of --verify, on the CPU
-    Percentiles gpu_frame_ms;    // the whole frame
-    Percentiles gpu_cloth_ms;    // the cloth's passes
+    bool verified = false;                                   // the counts are those of --verify, on the CPU
+    Percentiles gpu_frame_ms;                                // the whole frame
+    Percentiles gpu_cloth_ms;                                // the cloth's passes
     std::vector<std::pair<std::string, double>> gpu_pass_ms; // median a frame, by the pass's name
     Percentiles cpu_record_ms;
     uint64_t state_hash = 0; // written as 16 hexadecimal digits
