@@ -17,10 +17,13 @@ Mesh make_sphere(const glm::vec3& center, float radius, uint32_t rings)
         {
             const float v = static_cast<float>(ring) / static_cast<float>(rings);
             const float u = static_cast<float>(segment) / static_cast<float>(segments);
+            // The seam's two columns and the poles' vertices lie exactly on each other: the sphere is closed.
+            const bool pole = ring == 0 || ring == rings;
             const float polar = v * glm::pi<float>();
-            const float azimuth = u * glm::two_pi<float>();
-            const glm::vec3 n{std::sin(polar) * std::cos(azimuth), std::cos(polar),
-                              -std::sin(polar) * std::sin(azimuth)};
+            const float azimuth =
+                static_cast<float>(segment % segments) / static_cast<float>(segments) * glm::two_pi<float>();
+            const float across = pole ? 0.f : std::sin(polar);
+            const glm::vec3 n{across * std::cos(azimuth), std::cos(polar), -across * std::sin(azimuth)};
             mesh.positions.push_back(center + radius * n);
             mesh.normals.push_back(n);
             mesh.texture_coordinates.emplace_back(u, v);

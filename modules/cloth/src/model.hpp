@@ -47,13 +47,4 @@ shared::ColliderRecord make_collider_record(uint32_t kind, const std::optional<F
 // The chunks that cover all cloths with workgroups of `workgroup_size` vertices; none straddles two cloths.
 std::vector<shared::Chunk> make_chunks(const Model& model, uint32_t workgroup_size);
 
-// Whether every edge is shared by exactly two triangles that run along it in opposite directions. Vertices at the same
-// place count as one. `volume` (m^3) is then what the mesh encloses, negative for an inside-out one.
-struct Closedness
-{
-    bool closed = false;
-    double volume = 0;
-};
-Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
-
 } // namespace cloth

@@ -166,7 +166,10 @@ const std::string& Solver::name(ClothId cloth) const
     return state_->model.cloth_names[cloth.index];
 }
 
-const gpu::Context& Solver::context() const { return state_->context; }
+const gpu::Context& Solver::context() const
+{
+    return state_->context;
+}
 
 uint32_t Solver::vertex_count() const
 {

@@ -26,7 +26,7 @@ struct Grid
     glm::mat4 transform{1.f};   // world from grid; affine. Rest lengths are the grid's, not the transformed ones
     glm::vec3 velocity{0.f};    // m/s, of every vertex at the start
     Material material{};
-    std::vector<uint32_t> held{};// vertices that never move (inverse mass 0)
+    std::vector<uint32_t> held{}; // vertices that never move (inverse mass 0)
 };
 
 struct Friction
@@ -42,9 +42,9 @@ struct Friction
 struct MeshCollider
 {
     std::string name = "mesh";
-    std::span<const glm::vec3> positions{}; // m, in the mesh's space
+    std::span<const glm::vec3> positions{};  // m, in the mesh's space
     std::span<const glm::uvec3> triangles{}; // indices into positions; triangles without area are dropped
-    glm::mat4 transform{1.f};              // world from mesh; affine
+    glm::mat4 transform{1.f};                // world from mesh; affine
     std::optional<Friction> friction{};
 };
 

@@ -1,0 +1,46 @@
+// MeshDistance: the exact distance of points from a collider's mesh, on the host in double precision. For checks and
+// tools; the simulation does not use it.
+#pragma once
+
+#include "cloth/descriptions.hpp"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace cloth
+{
+
+class MeshDistance
+{
+public:
+    // Copies the mesh. Errors: those of Solver::add_collider.
+    static Result<MeshDistance> create(const MeshCollider& collider);
+    ~MeshDistance();
+    MeshDistance(MeshDistance&&) noexcept;
+    MeshDistance& operator=(MeshDistance&&) noexcept;
+
+    // Whether the mesh encloses a volume. An open mesh has no inside: its sign is the side of its triangles.
+    [[nodiscard]] bool closed() const;
+
+    struct Nearest
+    {
+        glm::dvec3 point{0.0};      // on the mesh, m
+        double signed_distance = 0; // m; negative inside a closed mesh, or behind an open one
+        bool on_boundary = false;   // nearest to an edge that only one triangle has: the sign means little there
+    };
+    // The nearest point of the mesh, its sign from the angle-weighted normal of the feature that the point lies on
+    // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal").
+    [[nodiscard]] Nearest nearest(const glm::dvec3& point) const;
+
+    // Where the segment first crosses the mesh, as a fraction of its length.
+    [[nodiscard]] std::optional<double> crossing(const glm::dvec3& from, const glm::dvec3& to) const;
+
+private:
+    struct State;
+    explicit MeshDistance(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+} // namespace cloth

@@ -1,0 +1,124 @@
+// Meshes as they are given: validation, placement, welding, orientation.
+#include "mesh_input.hpp"
+
+#include "model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+namespace cloth
+{
+
+namespace
+{
+
+Result<void> validate(const MeshCollider& collider)
+{
+    const auto bad = [&](const std::string& reason) { return invalid("collider", collider.name, reason); };
+    if (collider.triangles.empty())
+        return bad("the mesh has no triangles");
+    if (!finite(collider.transform))
+        return bad("its transform is not finite");
+    for (size_t i = 0; i < collider.positions.size(); ++i)
+        if (!finite(collider.positions[i]))
+            return bad("position " + std::to_string(i) + " is not finite");
+    for (size_t t = 0; t < collider.triangles.size(); ++t)
+        for (int corner = 0; corner < 3; ++corner)
+            if (collider.triangles[t][corner] >= collider.positions.size())
+                return bad("triangle " + std::to_string(t) + " refers to position " +
+                           std::to_string(collider.triangles[t][corner]) + " of " +
+                           std::to_string(collider.positions.size()));
+    if (collider.triangles.size() > VOILE_BVH_FIRST_MASK)
+        return bad(std::to_string(collider.triangles.size()) + " triangles, at most " +
+                   std::to_string(VOILE_BVH_FIRST_MASK));
+    return check_friction(collider.name, collider.friction);
+}
+
+std::vector<glm::vec3> to_world(const MeshCollider& collider)
+{
+    std::vector<glm::vec3> world;
+    world.reserve(collider.positions.size());
+    for (const glm::vec3& p : collider.positions)
+        world.emplace_back(collider.transform * glm::vec4(p, 1));
+    return world;
+}
+
+// A triangle whose normal vanishes in float has no side to push to.
+bool has_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t)
+{
+    const glm::vec3 n = glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
+    return glm::dot(n, n) > 1e-30f;
+}
+
+} // namespace
+
+std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
+{
+    struct Hash
+    {
+        size_t operator()(const glm::vec3& p) const
+        {
+            uint32_t bits[3];
+            std::memcpy(bits, &p, sizeof(bits));
+            return (size_t{bits[0]} * 73856093u) ^ (size_t{bits[1]} * 19349663u) ^ (size_t{bits[2]} * 83492791u);
+        }
+    };
+    std::unordered_map<glm::vec3, uint32_t, Hash> first;
+    first.reserve(positions.size());
+    std::vector<uint32_t> result(positions.size());
+    for (uint32_t i = 0; i < positions.size(); ++i)
+        result[i] = first.try_emplace(positions[i] + 0.f, i).first->second; // + 0: -0 and 0 are one place
+    return result;
+}
+
+Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    const std::vector<uint32_t> welded = weld(positions);
+    // A directed edge as a key; a closed mesh has every one once, and its reverse once.
+    std::vector<uint64_t> edges;
+    edges.reserve(3 * triangles.size());
+    Closedness result;
+    for (const glm::uvec3& t : triangles)
+    {
+        for (int corner = 0; corner < 3; ++corner)
+            edges.push_back(uint64_t{welded[t[corner]]} << 32 | welded[t[(corner + 1) % 3]]);
+        const glm::dvec3 a = positions[t.x];
+        const glm::dvec3 b = positions[t.y];
+        const glm::dvec3 c = positions[t.z];
+        result.volume += glm::dot(a, glm::cross(b, c)) / 6;
+    }
+    std::sort(edges.begin(), edges.end());
+    const bool unique = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+    result.closed =
+        unique && std::all_of(edges.begin(), edges.end(),
+                              [&](uint64_t edge)
+                              { return std::binary_search(edges.begin(), edges.end(), edge << 32 | edge >> 32); });
+    return result;
+}
+
+Result<MeshInput> prepare_mesh(const MeshCollider& collider)
+{
+    if (auto valid = validate(collider); !valid)
+        return valid.error();
+    MeshInput mesh;
+    mesh.positions = to_world(collider);
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) { return finite(p); }))
+        return invalid("collider", collider.name, "its transform takes a position out of range");
+    mesh.triangles.reserve(collider.triangles.size());
+    std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
+                 [&](const glm::uvec3& t) { return has_area(mesh.positions, t); });
+    if (mesh.triangles.empty())
+        return invalid("collider", collider.name,
+                       "none of its " + std::to_string(collider.triangles.size()) + " triangles has an area");
+
+    const Closedness shape = closedness(mesh.positions, mesh.triangles);
+    mesh.closed = shape.closed;
+    if (shape.closed && shape.volume < 0)
+        for (glm::uvec3& t : mesh.triangles)
+            std::swap(t.y, t.z);
+    return mesh;
+}
+
+} // namespace cloth

@@ -1,0 +1,35 @@
+// Meshes as they are given: validation, placement, welding, orientation.
+#pragma once
+
+#include "cloth/descriptions.hpp"
+
+#include <span>
+#include <vector>
+
+namespace cloth
+{
+
+// A collider's mesh in world space, without triangles that have no area; closed ones face outwards.
+struct MeshInput
+{
+    std::vector<glm::vec3> positions; // m
+    std::vector<glm::uvec3> triangles;
+    bool closed = false;
+};
+
+// Errors: see Solver::add_collider.
+Result<MeshInput> prepare_mesh(const MeshCollider& collider);
+
+// For each position, the index of the first one at the same place.
+std::vector<uint32_t> weld(std::span<const glm::vec3> positions);
+
+// Whether every edge is shared by exactly two triangles that run along it in opposite directions. Vertices at the same
+// place count as one. `volume` (m^3) is then what the mesh encloses, negative for an inside-out one.
+struct Closedness
+{
+    bool closed = false;
+    double volume = 0;
+};
+Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+
+} // namespace cloth
