@@ -26,7 +26,8 @@ struct Surface
     float roughness = 0.6f;     // perceptual, 0.05..1
     float metallic = 0;         // 0..1
     float sheen = 0;            // 0..1; strength of the fabric's grazing-angle sheen
-    float weave_scale = 0;      // threads per unit of texture coordinate; 0 = no weave
+    float weave_scale = 0;      // fabric: threads per unit of texture coordinate
+    float pattern_scale = 0;    // fabric: repeats of its check per unit of texture coordinate
     bool two_sided = false;     // lit from both sides, not culled
     enum class Kind : uint32_t
     {
@@ -35,6 +36,16 @@ struct Surface
         ground
     } kind = Kind::plain;
 };
+
+// Stone slabs that fade into the horizon.
+inline Surface ground_surface()
+{
+    Surface surface;
+    surface.base_color = {0.36f, 0.34f, 0.31f};
+    surface.roughness = 0.85f;
+    surface.kind = Surface::Kind::ground;
+    return surface;
+}
 
 // A triangle list drawn from separate vertex streams. Normals may come straight from a compute shader.
 struct Drawable

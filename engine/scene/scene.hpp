@@ -19,8 +19,8 @@ struct Camera
 
 struct Sun
 {
-    glm::vec3 direction{-0.45f, -0.8f, -0.35f}; // the way its light travels; need not be unit length
-    glm::vec3 radiance{3.2f, 3.0f, 2.7f};       // linear; of a white surface that faces it, times pi
+    glm::vec3 direction{-0.55f, -0.75f, -0.3f}; // the way its light travels; need not be unit length
+    glm::vec3 irradiance{4.4f, 4.0f, 3.4f};     // linear; of a surface that faces it
 };
 
 class Entity

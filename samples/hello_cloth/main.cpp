@@ -30,12 +30,11 @@ void run(bool headless)
     sheet.transform[3] = {0, 1.2f, 0, 1};
     sheet.material = cloth::make_material({}, 2.f / 63, 2.f / 63);
     scene.add("sheet").add<cloth::component::Sheet>(
-        world, app.uploads(), sheet, cloth::component::fabric_surface({0.55f, 0.05f, 0.08f}, {0.6f, 0.5f, 0.35f}));
+        world, app.uploads(), sheet, cloth::component::fabric_surface({0.55f, 0.05f, 0.08f}, {0.6f, 0.5f, 0.35f}, 2));
 
     scene.add("sphere").add<engine::StaticMesh>(app.uploads(), engine::make_sphere({0, 0.5f, 0}, 0.495f),
-                                                engine::Surface{});
-    scene.add("ground").add<engine::StaticMesh>(app.uploads(), engine::make_ground(60),
-                                                engine::Surface{.kind = engine::Surface::Kind::ground});
+                                                engine::Surface{.base_color{0.75f, 0.72f, 0.65f}});
+    scene.add("ground").add<engine::StaticMesh>(app.uploads(), engine::make_ground(60), engine::ground_surface());
 
     engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
     if (!app.has_window())
@@ -43,7 +42,7 @@ void run(bool headless)
         { readback.record(cmd, app.renderer().color(), frame.slot); };
     uint32_t last_slot = 0;
     app.completed = [&](const engine::FrameInfo& frame) { last_slot = frame.slot; };
-    app.run(120);
+    app.run(60);
     if (!app.has_window())
         engine::take(engine::save_png("hello_cloth.png", readback.picture(last_slot)));
 }

@@ -2,9 +2,9 @@
 #ifndef VOILE_BVH_LAYOUT_H
 #define VOILE_BVH_LAYOUT_H
 
-#include "shared_types.h"
+#include "../shared_types.h"
 
-VOILE_SHARED_BEGIN
+VOILE_SHARED_BEGIN(cloth)
 
 // An inner node holds the boxes of both its children, so that one 64-byte read decides about two subtrees.
 // A child is an inner node's index, or, with the highest bit set, a leaf: bits 29-30 are its triangle count minus one

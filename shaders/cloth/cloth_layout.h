@@ -2,7 +2,7 @@
 #ifndef VOILE_CLOTH_LAYOUT_H
 #define VOILE_CLOTH_LAYOUT_H
 
-#include "shared_types.h"
+#include "../shared_types.h"
 
 // The springs of a grid vertex come in eight classes; a class joins it to the vertices at +offset and -offset.
 // Classes 0-1 structural (column, row), 2-3 shear, 4-5 bend, 6-7 diagonal bend.
@@ -17,7 +17,7 @@
 // The collider has friction coefficients of its own.
 #define VOILE_COLLIDER_FRICTION 2u
 
-VOILE_SHARED_BEGIN
+VOILE_SHARED_BEGIN(cloth)
 
 struct SpringClass
 {

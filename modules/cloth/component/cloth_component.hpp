@@ -61,7 +61,8 @@ private:
     uint32_t index_count_ = 0;
 };
 
-// A two-sided woven surface in the given colours, for cloths.
-engine::Surface fabric_surface(const glm::vec3& color, const glm::vec3& back_color);
+// A two-sided woven surface in the given colours (linear), for a cloth whose longer side is `size` m: its check repeats
+// ten times along it, whatever the scale of the scene.
+engine::Surface fabric_surface(const glm::vec3& color, const glm::vec3& back_color, float size);
 
 } // namespace cloth::component

@@ -1,0 +1,10 @@
+// The descriptor set that all of the renderer's shaders share.
+#ifndef VOILE_FRAME_GLSL
+#define VOILE_FRAME_GLSL
+
+#include "render_layout.h"
+
+layout(set = 0, binding = 0, scalar) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
+
+#endif

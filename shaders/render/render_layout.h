@@ -1,0 +1,43 @@
+// What the renderer's shaders are told about a frame and a draw. One definition for GLSL and C++.
+#ifndef VOILE_RENDER_LAYOUT_H
+#define VOILE_RENDER_LAYOUT_H
+
+#include "../shared_types.h"
+
+#define VOILE_SURFACE_PLAIN 0u
+#define VOILE_SURFACE_FABRIC 1u
+#define VOILE_SURFACE_GROUND 2u
+
+VOILE_SHARED_BEGIN(engine)
+
+struct FrameUniforms
+{
+    mat4 clip_from_world;
+    mat4 world_from_clip;
+    mat4 shadow_from_world; // clip space of the shadow map
+    vec3 camera_position;   // m
+    float shadow_texel;     // m, the side of a texel of the shadow map
+    vec3 to_sun;            // unit
+    float shadow_step;      // 1 / the shadow map's resolution
+    vec3 sun_irradiance;      // irradiance of a surface that faces the sun
+    float focus_radius;     // m
+    vec3 focus;             // m
+    float padding;
+};
+
+struct DrawPush
+{
+    mat4 world_from_model;
+    vec3 base_color;
+    float roughness;
+    vec3 back_color;
+    float metallic;
+    float sheen;
+    float weave_scale;
+    float pattern_scale;
+    uint kind;
+};
+
+VOILE_SHARED_END
+
+#endif

@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Depth of a drawable as the sun sees it.
+#include "frame.glsl"
+
+layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(location = 0) in vec4 position;
+
+void main()
+{
+    gl_Position = frame.shadow_from_world * (push.world_from_model * vec4(position.xyz, 1));
+}

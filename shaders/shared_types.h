@@ -1,0 +1,27 @@
+// Types of the headers that GLSL and C++ compile alike. In C++ they are GLM's, in namespace NAME::shared.
+// Structs there are laid out with GLSL's scalar layout, which is C++'s natural layout for these types.
+#ifndef VOILE_SHARED_TYPES_H
+#define VOILE_SHARED_TYPES_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace shader_types
+{
+using uint = uint32_t;
+using vec2 = glm::vec2;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+using mat4 = glm::mat4;
+} // namespace shader_types
+#define VOILE_SHARED_BEGIN(name)                                                                                       \
+    namespace name::shared                                                                                             \
+    {                                                                                                                  \
+    using namespace shader_types;
+#define VOILE_SHARED_END }
+#else
+#define VOILE_SHARED_BEGIN(name)
+#define VOILE_SHARED_END
+#endif
+
+#endif
