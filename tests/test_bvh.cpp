@@ -1,6 +1,6 @@
 // The hierarchy against brute force: its structure, rays, nearest points, and the signed distance built on it.
 #include "bvh_query.hpp"
-#include "cloth/mesh_distance.hpp"
+#include "cloth/mesh_checks.hpp"
 
 #include "engine/assets/shapes.hpp"
 

@@ -59,10 +59,8 @@ public:
     // Runs until the window is closed, or, headless, for `headless_frames`.
     void run(uint64_t headless_frames);
 
-    [[nodiscard]] double record_milliseconds() const
-    {
-        return record_milliseconds_;
-    } // CPU time of the last frame's recording
+    [[nodiscard]] float time_step() const { return time_step_; }                      // s
+    [[nodiscard]] double record_milliseconds() const { return record_milliseconds_; } // of the host, for the last frame
 
 private:
     void complete(uint32_t slot);

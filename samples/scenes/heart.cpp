@@ -125,7 +125,7 @@ engine::Mesh make_ground()
     constexpr double k_centre = 5.08;
     engine::Mesh mesh;
     const auto coordinate = [](uint32_t i)
-    { return static_cast<float>(k_centre + k_size * (double{i} / (k_side - 1) - 0.5)); };
+    { return static_cast<float>(k_centre + k_size * (static_cast<double>(i) / (k_side - 1) - 0.5)); };
     for (uint32_t row = 0; row < k_side; ++row)
         for (uint32_t column = 0; column < k_side; ++column)
             mesh.positions.emplace_back(coordinate(column), 0.f, coordinate(row));

@@ -2,7 +2,7 @@
 #ifndef VOILE_SKY_GLSL
 #define VOILE_SKY_GLSL
 
-const vec3 k_zenith = vec3(0.10, 0.22, 0.48);
+const vec3 k_zenith = vec3(0.13, 0.23, 0.42);
 const vec3 k_horizon = vec3(0.46, 0.56, 0.68);
 const vec3 k_ground_bounce = vec3(0.15, 0.13, 0.11);
 

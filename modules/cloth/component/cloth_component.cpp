@@ -32,7 +32,12 @@ void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& fr
 }
 
 Sheet::Sheet(ClothWorld& world, engine::UploadBatch& uploads, const Grid& grid, const engine::Surface& surface)
-    : world_(world), cloth_(engine::take(world.solver().add_cloth(grid))), surface_(surface),
+    : Sheet(world, uploads, engine::take(world.solver().add_cloth(grid)), surface)
+{
+}
+
+Sheet::Sheet(ClothWorld& world, engine::UploadBatch& uploads, ClothId cloth, const engine::Surface& surface)
+    : world_(world), cloth_(cloth), surface_(surface),
       texture_coordinates_(uploads.buffer("cloth texture coordinates", world.solver().texture_coordinates(cloth_),
                                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT))
 {

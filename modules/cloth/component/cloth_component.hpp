@@ -45,7 +45,9 @@ private:
 class Sheet : public engine::Component
 {
 public:
-    // Adds `grid` to the world, or throws StartupError with the reason.
+    // Draws a cloth that was added to the world's solver.
+    Sheet(ClothWorld& world, engine::UploadBatch& uploads, ClothId cloth, const engine::Surface& surface);
+    // Adds `grid` to the world first, or throws StartupError with the reason.
     Sheet(ClothWorld& world, engine::UploadBatch& uploads, const Grid& grid, const engine::Surface& surface);
 
     [[nodiscard]] ClothId cloth() const { return cloth_; }

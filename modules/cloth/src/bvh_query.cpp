@@ -111,6 +111,19 @@ std::optional<RayHit> nearest_hit(const Bvh& bvh, const glm::dvec3& origin, cons
     return best;
 }
 
+void visit_box(const Bvh& bvh, const glm::vec3& min, const glm::vec3& max, const std::function<void(uint32_t)>& visit)
+{
+    traverse(
+        bvh,
+        [&](const glm::vec3& node_min, const glm::vec3& node_max)
+        {
+            const bool overlap =
+                glm::all(glm::lessThanEqual(node_min, max)) && glm::all(glm::lessThanEqual(min, node_max));
+            return overlap ? 0 : k_miss;
+        },
+        [] { return 0.0; }, [&](const shared::BvhTriangle& triangle) { visit(triangle.index); });
+}
+
 NearestPoint nearest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
     const auto at = [&](const glm::dvec3& point, Feature feature) {

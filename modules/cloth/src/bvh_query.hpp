@@ -3,6 +3,7 @@
 
 #include "bvh.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace cloth
@@ -20,6 +21,9 @@ std::optional<RayHit> nearest_hit(const Bvh& bvh, const glm::dvec3& origin, cons
 // Where a ray meets a triangle, if it does.
 std::optional<double> ray_triangle(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a,
                                    const glm::dvec3& b, const glm::dvec3& c);
+
+// Calls visit(triangle) for every triangle of the leaves that the box reaches.
+void visit_box(const Bvh& bvh, const glm::vec3& min, const glm::vec3& max, const std::function<void(uint32_t)>& visit);
 
 // Which part of a triangle a point of it is: of a corner 0 to 2, of the edge from corner i (3 + i), or of its face.
 enum class Feature : uint8_t

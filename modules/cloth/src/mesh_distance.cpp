@@ -1,5 +1,5 @@
 // Signed distance by the nearest feature's pseudonormal.
-#include "cloth/mesh_distance.hpp"
+#include "cloth/mesh_checks.hpp"
 
 #include "bvh_query.hpp"
 #include "mesh_input.hpp"

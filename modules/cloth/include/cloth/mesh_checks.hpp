@@ -1,5 +1,4 @@
-// MeshDistance: the exact distance of points from a collider's mesh, on the host in double precision. For checks and
-// tools; the simulation does not use it.
+// Exact checks of a state, on the host in double precision. For tests and tools; the simulation does not use them.
 #pragma once
 
 #include "cloth/descriptions.hpp"
@@ -12,6 +11,7 @@
 namespace cloth
 {
 
+// The signed distance of points from a collider's mesh.
 class MeshDistance
 {
 public:
@@ -42,5 +42,9 @@ private:
     explicit MeshDistance(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
+
+// Pairs of triangles that have no corner in common and cut each other: an edge of one passes through the other (Möller
+// and Trumbore 1997). Indices must be within `positions`; triangles with a corner that is not finite are left out.
+uint64_t count_self_intersections(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 
 } // namespace cloth

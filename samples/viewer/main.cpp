@@ -1,0 +1,198 @@
+// viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
+#include "samples/viewer/frame_outputs.hpp"
+#include "samples/viewer/progress.hpp"
+#include "samples/viewer/verify.hpp"
+
+#include "engine/gpu/capture.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+namespace
+{
+
+using namespace viewer;
+
+constexpr int k_done = 0;
+constexpr int k_failed = 1;
+constexpr int k_invalid = 2; // validation messages, or a counter that must be zero is not
+
+void print_devices()
+{
+    const std::vector<engine::DeviceInfo> devices = engine::list_devices();
+    for (size_t i = 0; i < devices.size(); ++i)
+        std::printf("%zu: %s (%s)%s%s\n", i, devices[i].name.c_str(), devices[i].driver.c_str(),
+                    devices[i].unusable.empty() ? "" : ", cannot be used: ", devices[i].unusable.c_str());
+    if (devices.empty())
+        throw engine::StartupError("no Vulkan device on this system");
+}
+
+// Before a long run: files that are written at its end must be writable.
+void check_targets(const Options& options)
+{
+    if (options.stats)
+        (void)engine::take(AtomicFile::create(*options.stats));
+    if (options.export_file)
+        (void)engine::take(AtomicFile::create(*options.export_file));
+}
+
+engine::AppOptions app_options(const Options& options, const SceneFile& scene)
+{
+    engine::AppOptions result;
+    result.title = "voile: " + scene.name;
+    result.extent = {options.width, options.height};
+    result.headless = options.headless;
+    result.device.device = options.device.value_or("");
+    result.device.validation = options.validate;
+    result.time_step = 1 / scene.step.rate;
+    result.timestamps = true;
+    return result;
+}
+
+// One frame, captured if it is the one that was asked for. False when the window was closed.
+bool run_frame(engine::App& app, Stage& stage, uint64_t index, engine::Capture* capture, const Options& options)
+{
+    const double time = static_cast<double>(index) * static_cast<double>(app.time_step());
+    stage.world->step.wind = wind_at(stage.wind, time);
+    const bool capturing = capture != nullptr && options.capture == index;
+    if (capturing)
+        capture->begin();
+    const bool open = app.frame();
+    if (capturing)
+    {
+        app.finish();
+        std::printf("capture: %s\n", capture->end().c_str());
+    }
+    return open;
+}
+
+void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
+                engine::Capture* capture, const Options& options)
+{
+    app.after_render = [&](VkCommandBuffer cmd, const engine::FrameInfo& frame) { outputs.record(cmd, frame); };
+    app.completed = [&](const engine::FrameInfo& frame)
+    {
+        statistics.completed(stage, frame);
+        engine::take(outputs.write(frame));
+    };
+    const bool endless = app.has_window() && !options.frames;
+    const uint32_t frames = endless ? UINT32_MAX : engine::take(headless_frames(options));
+    std::optional<Progress> progress;
+    if (!app.has_window())
+        progress.emplace(frames);
+    for (uint32_t i = 0; i < frames; ++i)
+    {
+        if (!run_frame(app, stage, i, capture, options))
+            break;
+        statistics.recorded(app.record_milliseconds());
+        if (progress)
+            progress->update(i + 1);
+    }
+    app.finish();
+    if (progress)
+        progress->finish();
+}
+
+void export_state(const Options& options, const std::vector<FinalCloth>& state, std::vector<std::string>& written)
+{
+    if (!options.export_file || options.export_format == ExportFormat::PointCache)
+        return;
+    std::vector<ClothSurface> surfaces;
+    for (const FinalCloth& cloth : state)
+        surfaces.push_back({cloth.name, cloth.positions, cloth.normals, cloth.triangles});
+    for (const auto& path : engine::take(export_surfaces(*options.export_file, surfaces)))
+        written.push_back(path.string());
+}
+
+void add_verification(const Verification& verification, Statistics& statistics)
+{
+    StatisticsSummary& summary = statistics.summary;
+    summary.verified = true;
+    summary.penetrating_vertices = verification.penetrating_vertices;
+    summary.deepest_penetration = verification.deepest_penetration;
+    summary.self_intersections = verification.self_intersections;
+    std::printf("verified: %llu penetrating vertices, deepest %.3g mm, %llu self-intersections\n",
+                static_cast<unsigned long long>(verification.penetrating_vertices),
+                1000 * verification.deepest_penetration,
+                static_cast<unsigned long long>(verification.self_intersections));
+}
+
+int exit_code(engine::App& app, const Statistics& statistics)
+{
+    const uint32_t messages = app.device().validation().count();
+    if (messages > 0)
+        std::fprintf(stderr, "viewer: %u validation messages\n", messages);
+    const uint64_t broken = statistics.summary.nan_vertices.value_or(0);
+    if (broken > 0)
+        std::fprintf(stderr, "viewer: %llu vertices are not finite\n", static_cast<unsigned long long>(broken));
+    return messages > 0 || broken > 0 ? k_invalid : k_done;
+}
+
+int run_scene(const Options& options)
+{
+    const SceneFile scene = engine::take(load_scene(engine::take(find_scene(options.scene))));
+    const std::vector<Solid> solids = engine::take(load_solids(scene, options));
+    check_targets(options);
+    std::optional<engine::Capture> capture; // before the instance
+    if (options.capture)
+        capture.emplace((options.out.value_or(".") / "voile").string());
+
+    engine::App app(app_options(options, scene));
+    if (!app.has_window() && !options.headless)
+        std::fprintf(stderr, "viewer: no display, running headless\n");
+    Stage stage = engine::take(set_stage(app, scene, solids, options));
+    FrameOutputs outputs = engine::take(FrameOutputs::create(app, stage, scene, options));
+    RunStatistics measured;
+    run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
+
+    std::vector<std::string> written = engine::take(outputs.finish());
+    const std::vector<FinalCloth> state = download_state(app.device(), stage);
+    export_state(options, state, written);
+    Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
+    if (options.verify)
+        add_verification(engine::take(verify(stage, solids, state)), statistics);
+    if (options.stats)
+    {
+        engine::take(save_statistics(*options.stats, statistics));
+        written.push_back(options.stats->string());
+    }
+    for (const std::string& line : written)
+        std::printf("wrote %s\n", line.c_str());
+    return exit_code(app, statistics);
+}
+
+int run(int count, char** arguments)
+{
+    const Options options = engine::take(parse_options(count, arguments));
+    if (!options.message.empty())
+    {
+        std::fputs(options.message.c_str(), stdout);
+        return k_done;
+    }
+    if (options.list_devices)
+    {
+        print_devices();
+        return k_done;
+    }
+    return run_scene(options);
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    try
+    {
+        return run(count, arguments);
+    }
+    catch (const std::bad_alloc&)
+    {
+        std::fprintf(stderr, "viewer: out of memory\n");
+    }
+    catch (const std::exception& error) // engine::StartupError with the reason in one line
+    {
+        std::fprintf(stderr, "viewer: %s\n", error.what());
+    }
+    return k_failed;
+}

@@ -1,0 +1,138 @@
+// Presets, and what a scene file changes of them.
+#include "samples/viewer/materials.hpp"
+
+namespace viewer
+{
+namespace
+{
+
+// Typical of their class (plain light silk, shirting, suiting, 12 oz denim, garment leather), not of one measured
+// sample: areal density, stretch stiffness of warp and weft, shear, bending, damping ratio, thickness, friction.
+std::optional<cloth::Fabric> fabric_preset(const std::string& name)
+{
+    if (name == "silk")
+        return cloth::Fabric{.areal_density = 0.07f,
+                             .stretch_stiffness{900, 700},
+                             .shear_stiffness = 25,
+                             .bending_stiffness = 4e-6f,
+                             .thickness = 0.004f,
+                             .static_friction = 0.3f,
+                             .kinetic_friction = 0.25f};
+    if (name == "cotton")
+        return cloth::Fabric{.areal_density = 0.14f,
+                             .stretch_stiffness{1500, 1200},
+                             .shear_stiffness = 60,
+                             .bending_stiffness = 8e-6f,
+                             .thickness = 0.005f,
+                             .static_friction = 0.5f,
+                             .kinetic_friction = 0.4f};
+    if (name == "wool")
+        return cloth::Fabric{.areal_density = 0.25f,
+                             .stretch_stiffness{1200, 1000},
+                             .shear_stiffness = 50,
+                             .bending_stiffness = 1.2e-5f,
+                             .thickness = 0.006f,
+                             .static_friction = 0.6f,
+                             .kinetic_friction = 0.5f};
+    if (name == "denim")
+        return cloth::Fabric{.areal_density = 0.4f,
+                             .stretch_stiffness{3500, 2500},
+                             .shear_stiffness = 250,
+                             .bending_stiffness = 7e-5f,
+                             .thickness = 0.006f,
+                             .static_friction = 0.6f,
+                             .kinetic_friction = 0.5f};
+    if (name == "leather")
+        return cloth::Fabric{.areal_density = 0.7f,
+                             .stretch_stiffness{4500, 4500},
+                             .shear_stiffness = 1200,
+                             .bending_stiffness = 2e-4f,
+                             .thickness = 0.007f,
+                             .static_friction = 0.6f,
+                             .kinetic_friction = 0.5f};
+    return std::nullopt;
+}
+
+void override_with(const std::optional<float>& value, float& target)
+{
+    if (value)
+        target = *value;
+}
+
+void apply(const MaterialEntry& entry, cloth::Fabric& fabric)
+{
+    override_with(entry.areal_density, fabric.areal_density);
+    if (entry.stretch_stiffness)
+        fabric.stretch_stiffness = {entry.stretch_stiffness->x, entry.stretch_stiffness->y};
+    override_with(entry.shear_stiffness, fabric.shear_stiffness);
+    override_with(entry.bending_stiffness, fabric.bending_stiffness);
+    override_with(entry.damping_ratio, fabric.damping_ratio);
+}
+
+void apply(const MaterialEntry& entry, cloth::Material& material)
+{
+    override_with(entry.thickness, material.thickness);
+    override_with(entry.kinetic_friction, material.kinetic_friction);
+    override_with(entry.static_friction, material.static_friction);
+    // One of the two alone must not put them out of order.
+    if (!entry.static_friction)
+        material.static_friction = std::max(material.static_friction, material.kinetic_friction);
+    if (!entry.kinetic_friction)
+        material.kinetic_friction = std::min(material.static_friction, material.kinetic_friction);
+    override_with(entry.air_drag_normal, material.air_drag_normal);
+    override_with(entry.air_drag_tangential, material.air_drag_tangential);
+    override_with(entry.vertex_mass, material.vertex_mass);
+    override_with(entry.linear_drag, material.linear_drag);
+    cloth::SpringSet& s = material.springs;
+    for (cloth::Spring* spring :
+         {&s.structural_warp, &s.structural_weft, &s.shear, &s.bend_warp, &s.bend_weft, &s.diagonal_bend})
+    {
+        override_with(entry.spring_stiffness, spring->stiffness);
+        override_with(entry.spring_damping, spring->damping);
+    }
+}
+
+bool has_fabric_values(const MaterialEntry& entry)
+{
+    return entry.areal_density || entry.stretch_stiffness || entry.shear_stiffness || entry.bending_stiffness ||
+           entry.damping_ratio;
+}
+
+} // namespace
+
+gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                const glm::vec2& spacing)
+{
+    const auto bad = [&](const std::string& reason)
+    { return gpu::Error{place(scene, entry.line) + ": material: " + reason}; };
+    if (entry.strain_limit.value_or(0) > 0)
+        return bad("strain_limit is not supported yet");
+    if (entry.bending_model.value_or(BendingModel::Springs) != BendingModel::Springs)
+        return bad("bending_model \"isometric\" is not supported yet");
+
+    cloth::Material material;
+    if (entry.preset == "reference")
+    {
+        if (has_fabric_values(entry))
+            return bad("the preset \"reference\" gives masses and springs outright; it takes vertex_mass, "
+                       "spring_stiffness and spring_damping, not a fabric's values");
+        material = cloth::reference_material();
+    }
+    else
+    {
+        const std::string preset = entry.preset.value_or("cotton");
+        std::optional<cloth::Fabric> fabric = fabric_preset(preset);
+        if (!fabric)
+            return bad("unknown preset \"" + preset + "\"; there are silk, cotton, wool, denim, leather and reference");
+        apply(entry, *fabric);
+        if (const auto valid = cloth::validate(*fabric); !valid)
+            return bad(valid.error().message);
+        material = cloth::make_material(*fabric, spacing.x, spacing.y);
+    }
+    apply(entry, material);
+    if (const auto valid = cloth::validate(material); !valid)
+        return bad(valid.error().message);
+    return material;
+}
+
+} // namespace viewer

@@ -1,0 +1,125 @@
+// RunStatistics: collection and summary.
+#include "samples/viewer/run_statistics.hpp"
+
+#include "engine/gpu/download.hpp"
+
+#include <algorithm>
+
+namespace viewer
+{
+namespace
+{
+
+std::vector<glm::vec3> download_vectors(const engine::Device& device, VkBuffer buffer,
+                                        const cloth::VertexStreams& streams)
+{
+    const auto values = engine::download_values<glm::vec4>(device, buffer, streams.offset, streams.vertices);
+    return {values.begin(), values.end()};
+}
+
+uint64_t state_hash(const std::vector<FinalCloth>& state)
+{
+    StateHash hash;
+    for (const FinalCloth& cloth : state)
+        hash.add(cloth.positions);
+    for (const FinalCloth& cloth : state)
+        hash.add(cloth.velocities);
+    return hash.value();
+}
+
+} // namespace
+
+std::vector<FinalCloth> download_state(const engine::Device& device, const Stage& stage)
+{
+    const cloth::Solver& solver = stage.world->solver();
+    std::vector<FinalCloth> result;
+    for (const StageCloth& cloth : stage.cloths)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth.id);
+        result.push_back({cloth.name, download_vectors(device, streams.positions, streams),
+                          download_vectors(device, streams.velocities, streams),
+                          download_vectors(device, streams.normals, streams), solver.triangles(cloth.id)});
+    }
+    return result;
+}
+
+void RunStatistics::add_pass(const gpu::PassTime& pass)
+{
+    auto series =
+        std::find_if(passes_.begin(), passes_.end(), [&](const PassSeries& s) { return s.name == pass.name; });
+    if (series == passes_.end())
+        series = passes_.insert(passes_.end(), {std::string(pass.name), {}});
+    series->milliseconds.push_back(pass.milliseconds);
+}
+
+void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame)
+{
+    const cloth::Statistics measured = stage.world->solver().statistics(frame.slot);
+    FrameStatistics entry;
+    entry.frame = static_cast<uint32_t>(frame.index);
+    entry.substeps = stage.world->step.substeps > 0 ? stage.world->step.substeps
+                                                    : stage.world->solver().stable_substeps(frame.time_step);
+    entry.max_stretch = static_cast<double>(measured.max_stretch);
+    entry.mean_stretch = static_cast<double>(measured.mean_stretch);
+    entry.kinetic_energy = static_cast<double>(measured.kinetic_energy);
+    entry.penetrating_vertices = measured.penetrating_vertices;
+    entry.deepest_penetration = static_cast<double>(measured.deepest_penetration);
+    entry.nan_vertices = measured.nan_vertices;
+    entry.contact_overflows = 0; // contacts are found and answered in place: there is no list that could overflow
+    if (frame.timestamps != nullptr)
+        for (const gpu::PassTime& pass : frame.timestamps->read(frame.slot))
+        {
+            if (pass.name == "frame")
+                entry.gpu_frame_ms = pass.milliseconds;
+            else if (pass.name == "cloth")
+                entry.gpu_cloth_ms = pass.milliseconds;
+            else
+                add_pass(pass);
+        }
+    if (frame.index < record_milliseconds_.size())
+        entry.cpu_record_ms = record_milliseconds_[frame.index];
+    frames_.push_back(entry);
+}
+
+Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, const engine::DeviceInfo& device,
+                                 const std::vector<FinalCloth>& state, float time_step) const
+{
+    const cloth::Solver& solver = stage.world->solver();
+    Statistics result;
+    result.scene = scene.name;
+    result.device = device.name;
+    result.driver = device.driver;
+    result.frames = static_cast<uint32_t>(frames_.size());
+    result.per_frame = frames_;
+    StatisticsSummary& summary = result.summary;
+    summary.substeps_per_frame =
+        stage.world->step.substeps > 0 ? stage.world->step.substeps : solver.stable_substeps(time_step);
+    summary.vertices = solver.vertex_count();
+    summary.triangles = solver.triangle_count();
+    summary.state_hash = state_hash(state);
+    summary.cpu_record_ms = percentiles(record_milliseconds_);
+    std::vector<double> frame_ms;
+    std::vector<double> cloth_ms;
+    for (const FrameStatistics& frame : frames_)
+    {
+        frame_ms.push_back(frame.gpu_frame_ms);
+        cloth_ms.push_back(frame.gpu_cloth_ms);
+    }
+    summary.gpu_frame_ms = percentiles(frame_ms);
+    summary.gpu_cloth_ms = percentiles(cloth_ms);
+    for (const PassSeries& series : passes_)
+        summary.gpu_pass_ms.emplace_back(series.name, median(series.milliseconds));
+    if (frames_.empty())
+        return result;
+    const FrameStatistics& last = frames_.back();
+    summary.max_stretch = last.max_stretch;
+    summary.mean_stretch = last.mean_stretch;
+    summary.kinetic_energy = last.kinetic_energy;
+    summary.penetrating_vertices = last.penetrating_vertices;
+    summary.deepest_penetration = last.deepest_penetration;
+    summary.nan_vertices = last.nan_vertices;
+    summary.contact_overflows = last.contact_overflows;
+    return result;
+}
+
+} // namespace viewer

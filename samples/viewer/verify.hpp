@@ -1,0 +1,22 @@
+// --verify: exact checks of a final state, on the host in double precision.
+#pragma once
+
+#include "samples/viewer/colliders.hpp"
+#include "samples/viewer/run_statistics.hpp"
+
+namespace viewer
+{
+
+struct Verification
+{
+    uint64_t penetrating_vertices = 0; // of all cloths, under the surface of a solid
+    double deepest_penetration = 0;    // m
+    uint64_t self_intersections = 0;   // pairs of a cloth's triangles that cut each other
+};
+
+// A closed mesh is solid inside, a plane below. An open mesh is solid on the side where a cloth's vertices did not
+// start; past its border it says nothing.
+gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
+                                 const std::vector<FinalCloth>& state);
+
+} // namespace viewer
