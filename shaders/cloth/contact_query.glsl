@@ -10,6 +10,9 @@
 #define VOILE_METHOD_NORMAL_RAY 0    // a ray along the vertex normal and one along its opposite, the nearest hit
 #define VOILE_METHOD_NEAREST_POINT 1 // the nearest point of the mesh
 
+// Offsets from the nearest point that are shorter than this share of the thickness are too short for a direction.
+#define VOILE_SHORT_OFFSET 0.01
+
 struct Contact
 {
     bool found;
@@ -106,10 +109,13 @@ Contact nearest_contact()
     contact.found = query.distance < query.thickness;
     const vec3 offset = query.to - query.point;
     const bool inside = query.closed && dot(offset, query.face) < 0;
-    // On the surface the offset has no direction; the face has. So has a ray's hit, whose offset follows the cloth.
-    if (query.distance < 1e-6 || query.method == VOILE_METHOD_NORMAL_RAY)
+    // Near the surface the offset is too short to have a precise direction; the face has one. So it has for a ray's hit,
+    // whose offset follows the cloth.
+    const bool short_offset = query.distance < VOILE_SHORT_OFFSET * query.thickness;
+    if (short_offset || query.method == VOILE_METHOD_NORMAL_RAY)
     {
-        const bool flip = !query.closed && dot(query.from - query.point, query.face) < 0;
+        const vec3 side = query.method == VOILE_METHOD_NORMAL_RAY ? query.from - query.point : offset;
+        const bool flip = !query.closed && dot(side, query.face) < 0;
         contact.direction = flip ? -query.face : query.face;
         contact.gap = dot(offset, contact.direction);
         return contact;

@@ -1,4 +1,4 @@
-// The cloth model in double precision on the CPU: springs, drag, gravity and RK4 as physics.md-style formulas, written
+// The cloth model in double precision on the CPU: springs, drag, gravity and RK4 by the textbook formulas, written
 // without a look at the shaders' structure (one loop over springs that adds to both ends).
 #pragma once
 

@@ -1,0 +1,139 @@
+// Contact in double precision on the CPU, by brute force over all triangles: detection by the nearest point or by rays
+// along the normal, crossing of the path, response with Coulomb friction.
+#pragma once
+
+#include "cloth/descriptions.hpp"
+#include "cloth/solver.hpp"
+
+#include "bvh_query.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace reference
+{
+
+struct Contact
+{
+    glm::dvec3 direction{0.0}; // unit, to the side on which the vertex belongs
+    double gap = 0;            // m along it
+};
+
+struct TriangleMesh
+{
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::uvec3> triangles;
+    bool closed = false;
+};
+
+inline glm::dvec3 face_normal(const TriangleMesh& mesh, const glm::uvec3& t)
+{
+    return glm::normalize(
+        glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
+}
+
+// The first triangle that the path crosses; leaving a closed mesh does not count.
+inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to)
+{
+    double first = 2;
+    std::optional<Contact> result;
+    for (const glm::uvec3& t : mesh.triangles)
+    {
+        const glm::dvec3 n = face_normal(mesh, t);
+        if (mesh.closed && glm::dot(to - from, n) >= 0)
+            continue;
+        const auto hit =
+            cloth::ray_triangle(from, to - from, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        if (!hit || *hit > 1 || *hit >= first)
+            continue;
+        first = *hit;
+        const glm::dvec3 side = glm::dot(from - to, n) >= 0 ? n : -n;
+        result = Contact{side, glm::dot(to - (from + first * (to - from)), side)};
+    }
+    return result;
+}
+
+inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const glm::dvec3& to, double thickness)
+{
+    double nearest = thickness;
+    double best_alignment = 0;
+    glm::dvec3 point(0);
+    glm::dvec3 face(0);
+    for (const glm::uvec3& t : mesh.triangles)
+    {
+        const cloth::NearestPoint found =
+            cloth::nearest_on_triangle(to, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        const glm::dvec3 n = face_normal(mesh, t);
+        const double alignment = std::abs(glm::dot(to - found.point, n)) / std::max(found.distance, 1e-12);
+        const double tie = 1e-5 * thickness; // triangles that share the nearest edge: the one that faces the vertex
+        if (found.distance < nearest - tie ||
+            (found.distance < nearest + tie && alignment > best_alignment && best_alignment > 0))
+        {
+            nearest = found.distance;
+            best_alignment = alignment;
+            point = found.point;
+            face = n;
+        }
+    }
+    if (nearest >= thickness)
+        return std::nullopt;
+    const double height = glm::dot(to - point, face);
+    if (nearest < 0.01 * thickness) // too short for a direction in float: the face's normal stands in
+    {
+        const glm::dvec3 side = !mesh.closed && height < 0 ? -face : face;
+        return Contact{side, glm::dot(to - point, side)};
+    }
+    const bool inside = mesh.closed && height < 0;
+    const double sign = inside ? -1 : 1;
+    return Contact{sign * glm::normalize(to - point), sign * nearest};
+}
+
+inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to,
+                                          const glm::dvec3& normal, double thickness)
+{
+    double nearest = thickness;
+    std::optional<Contact> result;
+    for (const glm::uvec3& t : mesh.triangles)
+        for (const double sign : {1.0, -1.0})
+        {
+            const auto hit =
+                cloth::ray_triangle(to, sign * normal, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+            if (!hit || *hit >= nearest)
+                continue;
+            nearest = *hit;
+            const glm::dvec3 point = to + sign * *hit * normal;
+            glm::dvec3 n = face_normal(mesh, t);
+            if (!mesh.closed && glm::dot(from - point, n) < 0)
+                n = -n;
+            result = Contact{n, glm::dot(to - point, n)};
+        }
+    return result;
+}
+
+// Ends on the offset surface without approaching it; sticks within the cone of static friction, else slides.
+inline void respond(const Contact& contact, double thickness, double mu_s, double mu_k, double h,
+                    const glm::dvec3& from, glm::dvec3& x, glm::dvec3& v)
+{
+    const glm::dvec3 n = contact.direction;
+    x += (thickness - contact.gap) * n;
+    const double normal_impulse = std::max(-glm::dot(v, n), 0.0);
+    v += normal_impulse * n;
+    if (normal_impulse == 0)
+        return;
+    const glm::dvec3 tangential = v - glm::dot(v, n) * n;
+    if (glm::length(tangential) <= mu_s * normal_impulse)
+    {
+        v -= tangential;
+        const glm::dvec3 slid = x - from;
+        x -= slid - glm::dot(slid, n) * n;
+        return;
+    }
+    const double braking = std::min(mu_k * normal_impulse / glm::length(tangential), 1.0);
+    v -= braking * tangential;
+    x -= 0.5 * h * braking * tangential;
+}
+
+} // namespace reference
