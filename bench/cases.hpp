@@ -1,0 +1,29 @@
+// The benchmark's cases: what is put into a solver, and how far it runs before it is measured.
+#pragma once
+
+#include "cloth/solver.hpp"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace bench
+{
+
+struct Case
+{
+    const char* name;
+    const char* purpose; // one line
+    // Adds everything; the cloths added. StartupError with the solver's message.
+    std::vector<cloth::ClothId> (*build)(cloth::Solver& solver);
+    cloth::ContactMethod method = cloth::ContactMethod::nearest_point;
+    uint32_t frames_before = 0; // of 1/60 s, simulated before anything is measured
+    bool in_contact = false;    // vertices must touch a collider then, or the case measures something else
+};
+
+std::span<const Case> cases();
+
+// Null if there is none of that name.
+const Case* find_case(std::string_view name);
+
+} // namespace bench

@@ -1,0 +1,85 @@
+// Device probe: medians of a few runs after one that warms up.
+#include "device_probe.hpp"
+
+#include "cloth_bench_shaders.hpp"
+#include "gpu/recorder.hpp"
+
+#include <algorithm>
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr int k_runs = 9;
+
+double median_time(TimedQueue& queue, const TimedQueue::Record& record)
+{
+    queue.run(record); // pages and caches
+    std::vector<double> times;
+    for (int i = 0; i < k_runs; ++i)
+        times.push_back(queue.time(record));
+    return quantile(times, 0.5);
+}
+
+// Far larger than any cache, so that it is memory that is measured.
+double copy_bandwidth(TimedQueue& queue)
+{
+    const gpu::Context& context = queue.context();
+    const VkDeviceSize wanted = queue.device().is_cpu() ? VkDeviceSize{128} << 20 : VkDeviceSize{1} << 30;
+    const VkDeviceSize bytes = std::min(wanted, context.max_buffer_bytes);
+    const gpu::Buffer source = engine::take(
+        gpu::create_buffer(context, "copy source", bytes,
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device));
+    const gpu::Buffer destination = engine::take(
+        gpu::create_buffer(context, "copy destination", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device));
+    // Written once: pages that were never touched may all be the same page of zeros.
+    queue.run(
+        [&](VkCommandBuffer cmd)
+        {
+            context.fn.vkCmdFillBuffer(cmd, source.handle(), 0, VK_WHOLE_SIZE, 0x3f800000);
+            gpu::Recorder(context, cmd)
+                .barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                         VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_READ_BIT_KHR);
+        });
+    const double microseconds =
+        median_time(queue,
+                    [&](VkCommandBuffer cmd)
+                    {
+                        const VkBufferCopy region{0, 0, bytes};
+                        context.fn.vkCmdCopyBuffer(cmd, source.handle(), destination.handle(), 1, &region);
+                    });
+    return 2.0 * static_cast<double>(bytes) / (microseconds * 1e-6);
+}
+
+double empty_dispatch(TimedQueue& queue)
+{
+    constexpr uint32_t k_dispatches = 1000;
+    constexpr uint32_t k_group = 64;
+    const gpu::Context& context = queue.context();
+    const gpu::Kernel kernel =
+        engine::take(gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, 1, 0, {k_group}}));
+    const gpu::Buffer unused = engine::take(
+        gpu::create_buffer(context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device));
+    gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context, 1, 1));
+    const VkDescriptorSet set = engine::take(pool.bind(kernel, {unused.handle()}));
+    const double microseconds =
+        median_time(queue,
+                    [&](VkCommandBuffer cmd)
+                    {
+                        gpu::Recorder recorder(context, cmd);
+                        for (uint32_t i = 0; i < k_dispatches; ++i)
+                            recorder.dispatch(kernel, set, k_group, k_group, std::span<const std::byte>{});
+                    });
+    return microseconds / k_dispatches;
+}
+
+} // namespace
+
+DeviceProbe probe_device(TimedQueue& queue)
+{
+    return {copy_bandwidth(queue), empty_dispatch(queue)};
+}
+
+} // namespace bench

@@ -1,0 +1,204 @@
+// Measurement of a case. Every repetition starts from the same state, so that all do the same work.
+#include "measure.hpp"
+
+#include "allocations.hpp"
+
+#include "gpu/recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr float k_frame = 1.f / 60; // s
+
+// Bytes that the passes move, every value that a vertex owns counted once a pass: the neighbours' values that a gather
+// reads again, the few bytes of cloths and chunks, and the colliders' hierarchy are taken to come from the caches. A
+// value is a vec4 of 16 bytes (buffer table in cloth/solver.hpp); "state" and "stage" are two of them, x and v.
+//   stage 1   reads state                       writes stage A, sums    2 + 4 =  6
+//   stage 2   reads stage A, state, sums        writes stage B, sums    6 + 4 = 10
+//   stage 3   reads stage B, state, sums        writes stage A, sums    6 + 4 = 10
+//   stage 4   reads stage A, state, sums        writes stage B or state 6 + 2 =  8
+//   contact   reads stage B, earlier positions  writes state            3 + 2 =  5
+//   normals   reads positions                   writes normals          1 + 1 =  2, once a frame
+// What fits a cache need not reach memory: the share of the copy bandwidth can then exceed 100 %.
+constexpr double k_value = 16;
+constexpr double k_integration = (6 + 10 + 10 + 8) * k_value;
+constexpr double k_contact = 5 * k_value;
+constexpr double k_normals = 2 * k_value;
+
+double bytes_a_substep(const cloth::Solver& solver, bool contact, uint32_t substeps)
+{
+    const double a_vertex = k_integration + (contact ? k_contact : 0) + k_normals / substeps;
+    return a_vertex * solver.vertex_count();
+}
+
+// Substeps that are timed: the whole frame on a GPU. A CPU device would take minutes over the finest grids.
+uint32_t measured_substeps(const engine::Device& device, const cloth::Solver& solver, uint32_t substeps)
+{
+    constexpr uint32_t k_vertices_on_cpu = 1u << 19;
+    constexpr uint32_t k_fewest = 4; // the normals pass, once, must not count for much
+    if (!device.is_cpu())
+        return substeps;
+    return std::min(substeps, std::max(k_fewest, k_vertices_on_cpu / solver.vertex_count()));
+}
+
+// The positions and velocities of all cloths, kept on the device.
+class Snapshot
+{
+public:
+    Snapshot(TimedQueue& queue, const cloth::Solver& solver, std::span<const cloth::ClothId> cloths)
+        : context_(queue.context())
+    {
+        VkDeviceSize bytes = 0;
+        for (const cloth::ClothId cloth : cloths)
+        {
+            const cloth::VertexStreams streams = solver.vertices(cloth);
+            const VkDeviceSize size = streams.vertices * sizeof(glm::vec4);
+            regions_.push_back({streams.offset, streams.offset, size});
+            bytes = std::max(bytes, streams.offset + size);
+            live_positions_ = streams.positions;
+            live_velocities_ = streams.velocities;
+        }
+        constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+        positions_ =
+            engine::take(gpu::create_buffer(context_, "snapshot positions", bytes, k_usage, gpu::Memory::device));
+        velocities_ =
+            engine::take(gpu::create_buffer(context_, "snapshot velocities", bytes, k_usage, gpu::Memory::device));
+        queue.run(
+            [&](VkCommandBuffer cmd)
+            {
+                record_wait(cmd);
+                copy(cmd, live_positions_, positions_.handle());
+                copy(cmd, live_velocities_, velocities_.handle());
+            });
+    }
+
+    // Solver::record waits for the copies itself.
+    void record_restore(VkCommandBuffer cmd) const
+    {
+        record_wait(cmd);
+        copy(cmd, positions_.handle(), live_positions_);
+        copy(cmd, velocities_.handle(), live_velocities_);
+    }
+
+private:
+    // Whatever wrote the buffers before, in this submission or an earlier one.
+    void record_wait(VkCommandBuffer cmd) const
+    {
+        gpu::Recorder(context_, cmd)
+            .barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT_KHR, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR,
+                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    }
+
+    void copy(VkCommandBuffer cmd, VkBuffer source, VkBuffer destination) const
+    {
+        context_.fn.vkCmdCopyBuffer(cmd, source, destination, static_cast<uint32_t>(regions_.size()), regions_.data());
+    }
+
+    const gpu::Context& context_;
+    std::vector<VkBufferCopy> regions_;
+    VkBuffer live_positions_ = VK_NULL_HANDLE;
+    VkBuffer live_velocities_ = VK_NULL_HANDLE;
+    gpu::Buffer positions_;
+    gpu::Buffer velocities_;
+};
+
+cloth::Statistics statistics(TimedQueue& queue, const cloth::Solver& solver)
+{
+    queue.run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+    return solver.statistics(0);
+}
+
+void check_finite(const Case& item, const cloth::Statistics& state, const char* when)
+{
+    if (state.nan_vertices > 0)
+        throw engine::StartupError("case " + std::string(item.name) + ": " + std::to_string(state.nan_vertices) +
+                                   " vertices are not finite " + when);
+}
+
+// Runs the case up to where it is measured; the vertices that touch a collider there.
+uint32_t advance(TimedQueue& queue, const cloth::Solver& solver, const Case& item)
+{
+    for (uint32_t i = 0; i < item.frames_before; ++i)
+        queue.run([&](VkCommandBuffer cmd) { solver.record(cmd, {.duration = k_frame}); });
+    const cloth::Statistics state = statistics(queue, solver);
+    check_finite(item, state, "before the measurement");
+    if (item.in_contact && state.contacts == 0)
+        throw engine::StartupError("case " + std::string(item.name) + ": no vertex touches a collider");
+    return state.contacts;
+}
+
+void time_gpu(TimedQueue& queue, const cloth::Solver& solver, const Snapshot& start, uint32_t repetitions,
+              Measurement& result)
+{
+    const cloth::Step step{.duration =
+                               k_frame * static_cast<float>(result.measured) / static_cast<float>(result.substeps),
+                           .substeps = result.measured};
+    const auto record = [&](VkCommandBuffer cmd) { solver.record(cmd, step); };
+    const auto restore = [&](VkCommandBuffer cmd) { start.record_restore(cmd); };
+    std::vector<double> times;
+    (void)queue.time(record, restore); // warms up
+    for (uint32_t i = 0; i < repetitions; ++i)
+        times.push_back(queue.time(record, restore) / result.measured);
+    result.gpu_median = quantile(times, 0.5);
+    result.gpu_p95 = quantile(times, 0.95);
+}
+
+void time_recording(TimedQueue& queue, const cloth::Solver& solver, uint32_t repetitions, Measurement& result)
+{
+    using Clock = std::chrono::steady_clock;
+    const cloth::Step step{.duration = k_frame, .substeps = result.substeps};
+    std::vector<double> times;
+    times.reserve(repetitions);
+    queue.record_only([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+    for (uint32_t i = 0; i < repetitions; ++i)
+        queue.record_only(
+            [&](VkCommandBuffer cmd)
+            {
+                const uint64_t allocated = allocations();
+                const Clock::time_point begin = Clock::now();
+                solver.record(cmd, step);
+                const Clock::time_point end = Clock::now();
+                result.record_allocations += allocations() - allocated;
+                times.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+            });
+    result.record_median = quantile(times, 0.5);
+}
+
+} // namespace
+
+Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions)
+{
+    cloth::SolverOptions options;
+    options.contact_method = item.method;
+    cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
+    const std::vector<cloth::ClothId> cloths = item.build(solver);
+    {
+        cloth::Upload kept;
+        queue.run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+    }
+
+    Measurement result;
+    result.vertices = solver.vertex_count();
+    result.triangles = solver.triangle_count();
+    result.substeps = solver.stable_substeps(k_frame);
+    result.dispatches = solver.dispatches({.duration = k_frame, .substeps = result.substeps});
+    result.measured = measured_substeps(queue.device(), solver, result.substeps);
+    result.bytes = bytes_a_substep(solver, item.in_contact, result.measured);
+    result.contacts = advance(queue, solver, item);
+
+    const Snapshot start(queue, solver, cloths);
+    time_gpu(queue, solver, start, repetitions, result);
+    check_finite(item, statistics(queue, solver), "after the measurement");
+    time_recording(queue, solver, repetitions, result);
+    return result;
+}
+
+} // namespace bench

@@ -1,0 +1,99 @@
+// The table on standard output and the CSV file.
+#include "report.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr const char* k_columns =
+    "device,driver,copy_bytes_per_second,empty_dispatch_us,case,vertices,triangles,substeps_per_frame,"
+    "dispatches_per_frame,substeps_measured,repetitions,contacts,gpu_us_per_substep_median,gpu_us_per_substep_p95,"
+    "bytes_per_substep,bandwidth_share,record_us_per_frame_median,record_allocations";
+
+// RFC 4180: in quotes, a quote doubled. Device names contain commas.
+std::string quoted(const std::string& text)
+{
+    std::string result = "\"";
+    for (const char c : text)
+    {
+        if (c == '"')
+            result += '"';
+        result += c;
+    }
+    return result + '"';
+}
+
+} // namespace
+
+double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe)
+{
+    return measurement.bytes / (measurement.gpu_median * 1e-6) / probe.copy_bandwidth;
+}
+
+void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe)
+{
+    std::printf("device          %s\n", device.name.c_str());
+    std::printf("driver          %s\n", device.driver.c_str());
+    std::printf("copy bandwidth  %.1f GB/s, read plus written\n", probe.copy_bandwidth * 1e-9);
+    std::printf("empty dispatch  %.2f us, with its barrier\n\n", probe.empty_dispatch);
+}
+
+void print_header()
+{
+    std::printf("%-28s %8s %9s %8s %10s %10s %10s %10s %9s %9s %6s\n", "", "", "", "substeps", "dispatches", "GPU us",
+                "a substep", "MB moved", "bandwidth", "record us", "heap");
+    std::printf("%-28s %8s %9s %8s %10s %10s %10s %10s %9s %9s %6s\n", "case", "vertices", "triangles", "a frame",
+                "a frame", "median", "p95", "a substep", "share", "a frame", "allocs");
+    std::fflush(stdout);
+}
+
+void print_row(const Case& item, const Measurement& m, const DeviceProbe& probe)
+{
+    std::printf("%-28s %8u %9u %8u %10u %10.1f %10.1f %10.3f %8.1f%% %9.1f %6" PRIu64 "\n", item.name, m.vertices,
+                m.triangles, m.substeps, m.dispatches, m.gpu_median, m.gpu_p95, m.bytes * 1e-6,
+                100 * bandwidth_share(m, probe), m.record_median, m.record_allocations);
+    std::fflush(stdout);
+}
+
+gpu::Result<CsvFile> CsvFile::open(const std::string& path)
+{
+    std::string first_line;
+    if (std::ifstream existing(path); existing)
+        std::getline(existing, first_line);
+    if (!first_line.empty() && first_line != k_columns)
+        return gpu::Error{path + ": its first line is not the header of this program's columns"};
+    std::ofstream file(path, std::ios::app);
+    if (first_line.empty())
+        file << k_columns << '\n';
+    file.flush();
+    if (!file)
+        return gpu::Error{path + ": cannot be written"};
+    return CsvFile(path);
+}
+
+gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
+                                  const Measurement& m, uint32_t repetitions) const
+{
+    std::ostringstream row;
+    row.precision(6);
+    row << quoted(device.name) << ',' << quoted(device.driver) << ',' << probe.copy_bandwidth << ','
+        << probe.empty_dispatch << ',' << item.name << ',' << m.vertices << ',' << m.triangles << ',' << m.substeps
+        << ',' << m.dispatches << ',' << m.measured << ',' << repetitions << ',' << m.contacts << ',' << m.gpu_median
+        << ',' << m.gpu_p95 << ',' << m.bytes << ',' << bandwidth_share(m, probe) << ',' << m.record_median << ','
+        << m.record_allocations << '\n';
+    std::ofstream file(path_, std::ios::app);
+    file << row.str();
+    file.flush();
+    if (!file)
+        return gpu::Error{path_ + ": cannot be written"};
+    return {};
+}
+
+} // namespace bench

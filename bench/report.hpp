@@ -1,0 +1,34 @@
+// What the benchmark prints, and the CSV file that it appends to.
+#pragma once
+
+#include "device_probe.hpp"
+#include "measure.hpp"
+
+#include <string>
+
+namespace bench
+{
+
+void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe);
+void print_header();
+void print_row(const Case& item, const Measurement& measurement, const DeviceProbe& probe);
+
+// Share of the copy bandwidth that a case reaches.
+double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe);
+
+// Rows for other programs, one a case, with the device in each. Columns are only ever added at the end.
+class CsvFile
+{
+public:
+    // Writes the header if the file is new or empty. Errors: it cannot be written, or has other columns.
+    static gpu::Result<CsvFile> open(const std::string& path);
+
+    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
+                             const Measurement& measurement, uint32_t repetitions) const;
+
+private:
+    explicit CsvFile(std::string path) : path_(std::move(path)) {}
+    std::string path_;
+};
+
+} // namespace bench
