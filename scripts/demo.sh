@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and shows the reference scene: in a window where there is a display, else as a film,
+# pictures and statistics of its first 5 seconds in out/demo.
+#
+#   scripts/demo.sh                    the window, or the film without a display
+#   scripts/demo.sh --headless         the film
+#   scripts/demo.sh --scene drape ...  another scene; everything else goes to the viewer as it is
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scene=reference
+headless=false
+arguments=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --scene)
+      [ $# -gt 1 ] || { echo 'demo: --scene needs a name' >&2; exit 1; }
+      scene=$2
+      shift
+      ;;
+    --headless) headless=true ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+[ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || headless=true
+
+scripts/setup.sh
+scripts/build.sh viewer scene_meshes
+viewer=build/release/bin/viewer
+if ! $headless; then
+  exec "$viewer" "$scene" ${arguments[@]+"${arguments[@]}"}
+fi
+
+out=out/demo
+mkdir -p "$out"
+rm -f "$out"/frame_*.png
+files=(--out "$out" --every 10 --stats "$out/statistics.json")
+if command -v ffmpeg >/dev/null 2>&1; then
+  files+=(--video "$out/film.mp4")
+else
+  echo 'demo: no ffmpeg, so no film' >&2
+fi
+exec "$viewer" "$scene" --headless "${files[@]}" ${arguments[@]+"${arguments[@]}"}
