@@ -1,5 +1,5 @@
-// The shortest complete program: a cloth falls on a sphere. With a display it opens a window; without, it simulates two
-// seconds and writes hello_cloth.png.
+// The shortest complete program: a cloth falls on a sphere. With a display it opens a window; without, it simulates one
+// second and writes hello_cloth.png.
 #include "component/cloth_component.hpp"
 
 #include "engine/app/app.hpp"

@@ -5,13 +5,13 @@
 const float k_pi = 3.14159265;
 
 // Schlick 1994.
-vec3 fresnel(vec3 f0, float cosine) { return f0 + (1 - f0) * pow(1 - cosine, 5); }
+vec3 fresnel(vec3 f0, float cosine) { return f0 + (1 - f0) * pow(max(1 - cosine, 0), 5); }
 
 // Trowbridge-Reitz distribution, and Smith's height-correlated visibility (Heitz 2014), which includes 1 / (4 NoL NoV).
 float ggx_distribution(float n_h, float alpha)
 {
     const float a2 = alpha * alpha;
-    const float d = n_h * n_h * (a2 - 1) + 1;
+    const float d = max(n_h * n_h * (a2 - 1) + 1, 1e-7);
     return a2 / (k_pi * d * d);
 }
 

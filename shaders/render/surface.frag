@@ -86,7 +86,7 @@ vec3 sky_light(Shading s, vec3 v, float n_v, vec3 f0)
     const vec3 diffuse = (1 - s.metallic) * s.albedo * sky_diffuse(s.normal);
     const vec3 specular =
         environment_specular(f0, s.roughness, n_v) * sky_specular(reflect(-v, s.normal), s.roughness, frame.to_sun);
-    const vec3 sheen = 0.35 * s.sheen * pow(1 - n_v, 3) * mix(s.albedo, vec3(1), 0.4) * sky_diffuse(s.normal);
+    const vec3 sheen = 0.35 * s.sheen * pow(max(1 - n_v, 0), 3) * mix(s.albedo, vec3(1), 0.4) * sky_diffuse(s.normal);
     return diffuse + specular + sheen;
 }
 

@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""Captures a frame of the viewer with RenderDoc and checks its story: the cloth's dispatches and the draws stand in one
+command buffer, in order, under readable labels, and the position buffer that is drawn is the one dispatched into.
+
+usage: check_capture.py VIEWER SCENE     exit code 77: RenderDoc's Python module is not installed
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import renderdoc as rd
+except ImportError:
+    print("RenderDoc's Python module is not installed")
+    sys.exit(77)
+
+STAGES = [f"cloth rk4 stage {i}" for i in range(1, 5)]
+
+
+def expect(condition, message):
+    if not condition:
+        sys.exit(f"check_capture: {message}")
+
+
+def capture_frame(viewer, scene, folder):
+    command = [viewer, scene, "--headless", "--frames", "3", "--capture", "1", "--size", "320x180",
+               "--cloth-resolution", "24", "--out", folder]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    expect(run.returncode == 0, f"the viewer failed: {run.stderr}")
+    files = sorted(pathlib.Path(folder).glob("*.rdc"))
+    expect(len(files) == 1, f"expected one capture, got {[f.name for f in files]}")
+    return files[0]
+
+
+class Frame:
+    """The actions of a capture with the labels above each."""
+
+    def __init__(self, controller):
+        self.controller = controller
+        self.structured = controller.GetStructuredFile()
+        self.steps = []  # (labels, action) of every dispatch and draw, in order
+        self.command_buffers = []
+        self.collect(controller.GetRootActions(), [])
+
+    def collect(self, actions, labels):
+        for action in actions:
+            name = action.GetName(self.structured)
+            if action.flags & (rd.ActionFlags.Dispatch | rd.ActionFlags.Drawcall):
+                self.steps.append((labels, action))
+            if "vkBeginCommandBuffer" in name:
+                self.command_buffers.append(name)
+            marker = action.flags & rd.ActionFlags.PushMarker
+            self.collect(action.children, labels + [name] if marker else labels)
+
+    def state_at(self, action):
+        self.controller.SetFrameEvent(action.eventId, True)
+        return self.controller.GetVulkanPipelineState()
+
+    def bound_buffers(self, action):
+        sets = self.state_at(action).compute.descriptorSets
+        return [binding.binds[0].resourceResourceId for binding in sets[0].bindings]
+
+    def drawn_positions(self, action):
+        return self.state_at(action).vertexInput.vertexBuffers[0].resourceId
+
+
+def check_order(frame):
+    names = [labels[-1] for labels, _ in frame.steps]
+    expect(len(frame.command_buffers) == 1, f"command buffers: {frame.command_buffers}")
+    expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step stands outside the label \"frame\"")
+    dispatches = [labels[-1] for labels, action in frame.steps if action.flags & rd.ActionFlags.Dispatch]
+    cloth = [labels[-1] for labels, _ in frame.steps if labels[1] == "cloth"]
+    expect(len(cloth) > 5 and cloth[-1] == "cloth normals", f"passes of the cloth: {cloth[-8:]}")
+    expect((len(cloth) - 1) % 5 == 0, f"{len(cloth)} dispatches are no whole number of substeps and the normals")
+    for i in range(0, len(cloth) - 1, 5):
+        expect(cloth[i:i + 5] == STAGES + ["cloth contact"], f"substep {i // 5}: {cloth[i:i + 5]}")
+    expect(dispatches[len(cloth):] == ["cloth statistics", "cloth statistics reduce"], f"{dispatches[len(cloth):]}")
+    order = [next(i for i, (labels, _) in enumerate(frame.steps) if label in labels)
+             for label in ("cloth", "shadow map", "scene", "sky")]
+    expect(order == sorted(order), f"passes begin at {order} of {names}")
+    last_dispatch = max(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Dispatch)
+    first_draw = min(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Drawcall)
+    expect(last_dispatch < first_draw, "a draw stands before the last dispatch")
+
+
+def check_buffers(frame):
+    contact = [action for labels, action in frame.steps if labels[-1] == "cloth contact"][-1]
+    draws = [(labels, action) for labels, action in frame.steps
+             if "cloth" in labels[-1:] and action.flags & rd.ActionFlags.Drawcall]
+    views = {labels[-2] for labels, _ in draws}
+    expect(views == {"shadow map", "scene"}, f"the cloth is drawn in {views}")
+    positions = frame.bound_buffers(contact)[4]  # binding 4 of contact.comp
+    for labels, action in draws:
+        drawn = frame.drawn_positions(action)
+        expect(drawn == positions, f"{labels[-2]}: draws from {drawn}, the contact pass writes {positions}")
+    names = {r.resourceId: r.name for r in frame.controller.GetResources()}
+    expect("position" in names[positions], f"the position buffer is called \"{names[positions]}\"")
+
+
+def check(path):
+    rd.InitialiseReplay(rd.GlobalEnvironment(), [])
+    file = rd.OpenCaptureFile()
+    expect(file.OpenFile(str(path), "", None) == rd.ResultCode.Succeeded, "the capture cannot be opened")
+    result, controller = file.OpenCapture(rd.ReplayOptions(), None)
+    expect(result == rd.ResultCode.Succeeded, "the capture cannot be replayed")
+    frame = Frame(controller)
+    check_order(frame)
+    check_buffers(frame)
+    print(f"{len(frame.steps)} dispatches and draws in one command buffer, in order")
+    controller.Shutdown()
+    file.Shutdown()
+    rd.ShutdownReplay()
+
+
+def main():
+    viewer, scene = sys.argv[1:3]
+    with tempfile.TemporaryDirectory() as folder:
+        check(capture_frame(viewer, scene, folder))
+
+
+if __name__ == "__main__":
+    main()
