@@ -1,0 +1,280 @@
+// The viewer as its users run it: what it writes, and the one clear line that bad input gets.
+#include "samples/viewer/json_tree.hpp"
+
+#include <doctest/doctest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// A folder of the test's own, gone when it ends.
+class Folder
+{
+public:
+    Folder() : path_(fs::temp_directory_path() / ("voile_viewer_" + std::to_string(getpid())))
+    {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
+
+    fs::path write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+        return path_ / name;
+    }
+
+    [[nodiscard]] size_t files() const
+    {
+        return static_cast<size_t>(std::distance(fs::recursive_directory_iterator(path_), {}));
+    }
+
+private:
+    fs::path path_;
+};
+
+std::string text_of(const fs::path& path)
+{
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+struct Run
+{
+    int exit_code = -1;
+    std::string output;
+    std::string errors;
+};
+
+// `environment`: assignments before the command, as a shell takes them.
+Run run_viewer(const std::string& arguments, const std::string& environment = "")
+{
+    const std::string base = (fs::temp_directory_path() / ("voile_run_" + std::to_string(getpid()))).string();
+    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " VOILE_BINARY_DIR "/viewer " +
+                                arguments + " >" + base + ".out 2>" + base + ".err";
+    const int status = std::system(command.c_str());
+    Run run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(base + ".out"), text_of(base + ".err")};
+    fs::remove(base + ".out");
+    fs::remove(base + ".err");
+    return run;
+}
+
+// The reference scene in small.
+const std::string k_small = "reference --headless --size 64x36 --cloth-resolution 24 ";
+
+// Exit code 1 and a single line that holds every one of `parts`.
+void check_refused(const Run& run, const std::vector<std::string>& parts)
+{
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 1);
+    CHECK(run.errors.find("viewer: ") == 0);
+    CHECK(std::count(run.errors.begin(), run.errors.end(), '\n') == 1);
+    for (const std::string& part : parts)
+    {
+        CAPTURE(part);
+        CHECK(run.errors.find(part) != std::string::npos);
+    }
+}
+
+const std::string k_triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n";
+
+std::string scene_with(const std::string& cloth, const std::string& rest = "")
+{
+    return "{\n\"cloths\": [" + cloth + "]" + rest + "\n}\n";
+}
+
+const std::string k_cloth = R"({"grid": {"vertices": [16, 16], "size": [1, 1]}, "material": "cotton"})";
+
+} // namespace
+
+TEST_CASE("a mesh that cannot be used is named with its line and the reason")
+{
+    const Folder folder;
+    struct Case
+    {
+        std::string name;
+        std::string text;
+        std::vector<std::string> parts;
+    };
+    const Case cases[] = {
+        {"empty.obj", "", {"empty.obj"}},
+        {"cut.obj", "v 0 0 0\nv 1 0 0\nv 0 0", {"cut.obj:3"}},
+        {"letters.obj", "v 0 0 0\nv 1 x 0\n", {"letters.obj:2"}},
+        {"index.obj", k_triangle + "f 1 2 9\n", {"index.obj:5", "9"}},
+        {"zero.obj", k_triangle + "f 0 1 2\n", {"zero.obj:5"}},
+        {"nan.obj", "v 0 nan 0\n" + k_triangle, {"nan.obj:1"}},
+        {"infinite.obj", "v 0 1e999 0\n" + k_triangle, {"infinite.obj:1"}},
+        {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\n", {"points.obj"}},
+        {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", {"flat.obj"}},
+        {"text.obj", "not a mesh at all\n", {"text.obj"}},
+    };
+    for (const Case& c : cases)
+    {
+        CAPTURE(c.name);
+        const fs::path file = folder.write(c.name, c.text);
+        check_refused(run_viewer(k_small + "--frames 1 --collider " + file.string()), c.parts);
+    }
+    check_refused(run_viewer(k_small + "--collider " + (folder / "missing.obj").string()), {"missing.obj"});
+}
+
+TEST_CASE("a scene that cannot be used is named with its place and the reason")
+{
+    const Folder folder;
+    struct Case
+    {
+        std::string name;
+        std::string text;
+        std::vector<std::string> parts;
+    };
+    const Case cases[] = {
+        {"empty.json", "", {"empty.json"}},
+        {"cut.json", "{\"cloths\": [", {"cut.json:1"}},
+        {"comma.json", "{\n\"cloths\": [],\n}", {"comma.json:3"}},
+        {"key.json", scene_with(k_cloth, ",\n\"gravty\": [0, -9.81, 0]"), {"key.json:3", "gravty"}},
+        {"preset.json",
+         scene_with(R"({"grid": {"vertices": [8, 8], "size": [1, 1]}, "material": "chiffon"})"),
+         {"preset.json:2", "chiffon"}},
+        {"one.json",
+         scene_with(R"({"grid": {"vertices": [1, 8], "size": [1, 1]}, "material": "silk"})"),
+         {"one.json:2", "vertices"}},
+        {"none.json",
+         scene_with(R"({"grid": {"vertices": [8, 0], "size": [1, 1]}, "material": "silk"})"),
+         {"none.json:2", "vertices"}},
+        {"size.json",
+         scene_with(R"({"grid": {"vertices": [8, 8], "size": [1, 1e999]}, "material": "silk"})"),
+         {"size.json:2"}},
+        {"mesh.json",
+         scene_with(k_cloth, ",\n\"colliders\": [{\"mesh\": \"nowhere.obj\"}]"),
+         {"mesh.json:3", "nowhere.obj"}},
+        {"raw.json",
+         scene_with(R"({"grid": {"vertices": [8, 8], "size": [1, 1]},
+"material": {"preset": "reference", "areal_density": 0.2}})"),
+         {"raw.json:3", "reference"}},
+        {"pin.json",
+         scene_with(R"({"grid": {"vertices": [8, 8], "size": [1, 1]}, "material": "silk",
+"pins": ["vertex:64"]})"),
+         {"pin.json", "64"}},
+    };
+    for (const Case& c : cases)
+    {
+        CAPTURE(c.name);
+        const fs::path file = folder.write(c.name, c.text);
+        check_refused(run_viewer(file.string() + " --headless --frames 1 --size 64x36"), c.parts);
+    }
+    check_refused(run_viewer("nosuchscene --headless"), {"nosuchscene", "reference"});
+    check_refused(run_viewer((folder / "missing.json").string() + " --headless"), {"missing.json"});
+}
+
+TEST_CASE("options that cannot be used are named")
+{
+    check_refused(run_viewer(k_small + "--cloth-resolution 0"), {"--cloth-resolution"});
+    check_refused(run_viewer("reference --headless --cloth-resolution 1"), {"--cloth-resolution", "1"});
+    check_refused(run_viewer("reference --headless --cloth-resolution 100000"), {"--cloth-resolution", "100000"});
+    check_refused(run_viewer(k_small + "--device no-such-card"), {"no-such-card"});
+    check_refused(run_viewer(k_small + "--frobnicate"), {"--frobnicate"});
+    check_refused(run_viewer(k_small + "--frames many"), {"--frames", "many"});
+    check_refused(run_viewer("reference --headless --size 0x10"), {"--size", "0x10"});
+}
+
+TEST_CASE("a cloth beyond the device's memory is refused, not crashed on")
+{
+    const Run run = run_viewer("reference --headless --frames 1 --size 64x36 --cloth-resolution 8192");
+    if (run.exit_code != 0) // a device with hundreds of GiB may take it
+        check_refused(run, {"8192 x 8192", "MiB"});
+}
+
+TEST_CASE("files that cannot be written are refused before the run, and nothing is left behind")
+{
+    const Folder folder;
+    const fs::path file = folder.write("file", "in the way");
+    check_refused(run_viewer(k_small + "--frames 1 --out " + (file / "frames").string()), {"--out", "frames"});
+    check_refused(run_viewer(k_small + "--frames 1 --out " + file.string()), {"--out", "file"});
+    check_refused(run_viewer(k_small + "--frames 1 --stats " + (folder / "nowhere/s.json").string()), {"s.json"});
+    check_refused(run_viewer(k_small + "--frames 1 --export " + (folder / "nowhere/c.obj").string()), {"c.obj"});
+    check_refused(run_viewer(k_small + "--frames 1 --out /proc/nowhere"), {"--out", "/proc/nowhere"});
+    check_refused(
+        run_viewer(k_small + "--frames 1 --stats " + (folder / "s.json").string() + " --collider " + file.string()),
+        {"file"});
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("without Vulkan there is one line that says so")
+{
+    check_refused(run_viewer(k_small + "--frames 1", "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json"),
+                  {"Vulkan"});
+    check_refused(run_viewer("--list-devices", "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json"),
+                  {"Vulkan"});
+}
+
+TEST_CASE("a run writes what it was asked for, the same every time, without a validation message")
+{
+    const Folder folder;
+    std::string hashes[2];
+    for (int i = 0; i < 2; ++i)
+    {
+        const std::string name = std::to_string(i);
+        const Run run = run_viewer(k_small + "--validate --verify --frames 60 --every 20 --out " +
+                                   (folder / name).string() + " --stats " + (folder / (name + ".json")).string() +
+                                   " --export " + (folder / (name + ".obj")).string());
+        CAPTURE(run.errors);
+        REQUIRE(run.exit_code == 0);
+        CHECK(run.errors.find("60 of 60") != std::string::npos);
+        for (const std::string file : {"frame_0000.png", "frame_0020.png", "frame_0040.png"})
+            CHECK(fs::file_size(folder / (name + "/" + file)) > 500);
+        CHECK_FALSE(fs::exists(folder / (name + "/frame_0060.png")));
+        const auto statistics = viewer::parse_json(text_of(folder / (name + ".json")), name);
+        REQUIRE(statistics);
+        const viewer::JsonNode* summary = statistics.value().find("summary");
+        REQUIRE(summary != nullptr);
+        CHECK(summary->find("vertices")->number == 24 * 24);
+        CHECK(summary->find("nan_vertices")->number == 0);
+        CHECK(summary->find("deepest_penetration")->number < 1e-3);
+        CHECK(summary->find("kinetic_energy")->number > 0);
+        CHECK(statistics.value().find("per_frame")->items.size() == 60);
+        hashes[i] = summary->find("state_hash")->text;
+    }
+    CHECK(hashes[0].size() == 16);
+    CHECK(hashes[0] == hashes[1]);
+    CHECK(text_of(folder / "0.obj") == text_of(folder / "1.obj"));
+}
+
+TEST_CASE("a point cache holds every frame, several cloths get a file each")
+{
+    const Folder folder;
+    const std::string two =
+        scene_with(R"({"name": "a", "grid": {"vertices": [8, 8], "size": [1, 1]}, "material": "silk"},
+{"name": "b", "grid": {"vertices": [5, 4], "size": [1, 1]}, "material": "denim", "pins": ["corner:0", "edge:bottom"]})",
+                   ",\n\"colliders\": [{\"plane\": {\"y\": -0.2}}, {\"sphere\": {\"center\": "
+                   "[0, -0.1, 0], \"radius\": 0.05}}], \"wind\": {\"velocity\": [1, 0, 0], "
+                   "\"gust\": 0.3}");
+    const fs::path scene = folder.write("two.json", two);
+    const Run run = run_viewer(scene.string() + " --headless --validate --frames 7 --size 64x36 --export " +
+                               (folder / "c.pc2").string());
+    CAPTURE(run.errors);
+    REQUIRE(run.exit_code == 0);
+    CHECK(fs::file_size(folder / "c_a.pc2") == 32 + 7 * 8 * 8 * 12);
+    CHECK(fs::file_size(folder / "c_b.pc2") == 32 + 7 * 5 * 4 * 12);
+}
+
+TEST_CASE("devices are listed with index, name and driver")
+{
+    const Run run = run_viewer("--list-devices");
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("0: ") == 0);
+    CHECK(run.output.find('(') != std::string::npos);
+}
