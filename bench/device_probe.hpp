@@ -8,7 +8,7 @@ namespace bench
 
 struct DeviceProbe
 {
-    double copy_bandwidth = 0; // bytes/s, read plus written, by one large copy
+    double copy_bandwidth = 0; // bytes/s, read plus written, by a large copy
     double empty_dispatch = 0; // microseconds, with its barrier
 };
 

@@ -22,6 +22,7 @@ struct Options
     std::string device;
     std::string csv;
     uint32_t repetitions = 0; // 0: by device
+    uint32_t workgroup = cloth::SolverOptions().workgroup_size;
 };
 
 void declare(CLI::App& app, Options& options)
@@ -41,6 +42,8 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--repeat", options.repetitions, "Repetitions of each measurement; default: 100, on CPU devices 20")
         ->type_name("N")
         ->check(CLI::Range(1u, k_most));
+    app.add_option("--workgroup", options.workgroup, "Threads of a workgroup, a power of two; default: the solver's")
+        ->type_name("N");
 }
 
 std::vector<const bench::Case*> chosen_cases(const std::vector<std::string>& names)
@@ -89,7 +92,7 @@ void run(const Options& options)
     bench::print_header();
     for (const bench::Case* item : chosen)
     {
-        const bench::Measurement measurement = bench::measure(queue, *item, repetitions);
+        const bench::Measurement measurement = bench::measure(queue, *item, repetitions, options.workgroup);
         bench::print_row(*item, measurement, probe);
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));

@@ -174,10 +174,11 @@ void time_recording(TimedQueue& queue, const cloth::Solver& solver, uint32_t rep
 
 } // namespace
 
-Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions)
+Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, uint32_t workgroup_size)
 {
     cloth::SolverOptions options;
     options.contact_method = item.method;
+    options.workgroup_size = workgroup_size;
     cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
     const std::vector<cloth::ClothId> cloths = item.build(solver);
     {

@@ -25,6 +25,6 @@ struct Measurement
 };
 
 // StartupError when the case cannot be made, is not in contact where it must be, or has values that are not finite.
-Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions);
+Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, uint32_t workgroup_size);
 
 } // namespace bench

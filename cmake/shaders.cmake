@@ -19,7 +19,7 @@ function(voile_add_shaders)
             OUTPUT ${spirv}
             COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${ARG_FOLDER}
                     $<$<CONFIG:Debug>:-gVS> --depfile ${spirv}.d -o ${spirv} ${source}
-            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}
+            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv}
             DEPENDS ${source}
             DEPFILE ${spirv}.d
             COMMENT "Compiling shader ${shader}"

@@ -109,14 +109,6 @@ std::string why_unusable(VkPhysicalDevice device, uint32_t api_version)
             return std::string("no ") + extension;
     if (graphics_and_compute_family(device) == UINT32_MAX)
         return "no queue family with graphics and compute";
-    VkPhysicalDeviceVulkan12Features vulkan12{};
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &vulkan12;
-    vkGetPhysicalDeviceFeatures2(device, &features);
-    if (vulkan12.scalarBlockLayout != VK_TRUE)
-        return "no scalar block layout";
     return {};
 }
 
@@ -342,10 +334,6 @@ void Device::create_device(const DeviceOptions& options)
     synchronization2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES_KHR;
     synchronization2.synchronization2 = VK_TRUE;
     synchronization2.pNext = &dynamic_rendering;
-    VkPhysicalDeviceVulkan12Features vulkan12{};
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    vulkan12.scalarBlockLayout = VK_TRUE;
-    vulkan12.pNext = &synchronization2;
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue_info{};
@@ -355,7 +343,7 @@ void Device::create_device(const DeviceOptions& options)
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = &vulkan12;
+    info.pNext = &synchronization2;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());

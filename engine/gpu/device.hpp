@@ -54,7 +54,7 @@ struct DeviceInfo
 // All devices in the order of their index. StartupError if there is no Vulkan loader or instance.
 std::vector<DeviceInfo> list_devices();
 
-// Needs Vulkan 1.2 with VK_KHR_synchronization2 and VK_KHR_dynamic_rendering, scalar block layout, and one queue
+// Needs Vulkan 1.2 with VK_KHR_synchronization2 and VK_KHR_dynamic_rendering, and one queue
 // family with graphics and compute. Prefers a discrete GPU, then integrated, virtual, CPU.
 class Device
 {

@@ -19,34 +19,43 @@ void visit_leaf(uint first_triangle, uint leaf)
         visit_triangle(t);
 }
 
+// Leaves that the traversal has found and not yet visited. Neighbouring threads find theirs at different steps; visiting
+// them together keeps the expensive triangle tests out of the loop over nodes.
+#define VOILE_BVH_WAITING_LEAVES 8
+
 void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
 {
     uint stack[VOILE_BVH_MAX_DEPTH];
     uint entries = 0;
+    uint leaves[VOILE_BVH_WAITING_LEAVES];
+    uint waiting = 0;
     uint node = 0;
-    for (;;)
+    bool done = false;
+    while (!done)
     {
-        const BvhNode n = bvh_nodes[first_node + node];
-        const bool left = boxes_overlap(box_min, box_max, n.left_min, n.left_max);
-        const bool right = boxes_overlap(box_min, box_max, n.right_min, n.right_max);
-        const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
-        const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
-        if (left && left_leaf)
-            visit_leaf(first_triangle, n.left);
-        if (right && right_leaf)
-            visit_leaf(first_triangle, n.right);
-        const bool go_left = left && !left_leaf;
-        const bool go_right = right && !right_leaf;
-        if (go_left && go_right)
-            stack[entries++] = n.right;
-        if (go_left)
-            node = n.left;
-        else if (go_right)
-            node = n.right;
-        else if (entries > 0)
-            node = stack[--entries];
-        else
-            return;
+        while (waiting + 2 <= VOILE_BVH_WAITING_LEAVES)
+        {
+            const BvhNode n = bvh_nodes[first_node + node];
+            const bool left = boxes_overlap(box_min, box_max, n.left_min, n.left_max);
+            const bool right = boxes_overlap(box_min, box_max, n.right_min, n.right_max);
+            const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
+            const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
+            if (left && left_leaf)
+                leaves[waiting++] = n.left;
+            if (right && right_leaf)
+                leaves[waiting++] = n.right;
+            const bool go_left = left && !left_leaf;
+            const bool go_right = right && !right_leaf;
+            if (go_left && go_right)
+                stack[entries++] = n.right;
+            done = !go_left && !go_right && entries == 0;
+            if (done)
+                break;
+            node = go_left ? n.left : go_right ? n.right : stack[--entries];
+        }
+        for (uint i = 0; i < waiting; ++i)
+            visit_leaf(first_triangle, leaves[i]);
+        waiting = 0;
     }
 }
 

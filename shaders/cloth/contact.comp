@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Contact of all cloths with all colliders: detection and response, one thread a vertex.
 //
 // Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
@@ -13,17 +12,17 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const int METHOD = 1;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(set = 0, binding = 4, scalar) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 5, scalar) writeonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 6, scalar) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 7, scalar) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 8, scalar) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(set = 0, binding = 4, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 7, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
 
-layout(push_constant, scalar) uniform Push { ContactPush push; };
+layout(push_constant, std430) uniform Push { ContactPush push; };
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #include "grid_normal.glsl"

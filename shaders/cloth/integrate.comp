@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // One stage of the classical Runge-Kutta method (Kutta 1901) for all cloths.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
@@ -12,18 +11,18 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint STAGE = 1;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer BasePositions { vec4 base_positions[]; }; // w: inverse mass, 1/kg
-layout(set = 0, binding = 3, scalar) readonly buffer BaseVelocities { vec4 base_velocities[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer StagePositions { vec4 stage_positions[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer StageVelocities { vec4 stage_velocities[]; };
-layout(set = 0, binding = 6, scalar) writeonly buffer NextPositions { vec4 next_positions[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer NextVelocities { vec4 next_velocities[]; };
-layout(set = 0, binding = 8, scalar) buffer VelocitySums { vec4 velocity_sums[]; };         // k1 + 2 k2 + 2 k3 of x
-layout(set = 0, binding = 9, scalar) buffer AccelerationSums { vec4 acceleration_sums[]; }; // k1 + 2 k2 + 2 k3 of v
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer BasePositions { vec4 base_positions[]; }; // w: inverse mass, 1/kg
+layout(set = 0, binding = 3, std430) readonly buffer BaseVelocities { vec4 base_velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage_positions[]; };
+layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(set = 0, binding = 8, std430) buffer VelocitySums { vec4 velocity_sums[]; };         // k1 + 2 k2 + 2 k3 of x
+layout(set = 0, binding = 9, std430) buffer AccelerationSums { vec4 acceleration_sums[]; }; // k1 + 2 k2 + 2 k3 of v
 
-layout(push_constant, scalar) uniform Push { StagePush push; };
+layout(push_constant, std430) uniform Push { StagePush push; };
 
 // Force of the springs of one class on the vertex, N.
 vec3 spring_force(SpringClass spring, vec3 x, vec3 v, vec3 other_x, vec3 other_v)

@@ -1,16 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Vertex normals for drawing. A thread computes one vertex's normal from its four grid neighbours.
 // Reads: cloths, chunks, positions. Writes: normals (w = 0).
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer Normals { vec4 normals[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Normals { vec4 normals[]; };
 
 #define VOILE_NORMAL_POSITIONS positions
 #include "grid_normal.glsl"

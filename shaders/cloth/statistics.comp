@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Statistics of one chunk of vertices: stretch, kinetic energy, values that are not finite, penetration.
 //
 // A thread measures one vertex: the structural and shear springs on its positive side, its energy, and how deep it lies
@@ -11,16 +10,16 @@
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 6, scalar) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 5, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 6, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
 
-layout(push_constant, scalar) uniform Push { StatisticsPush push; };
+layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "contact_query.glsl"
 #include "statistics_merge.glsl"

@@ -1,16 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Merges the chunks' statistics into one record. One workgroup: a thread takes every group-size-th chunk, then they fold.
 // Reads: partials. Writes: result[slot].
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Partials { StatisticsRecord partials[]; };
-layout(set = 0, binding = 1, scalar) writeonly buffer Result { StatisticsRecord result[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
 
-layout(push_constant, scalar) uniform Push { StatisticsReducePush push; };
+layout(push_constant, std430) uniform Push { StatisticsReducePush push; };
 
 #include "statistics_merge.glsl"
 

@@ -4,7 +4,7 @@
 
 #include "render_layout.h"
 
-layout(set = 0, binding = 0, scalar) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
 
 #endif

@@ -1,10 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Depth of a drawable as the sun sees it.
 #include "frame.glsl"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 layout(location = 0) in vec4 position;
 
 void main()

@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // One triangle that covers the picture at the far plane.
 #include "frame.glsl"
 

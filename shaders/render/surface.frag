@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Shades a surface: sun with shadow, sky, and what is particular to fabric and ground. Writes tone-mapped colour.
 #include "brdf.glsl"
 #include "fabric.glsl"
@@ -9,7 +8,7 @@
 #include "sky.glsl"
 #include "tone.glsl"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 vertex_normal;
 layout(location = 2) in vec2 texture_coordinate;

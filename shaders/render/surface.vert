@@ -1,10 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Vertices of a drawable, from three streams.
 #include "frame.glsl"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 layout(location = 0) in vec4 position; // w: ignored (a cloth keeps its inverse masses there)
 layout(location = 1) in vec4 normal;
 layout(location = 2) in vec2 texture_coordinate;

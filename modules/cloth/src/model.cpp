@@ -7,7 +7,7 @@
 namespace cloth
 {
 
-// The layouts are scalar in GLSL: these offsets are what the shaders read.
+// What std430 makes of the shared structs, checked by spirv-val on its side.
 static_assert(sizeof(shared::SpringClass) == 16);
 static_assert(sizeof(shared::ClothRecord) == 48 + 16 * VOILE_SPRING_CLASSES);
 static_assert(offsetof(shared::ClothRecord, springs) == 48);

@@ -36,7 +36,6 @@ struct Requirements
 {
     uint32_t api_version = VK_API_VERSION_1_2;
     std::vector<const char*> device_extensions; // VK_KHR_synchronization2
-    bool scalar_block_layout = true;            // VkPhysicalDeviceVulkan12Features::scalarBlockLayout
     bool synchronization2 = true;               // VkPhysicalDeviceSynchronization2FeaturesKHR
 };
 Requirements requirements();
@@ -49,7 +48,7 @@ enum class ContactMethod
 
 struct SolverOptions
 {
-    uint32_t workgroup_size = 64;  // power of two, 1 to the device's limit
+    uint32_t workgroup_size = 128; // power of two, 1 to the device's limit
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
 };
