@@ -1,8 +1,10 @@
-voile_add_test(test_assets SOURCES test_obj.cpp test_image_file.cpp LIBRARIES voile::engine)
+voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
+               LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES test_bvh.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_viewer_parts SOURCES test_scene_file.cpp test_options.cpp test_exports.cpp LIBRARIES voile_viewer_parts)
+voile_add_test(test_viewer_parts SOURCES test_scene_file.cpp test_options.cpp LIBRARIES voile_viewer_parts)
 voile_add_test(test_contact SOURCES test_contact.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer SOURCES test_viewer.cpp LIBRARIES voile_viewer_parts)
 add_dependencies(test_viewer viewer scene_meshes)
 # Queue-submit validation is switched on by the environment alone; see test_hazards.cpp.

@@ -7,6 +7,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
+#define STBI_FAILURE_USERMSG
 #include <stb_image.h>
 
 #define STB_IMAGE_WRITE_STATIC
@@ -87,8 +88,7 @@ gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& pic
 {
     const std::string size = std::to_string(picture.width) + " x " + std::to_string(picture.height);
     constexpr uint32_t k_longest_side = 16384; // stb counts bytes in int
-    if (picture.width == 0 || picture.height == 0 || picture.width >= k_longest_side ||
-        picture.height >= k_longest_side)
+    if (picture.width == 0 || picture.height == 0 || picture.width > k_longest_side || picture.height > k_longest_side)
         return gpu::Error{path.string() + ": a picture of " + size + " pixels cannot be written"};
     if (picture.rgba.size() != 4 * size_t{picture.width} * picture.height)
         return gpu::Error{path.string() + ": a picture of " + size + " pixels has " +

@@ -20,7 +20,7 @@ struct Picture
 // Grey and palette pictures are expanded, 16 bits a channel cut to 8. Errors name the file and the reason.
 gpu::Result<Picture> load_png(const std::filesystem::path& path);
 // Alpha is dropped: the file has three channels. Tuned for speed, as frames of a film are written by the hundred. The
-// file appears complete or not at all. Each side shorter than 16384. Errors name the file and the reason.
+// file appears complete or not at all. Each side 1 to 16384. Errors name the file and the reason.
 gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& picture);
 
 } // namespace engine

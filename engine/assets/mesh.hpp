@@ -25,4 +25,13 @@ struct Bounds
 
 Bounds bounds(const Mesh& mesh); // zero for a mesh without positions
 
+// What loading changed, for a reader who wonders why counts differ.
+struct MeshReport
+{
+    uint32_t polygons_triangulated = 0; // faces with more than three corners
+    uint32_t degenerate_triangles = 0;  // dropped: no height above 2^-22 of the mesh's largest coordinate
+    uint32_t duplicate_triangles = 0;   // dropped: the same three points as an earlier one, whichever way round
+    bool normals_computed = false;      // the file had none (or not for every corner)
+};
+
 } // namespace engine

@@ -5,19 +5,9 @@
 #include "gpu/result.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace engine
 {
-
-// What loading changed, for a reader who wonders why counts differ.
-struct MeshReport
-{
-    uint32_t polygons_triangulated = 0; // faces with more than three corners
-    uint32_t degenerate_triangles = 0;  // dropped: no height above 2^-22 of the mesh's largest coordinate
-    uint32_t duplicate_triangles = 0;   // dropped: the same three points as an earlier one, whichever way round
-    bool normals_computed = false;      // the file had none (or not for every corner)
-};
 
 // Loads every shape of an OBJ file as one mesh (through tinyobjloader; materials and lines are ignored). Polygons are
 // triangulated. Corners that share a position but not a texture coordinate or normal become separate vertices; the

@@ -2,11 +2,12 @@
 // Visualizer manual, appendix B1.
 #include "engine/assets/obj_check.hpp"
 
+#include "engine/assets/words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -16,10 +17,6 @@ namespace engine
 namespace
 {
 
-using Words = std::vector<std::string_view>;
-
-constexpr std::string_view k_blank = " \t\r\v\f";
-
 // The lists that a face's corner refers to, in the order in which it does.
 enum List : size_t
 {
@@ -28,45 +25,6 @@ enum List : size_t
     normals
 };
 constexpr std::array<std::string_view, 3> k_list_names = {"position", "texture coordinate", "normal"};
-
-void split(std::string_view line, Words& words)
-{
-    while (true)
-    {
-        const size_t begin = line.find_first_not_of(k_blank);
-        if (begin == std::string_view::npos)
-            return;
-        line.remove_prefix(begin);
-        const size_t length = std::min(line.find_first_of(k_blank), line.size());
-        words.push_back(line.substr(0, length));
-        line.remove_prefix(length);
-    }
-}
-
-// Empty if the word is not a number. Too large for a float counts as infinite, too small as zero.
-std::optional<double> parse_number(std::string_view word)
-{
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::invalid_argument || end != word.data() + word.size())
-        return std::nullopt;
-    if (error == std::errc::result_out_of_range)
-        return word.find("e-") != word.npos || word.find("E-") != word.npos ? 0. : HUGE_VAL;
-    return std::abs(value) > double{std::numeric_limits<float>::max()} ? HUGE_VAL : value;
-}
-
-// Words of another file's author, cut to what fits in a message.
-std::string quoted(std::string_view word)
-{
-    constexpr size_t k_longest = 40;
-    std::string text(word.substr(0, k_longest));
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20)
-            c = '?';
-    return "'" + text + (word.size() > k_longest ? "...'" : "'");
-}
 
 class Checker
 {
@@ -98,11 +56,11 @@ private:
 
     const std::string& name_;
     CheckedObj checked_;
-    std::string error_;               // the first one found
-    Words words_;                     // of the current statement
-    uint32_t line_ = 0;               // on which the current statement begins, from 1
-    uint32_t lines_read_ = 0;         // including those that continue it
-    std::array<int64_t, 3> counts_{}; // of each list so far
+    std::string error_;                   // the first one found
+    std::vector<std::string_view> words_; // of the current statement
+    uint32_t line_ = 0;                   // on which the current statement begins, from 1
+    uint32_t lines_read_ = 0;             // including those that continue it
+    std::array<int64_t, 3> counts_{};     // of each list so far
     std::vector<Forward> forward_;
 };
 
@@ -121,9 +79,7 @@ void Checker::read_statement(std::string_view& text)
     bool continued = true;
     while (continued && !text.empty())
     {
-        const size_t length = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, length);
-        text.remove_prefix(std::min(length + 1, text.size()));
+        std::string_view line = take_line(text);
         ++lines_read_;
         line = line.substr(0, line.find('#'));
         line = line.substr(0, line.find_last_not_of(k_blank) + 1);
@@ -246,6 +202,8 @@ void Checker::check_forward_references()
 
 gpu::Result<CheckedObj> Checker::run(std::string_view text)
 {
+    if (constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(k_byte_order_mark))
+        text.remove_prefix(k_byte_order_mark.size());
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
         return gpu::Error{name_ + ": file is empty"};
     if (const size_t zero = text.find('\0'); zero != std::string_view::npos)

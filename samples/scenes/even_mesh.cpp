@@ -94,11 +94,11 @@ void relax(Points& points, const Triangles& triangles, const std::vector<bool>& 
             points[i] = project(sums[i] / weights[i]);
 }
 
-double angle_at(const Points& points, uint32_t at, uint32_t b, uint32_t c)
+double cotangent_at(const Points& points, uint32_t at, uint32_t b, uint32_t c)
 {
     const glm::dvec3 u = points[b] - points[at];
     const glm::dvec3 v = points[c] - points[at];
-    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+    return glm::dot(u, v) / glm::length(glm::cross(u, v));
 }
 
 // Where a directed edge a -> b starts: triangle 3 t + corner. The triangle across has b -> a.
@@ -119,7 +119,7 @@ Edges edges_of(const Triangles& triangles)
 }
 
 // Turns the edge from a corner of the triangle to the next if the angles opposite to it add up to more than 180
-// degrees and no edge joins the opposite vertices yet.
+// degrees, which makes the sum of their cotangents negative, and no edge joins the opposite vertices yet.
 bool flip(const Points& points, Triangles& triangles, Edges& edges, uint32_t t, int c)
 {
     const uint32_t a = triangles[t][c];
@@ -128,8 +128,8 @@ bool flip(const Points& points, Triangles& triangles, Edges& edges, uint32_t t, 
     const uint32_t across = edges.at(edge_key(b, a));
     const uint32_t other = across / 3;
     const uint32_t right = triangles[other][static_cast<int>((across + 2 - 3 * other) % 3)];
-    constexpr double k_straight = 3.14159265358979 + 1e-6; // not back and forth where four vertices are on a circle
-    if (angle_at(points, left, a, b) + angle_at(points, right, a, b) <= k_straight ||
+    constexpr double k_round = 1e-6; // not back and forth where four vertices are on a circle
+    if (cotangent_at(points, left, a, b) + cotangent_at(points, right, a, b) >= -k_round ||
         edges.contains(edge_key(left, right)) || edges.contains(edge_key(right, left)))
         return false;
     edges.erase(edge_key(a, b));
@@ -143,9 +143,8 @@ bool flip(const Points& points, Triangles& triangles, Edges& edges, uint32_t t, 
     return true;
 }
 
-void flip_to_delaunay(const Points& points, Triangles& triangles)
+void flip_to_delaunay(const Points& points, Triangles& triangles, Edges& edges)
 {
-    Edges edges = edges_of(triangles);
     bool changed = true;
     for (int pass = 0; pass < 10 && changed; ++pass)
     {
@@ -167,12 +166,13 @@ engine::Mesh make_even_mesh(const Surface& surface)
         is_fixed.push_back(std::abs(point.x) + std::abs(point.z) < 1e-9);
         point = surface.from_sphere(point);
     }
+    Edges edges = edges_of(box.triangles);
     for (int round = 0; round < k_rounds; ++round)
     {
-        flip_to_delaunay(box.points, box.triangles);
+        flip_to_delaunay(box.points, box.triangles, edges);
         relax(box.points, box.triangles, is_fixed, surface.from_space);
     }
-    flip_to_delaunay(box.points, box.triangles);
+    flip_to_delaunay(box.points, box.triangles, edges);
 
     engine::Mesh mesh;
     mesh.positions.assign(box.points.begin(), box.points.end());

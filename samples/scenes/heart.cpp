@@ -17,18 +17,18 @@ constexpr glm::dvec3 k_box_max{6.615, 4.534, 8.042};
 
 // The reference heart is an ellipsoid whose columns along y are pushed up the more the further out they are, with a
 // cleft pressed into the top and the depth swelling with the height. The constants are fitted to the scene's widths and
-// depths; at the end the mesh is stretched by less than a hundredth to fill the box.
+// depths; at the end the mesh is stretched by a few hundredths to fill the box.
 constexpr double k_half_width = 1.615;
 constexpr double k_half_height = 1.6283;
 constexpr double k_half_depth = 1.042;
-constexpr double k_rise = 0.2392;       // slope of the columns' push, far from the middle
-constexpr double k_rounding = 0.4882;   // half-width over which the push is rounded in the middle
-constexpr double k_upward_bow = 0.0833; // the part of the push that is quadratic
-constexpr double k_cleft = 0.8602;      // depth pressed into the top
-constexpr double k_cleft_width = 0.719;
-constexpr double k_swell = 0.2534; // of the depth, with height
-constexpr double k_swell_square = 0.4638;
-constexpr double k_middle = 1.5268; // height around which the depth swells, above the ellipsoid's bottom, less its half
+constexpr double k_rise = 0.2312;       // slope of the columns' push, far from the middle
+constexpr double k_rounding = 0.4805;   // half-width over which the push is rounded in the middle
+constexpr double k_upward_bow = 0.0787; // the part of the push that is quadratic
+constexpr double k_cleft = 0.8916;      // depth pressed into the top
+constexpr double k_cleft_width = 0.7237;
+constexpr double k_swell = 0.2471; // of the depth, with height
+constexpr double k_swell_square = 0.5096;
+constexpr double k_middle = 1.4599; // height around which the depth swells, above the ellipsoid's bottom, less its half
 
 double push(double x)
 {

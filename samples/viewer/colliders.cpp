@@ -1,7 +1,7 @@
 // Loading and placing the solids.
 #include "samples/viewer/colliders.hpp"
 
-#include "engine/assets/obj.hpp"
+#include "engine/assets/load_mesh.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -49,7 +49,7 @@ gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry
     }
     else if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
     {
-        auto loaded = engine::load_obj(mesh->file);
+        auto loaded = engine::load_mesh(mesh->file);
         if (!loaded)
             return loaded.error();
         solid.name = mesh->file.stem().string();
@@ -155,7 +155,7 @@ gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Option
                   { return std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground(); });
     for (size_t i = 0; i < options.colliders.size(); ++i)
     {
-        auto mesh = engine::load_obj(options.colliders[i]);
+        auto mesh = engine::load_mesh(options.colliders[i]);
         if (!mesh)
             return mesh.error();
         Solid solid;

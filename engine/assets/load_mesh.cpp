@@ -1,0 +1,24 @@
+// The choice of a mesh format.
+#include "engine/assets/load_mesh.hpp"
+
+#include "engine/assets/obj.hpp"
+#include "engine/assets/ply.hpp"
+
+#include <string>
+
+namespace engine
+{
+
+gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report)
+{
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (extension == ".obj")
+        return load_obj(path, report);
+    if (extension == ".ply")
+        return load_ply(path, report);
+    return gpu::Error{path.string() + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
+}
+
+} // namespace engine

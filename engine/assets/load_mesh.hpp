@@ -1,0 +1,16 @@
+// Reading a mesh in any of the formats known.
+#pragma once
+
+#include "engine/assets/mesh.hpp"
+#include "gpu/result.hpp"
+
+#include <filesystem>
+
+namespace engine
+{
+
+// Goes by the extension, in capitals or not: .obj as load_obj does, .ply as load_ply does. Errors: theirs, or another
+// extension.
+gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr);
+
+} // namespace engine

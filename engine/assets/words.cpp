@@ -1,0 +1,58 @@
+// Lines, words and numbers.
+#include "engine/assets/words.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+namespace engine
+{
+
+std::string_view take_line(std::string_view& text)
+{
+    const size_t length = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, length);
+    text.remove_prefix(std::min(length + 1, text.size()));
+    return line;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& words)
+{
+    while (true)
+    {
+        const size_t begin = line.find_first_not_of(k_blank);
+        if (begin == std::string_view::npos)
+            return;
+        line.remove_prefix(begin);
+        const size_t length = std::min(line.find_first_of(k_blank), line.size());
+        words.push_back(line.substr(0, length));
+        line.remove_prefix(length);
+    }
+}
+
+std::optional<double> parse_number(std::string_view word)
+{
+    if (word.starts_with('+') && !word.starts_with("+-"))
+        word.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc::invalid_argument || end != word.data() + word.size())
+        return std::nullopt;
+    if (error == std::errc::result_out_of_range)
+        return word.find("e-") != word.npos || word.find("E-") != word.npos ? 0. : HUGE_VAL;
+    return std::abs(value) > double{std::numeric_limits<float>::max()} ? HUGE_VAL : value;
+}
+
+std::string quoted(std::string_view word)
+{
+    constexpr size_t k_longest = 40;
+    std::string text(word.substr(0, k_longest));
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            c = '?';
+    return "'" + text + (word.size() > k_longest ? "...'" : "'");
+}
+
+} // namespace engine

@@ -1,0 +1,27 @@
+// Lines, words and numbers of text files that somebody else wrote.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace engine
+{
+
+// What separates words within a line; a carriage return counts, so that lines may end either way.
+inline constexpr std::string_view k_blank = " \t\r\v\f";
+
+// Takes the first line off the text, without its line feed.
+std::string_view take_line(std::string_view& text);
+
+// Appends the line's words.
+void split(std::string_view line, std::vector<std::string_view>& words);
+
+// Empty if the word is not a number. Too large for a float counts as infinite, too small for a double as zero.
+std::optional<double> parse_number(std::string_view word);
+
+// A word in quotation marks, fit for one line of a message: cut to 40 bytes, control characters replaced.
+std::string quoted(std::string_view word);
+
+} // namespace engine

@@ -1,0 +1,43 @@
+// A folder of its own for a test that works with files.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+// Made empty, removed with everything in it when the test ends.
+class TestFolder
+{
+public:
+    TestFolder()
+        : path_(std::filesystem::temp_directory_path() /
+                ("voile_test_" + std::to_string(getpid()) + "_" + std::to_string(count_++)))
+    {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~TestFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+    [[nodiscard]] std::filesystem::path write(const std::string& name, std::string_view bytes) const
+    {
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+        return path_ / name;
+    }
+
+    [[nodiscard]] bool is_empty() const { return std::filesystem::is_empty(path_); }
+
+private:
+    static inline int count_ = 0;
+    std::filesystem::path path_;
+};
