@@ -35,6 +35,7 @@ public:
         return path_ / name;
     }
 
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] bool is_empty() const { return std::filesystem::is_empty(path_); }
 
 private:

@@ -5,6 +5,7 @@
 #include "test_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <string>
@@ -40,16 +41,15 @@ std::string save_message(const std::filesystem::path& path, const engine::Pictur
 TEST_CASE("a picture comes back from PNG as it was")
 {
     const TestFolder folder;
-    for (const auto& [width, height] :
-         {std::pair(1u, 1u), std::pair(1u, 300u), std::pair(333u, 2u), std::pair(64u, 48u)})
+    for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(1, 300), glm::uvec2(333, 2), glm::uvec2(64, 48)})
     {
-        CAPTURE(width);
-        const engine::Picture picture = make_picture(width, height);
+        CAPTURE(size.x);
+        const engine::Picture picture = make_picture(size.x, size.y);
         REQUIRE(engine::save_png(folder / "a.png", picture));
         const auto loaded = engine::load_png(folder / "a.png");
         REQUIRE_MESSAGE(loaded, loaded.error().message);
-        CHECK(loaded.value().width == width);
-        CHECK(loaded.value().height == height);
+        CHECK(loaded.value().width == size.x);
+        CHECK(loaded.value().height == size.y);
         CHECK(loaded.value().rgba == picture.rgba);
     }
 }

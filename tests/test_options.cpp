@@ -87,7 +87,7 @@ TEST_CASE("every option is read")
     CHECK(options.video == "a.mp4");
     CHECK(options.stats == "s.json");
     CHECK(options.export_file == "e.PC2");
-    CHECK(options.export_format == viewer::ExportFormat::PointCache);
+    CHECK(options.export_format == viewer::ExportFormat::point_cache);
     CHECK(options.cloth_resolution == 2u);
     CHECK(options.colliders.size() == 2);
     CHECK(options.device == "1");

@@ -77,6 +77,17 @@ TEST_CASE("polygons are cut within their outline")
     check_cut({{0, 0, 0}, {1, 0, 3}, {2, 0, 0}, {1, 0, 1}}, 2.); // a dart, whose shorter diagonal lies outside
     check_cut({{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 2}, {1, 0, 2}, {1, 0, 1}, {3, 0, 1}, {3, 0, 0}}, 7.); // a C
     check_cut({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {2, 0, 2}, {2, 0, 0}, {1, 0, 0}}, 4.); // corners in the middle of edges
+    // A spike from the side ends within the corner that has the shortest cut.
+    check_cut({{0, 0, 0},
+               {0, 0, 1},
+               {0, 0, 20},
+               {20, 0, 20},
+               {20, 0, 10.5f},
+               {0.3f, 0, 0.3f},
+               {20, 0, 10},
+               {20, 0, 0},
+               {1, 0, 0}},
+              400. - 0.5 * 0.5 * 19.7);
     // A square with a square hole, joined to the outline by an edge that is walked both ways.
     check_cut(
         {{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}, {0, 0, 0}, {1, 0, 1}, {2, 0, 1}, {2, 0, 2}, {1, 0, 2}, {1, 0, 1}},

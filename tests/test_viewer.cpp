@@ -1,4 +1,6 @@
 // The viewer as its users run it: what it writes, and the one clear line that bad input gets.
+#include "test_folder.hpp"
+
 #include "samples/viewer/json_tree.hpp"
 
 #include <doctest/doctest.h>
@@ -17,35 +19,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-// A folder of the test's own, gone when it ends.
-class Folder
-{
-public:
-    Folder() : path_(fs::temp_directory_path() / ("voile_viewer_" + std::to_string(getpid())))
-    {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
-
-    fs::path write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return path_ / name;
-    }
-
-    [[nodiscard]] size_t files() const
-    {
-        return static_cast<size_t>(std::distance(fs::recursive_directory_iterator(path_), {}));
-    }
-
-private:
-    fs::path path_;
-};
 
 std::string text_of(const fs::path& path)
 {
@@ -104,7 +77,7 @@ const std::string k_cloth = R"({"grid": {"vertices": [16, 16], "size": [1, 1]}, 
 
 TEST_CASE("a mesh that cannot be used is named with its line and the reason")
 {
-    const Folder folder;
+    const TestFolder folder;
     struct Case
     {
         std::string name;
@@ -134,7 +107,7 @@ TEST_CASE("a mesh that cannot be used is named with its line and the reason")
 
 TEST_CASE("a scene that cannot be used is named with its place and the reason")
 {
-    const Folder folder;
+    const TestFolder folder;
     struct Case
     {
         std::string name;
@@ -200,7 +173,7 @@ TEST_CASE("a cloth beyond the device's memory is refused, not crashed on")
 
 TEST_CASE("files that cannot be written are refused before the run, and nothing is left behind")
 {
-    const Folder folder;
+    const TestFolder folder;
     const fs::path file = folder.write("file", "in the way");
     check_refused(run_viewer(k_small + "--frames 1 --out " + (file / "frames").string()), {"--out", "frames"});
     check_refused(run_viewer(k_small + "--frames 1 --out " + file.string()), {"--out", "file"});
@@ -210,7 +183,7 @@ TEST_CASE("files that cannot be written are refused before the run, and nothing 
     check_refused(
         run_viewer(k_small + "--frames 1 --stats " + (folder / "s.json").string() + " --collider " + file.string()),
         {"file"});
-    CHECK(folder.files() == 1);
+    CHECK(std::distance(fs::recursive_directory_iterator(folder.path()), {}) == 1); // the one that was there
 }
 
 TEST_CASE("without Vulkan there is one line that says so")
@@ -223,7 +196,7 @@ TEST_CASE("without Vulkan there is one line that says so")
 
 TEST_CASE("a run writes what it was asked for, the same every time, without a validation message")
 {
-    const Folder folder;
+    const TestFolder folder;
     std::string hashes[2];
     for (int i = 0; i < 2; ++i)
     {
@@ -255,7 +228,7 @@ TEST_CASE("a run writes what it was asked for, the same every time, without a va
 
 TEST_CASE("a point cache holds every frame, several cloths get a file each")
 {
-    const Folder folder;
+    const TestFolder folder;
     const std::string two =
         scene_with(R"({"name": "a", "grid": {"vertices": [8, 8], "size": [1, 1]}, "material": "silk"},
 {"name": "b", "grid": {"vertices": [5, 4], "size": [1, 1]}, "material": "denim", "pins": ["corner:0", "edge:bottom"]})",

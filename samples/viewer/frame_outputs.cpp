@@ -58,7 +58,7 @@ gpu::Result<FrameOutputs> FrameOutputs::create(engine::App& app, const Stage& st
     }
     if (options.out || options.video)
         outputs.pictures_.emplace(app.device(), VkExtent2D{options.width, options.height}, app.slots());
-    if (options.export_file && options.export_format == ExportFormat::PointCache)
+    if (options.export_file && options.export_format == ExportFormat::point_cache)
     {
         if (auto made = outputs.create_caches(app, stage, options); !made)
             return made.error();

@@ -58,10 +58,10 @@ public:
     JsonNode root;
     std::optional<std::string> error;
 
-    bool null() override { return add(make(JsonNode::Kind::Null)); }
+    bool null() override { return add(make(JsonNode::Kind::null)); }
     bool boolean(bool value) override
     {
-        JsonNode node = make(JsonNode::Kind::Boolean);
+        JsonNode node = make(JsonNode::Kind::boolean);
         node.boolean = value;
         return add(std::move(node));
     }
@@ -70,13 +70,13 @@ public:
     bool number_float(number_float_t value, const string_t&) override { return add_number(value, false); }
     bool string(string_t& value) override
     {
-        JsonNode node = make(JsonNode::Kind::String);
+        JsonNode node = make(JsonNode::Kind::string);
         node.text = value;
         return add(std::move(node));
     }
     bool binary(binary_t&) override { return false; } // JSON text has none
-    bool start_object(std::size_t) override { return open(JsonNode::Kind::Object); }
-    bool start_array(std::size_t) override { return open(JsonNode::Kind::Array); }
+    bool start_object(std::size_t) override { return open(JsonNode::Kind::object); }
+    bool start_array(std::size_t) override { return open(JsonNode::Kind::array); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
 
@@ -138,7 +138,7 @@ private:
 
     bool add_number(double value, bool integer)
     {
-        JsonNode node = make(JsonNode::Kind::Number);
+        JsonNode node = make(JsonNode::Kind::number);
         node.number = value;
         node.integer = integer;
         return add(std::move(node));
@@ -165,7 +165,7 @@ private:
         std::string result;
         for (size_t i = 0; i + 1 < open_.size(); ++i)
         {
-            if (open_[i].kind == JsonNode::Kind::Array)
+            if (open_[i].kind == JsonNode::Kind::array)
                 result += "[" + std::to_string(open_[i].items.size()) + "]";
             else
                 result += (result.empty() ? "" : ".") + open_[i].keys.back();
@@ -199,17 +199,17 @@ const char* describe(JsonNode::Kind kind)
 {
     switch (kind)
     {
-    case JsonNode::Kind::Null:
+    case JsonNode::Kind::null:
         return "null";
-    case JsonNode::Kind::Boolean:
+    case JsonNode::Kind::boolean:
         return "true or false";
-    case JsonNode::Kind::Number:
+    case JsonNode::Kind::number:
         return "a number";
-    case JsonNode::Kind::String:
+    case JsonNode::Kind::string:
         return "a string";
-    case JsonNode::Kind::Array:
+    case JsonNode::Kind::array:
         return "an array";
-    case JsonNode::Kind::Object:
+    case JsonNode::Kind::object:
         return "an object";
     }
     return "unknown";

@@ -15,15 +15,15 @@ struct JsonNode
 {
     enum class Kind
     {
-        Null,
-        Boolean,
-        Number,
-        String,
-        Array,
-        Object
+        null,
+        boolean,
+        number,
+        string,
+        array,
+        object,
     };
 
-    Kind kind = Kind::Null;
+    Kind kind = Kind::null;
     uint32_t line = 0; // from 1; of a container, the line of its opening bracket
     bool boolean = false;
     bool integer = false; // a number written without fraction and exponent

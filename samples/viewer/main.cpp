@@ -96,7 +96,7 @@ void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatis
 
 void export_state(const Options& options, const std::vector<FinalCloth>& state, std::vector<std::string>& written)
 {
-    if (!options.export_file || options.export_format == ExportFormat::PointCache)
+    if (!options.export_file || options.export_format == ExportFormat::point_cache)
         return;
     std::vector<ClothSurface> surfaces;
     for (const FinalCloth& cloth : state)

@@ -107,7 +107,7 @@ gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const Ma
     { return gpu::Error{place(scene, entry.line) + ": material: " + reason}; };
     if (entry.strain_limit.value_or(0) > 0)
         return bad("strain_limit is not supported yet");
-    if (entry.bending_model.value_or(BendingModel::Springs) != BendingModel::Springs)
+    if (entry.bending_model.value_or(BendingModel::springs) != BendingModel::springs)
         return bad("bending_model \"isometric\" is not supported yet");
 
     cloth::Material material;

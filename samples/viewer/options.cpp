@@ -209,11 +209,11 @@ void convert_export(Converter& convert, const std::vector<std::string>& values, 
         return;
     const std::string extension = lower_extension(*options.export_file);
     if (extension == ".obj")
-        options.export_format = ExportFormat::Obj;
+        options.export_format = ExportFormat::obj;
     else if (extension == ".ply")
-        options.export_format = ExportFormat::Ply;
+        options.export_format = ExportFormat::ply;
     else if (extension == ".pc2")
-        options.export_format = ExportFormat::PointCache;
+        options.export_format = ExportFormat::point_cache;
     else
         convert.fail("--export", "\"" + options.export_file->string() + "\" does not end in .obj, .ply or .pc2");
 }

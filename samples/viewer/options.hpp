@@ -16,9 +16,9 @@ constexpr uint32_t k_headless_frames = 300; // where --frames is not given
 
 enum class ExportFormat
 {
-    Obj,
-    Ply,
-    PointCache
+    obj,
+    ply,
+    point_cache,
 };
 
 struct Options
@@ -33,7 +33,7 @@ struct Options
     std::optional<std::filesystem::path> video;
     std::optional<std::filesystem::path> stats;
     std::optional<std::filesystem::path> export_file;
-    ExportFormat export_format = ExportFormat::Obj; // of export_file
+    ExportFormat export_format = ExportFormat::obj; // of export_file
     std::optional<uint32_t> cloth_resolution;       // 2..8192
     std::vector<std::filesystem::path> colliders;   // files that exist, .obj or .ply
     std::optional<std::string> device;              // an index or (a part of) a name

@@ -104,9 +104,9 @@ void parse_pin_place(SceneReader& reader, const Field& field, const GridEntry* g
 {
     if (!field || reader.failed())
         return;
-    if (field.node->kind == JsonNode::Kind::String)
+    if (field.node->kind == JsonNode::Kind::string)
         return parse_pin_text(reader, field, grid, pin);
-    if (field.node->kind != JsonNode::Kind::Object)
+    if (field.node->kind != JsonNode::Kind::object)
         return reader.fail(field, std::string("is ") + describe(field.node->kind) +
                                       "; expected corner:N, edge:NAME, vertex:N or a box");
     if (reader.object(field, {"box"}))
@@ -136,7 +136,7 @@ void parse_stretch_stiffness(SceneReader& reader, const Field& field, MaterialEn
     if (!field)
         return;
     glm::vec2 warp_weft{0.f};
-    if (field.node->kind == JsonNode::Kind::Array)
+    if (field.node->kind == JsonNode::Kind::array)
     {
         reader.read(field, k_positive, warp_weft);
     }
@@ -162,7 +162,7 @@ MaterialEntry parse_material(SceneReader& reader, const Field& field)
     material.line = field.line();
     if (!field || reader.failed())
         return material;
-    if (field.node->kind == JsonNode::Kind::String)
+    if (field.node->kind == JsonNode::Kind::string)
     {
         parse_preset(reader, field, material);
         return material;
@@ -199,7 +199,7 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
 {
     PinEntry pin;
     pin.line = field.line();
-    const bool is_object = field && field.node->kind == JsonNode::Kind::Object;
+    const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     if (is_object && (field.node->find("at") != nullptr || field.node->find("motion") != nullptr))
     {
         if (!reader.object(field, {"at", "motion"}))

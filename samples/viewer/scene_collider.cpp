@@ -54,7 +54,7 @@ BoxShape parse_box(SceneReader& reader, const Field& field)
 FrictionEntry parse_friction(SceneReader& reader, const Field& field)
 {
     FrictionEntry friction;
-    if (field.node->kind == JsonNode::Kind::Number)
+    if (field.node->kind == JsonNode::Kind::number)
     {
         reader.read(field, k_not_negative, friction.static_friction);
         friction.kinetic_friction = friction.static_friction;

@@ -49,9 +49,9 @@ void parse_step(SceneReader& reader, const Field& field, StepEntry& step)
     const Field substeps = SceneReader::child(field, "substeps");
     if (!substeps || reader.failed())
         return;
-    if (substeps.node->kind == JsonNode::Kind::String && substeps.node->text == "auto")
+    if (substeps.node->kind == JsonNode::Kind::string && substeps.node->text == "auto")
         return;
-    if (substeps.node->kind != JsonNode::Kind::Number)
+    if (substeps.node->kind != JsonNode::Kind::number)
         return reader.fail(substeps, "is neither \"auto\" nor a whole number within 1 to 1000");
     uint32_t count = 0;
     reader.read_integer(substeps, 1, k_most_substeps, count);

@@ -59,21 +59,21 @@ struct StepEntry
 
 enum class BendingModel
 {
-    Springs,
-    Isometric
+    springs,
+    isometric,
 };
 enum class Integrator
 {
-    Rk4,
-    Verlet
+    rk4,
+    verlet,
 };
 enum class Edge
 {
-    Top,
-    Bottom,
-    Left,
-    Right
-}; // row 0, last row, column 0, last column
+    top,    // row 0
+    bottom, // the last row
+    left,   // column 0
+    right,  // the last column
+};
 
 // A preset, values, or a preset with some values replaced.
 struct MaterialEntry
@@ -113,7 +113,7 @@ struct CornerPin
 };
 struct EdgePin
 {
-    Edge edge = Edge::Top;
+    Edge edge = Edge::top;
 };
 struct VertexPin
 {
@@ -140,7 +140,7 @@ struct ClothEntry
     MaterialEntry material;
     std::vector<PinEntry> pins;
     glm::vec3 velocity{0.f}; // m/s at the start
-    Integrator integrator = Integrator::Rk4;
+    Integrator integrator = Integrator::rk4;
     bool self_collision = true;
     uint32_t line = 0;
 };

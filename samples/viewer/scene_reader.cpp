@@ -94,7 +94,7 @@ bool SceneReader::expect(const Field& field, JsonNode::Kind kind, const char* ex
 
 bool SceneReader::object(const Field& field, std::initializer_list<const char*> keys)
 {
-    if (!expect(field, JsonNode::Kind::Object, "an object"))
+    if (!expect(field, JsonNode::Kind::object, "an object"))
         return false;
     const std::vector<std::string> known(keys.begin(), keys.end());
     for (size_t i = 0; i < field.node->keys.size(); ++i)
@@ -111,7 +111,7 @@ bool SceneReader::object(const Field& field, std::initializer_list<const char*> 
 bool SceneReader::array(const Field& field, size_t length)
 {
     const std::string expected = length == 0 ? "an array" : "an array of " + std::to_string(length) + " numbers";
-    if (!expect(field, JsonNode::Kind::Array, expected.c_str()))
+    if (!expect(field, JsonNode::Kind::array, expected.c_str()))
         return false;
     const size_t count = field.node->items.size();
     if (length != 0 && count != length)
@@ -140,13 +140,13 @@ Field SceneReader::required(const Field& object, const char* key)
 
 void SceneReader::read(const Field& field, bool& out)
 {
-    if (expect(field, JsonNode::Kind::Boolean, "true or false"))
+    if (expect(field, JsonNode::Kind::boolean, "true or false"))
         out = field.node->boolean;
 }
 
 void SceneReader::read(const Field& field, std::string& out)
 {
-    if (!expect(field, JsonNode::Kind::String, "a string"))
+    if (!expect(field, JsonNode::Kind::string, "a string"))
         return;
     if (field.node->text.empty())
         return fail(field, "is empty");
@@ -157,7 +157,7 @@ void SceneReader::read(const Field& field, std::string& out)
 
 void SceneReader::read(const Field& field, Range range, float& out)
 {
-    if (!expect(field, JsonNode::Kind::Number, "a number"))
+    if (!expect(field, JsonNode::Kind::number, "a number"))
         return;
     const double value = field.node->number;
     // What a float cannot hold would become infinite here, or a zero that slips past the range.
@@ -198,7 +198,7 @@ void SceneReader::read(const Field& field, Range range, glm::vec3& out)
 
 void SceneReader::read_integer(const Field& field, uint32_t min, uint32_t max, uint32_t& out)
 {
-    if (!expect(field, JsonNode::Kind::Number, "a whole number"))
+    if (!expect(field, JsonNode::Kind::number, "a whole number"))
         return;
     const double value = field.node->number;
     if (value != std::floor(value))

@@ -46,9 +46,9 @@ uint32_t corner_vertex(const cloth::Grid& grid, uint32_t corner)
 
 void hold_edge(const cloth::Grid& grid, Edge edge, std::vector<uint32_t>& held)
 {
-    const bool along_row = edge == Edge::Top || edge == Edge::Bottom;
+    const bool along_row = edge == Edge::top || edge == Edge::bottom;
     const uint32_t count = along_row ? grid.columns : grid.rows;
-    const uint32_t line = edge == Edge::Bottom ? grid.rows - 1 : edge == Edge::Right ? grid.columns - 1 : 0;
+    const uint32_t line = edge == Edge::bottom ? grid.rows - 1 : edge == Edge::right ? grid.columns - 1 : 0;
     for (uint32_t i = 0; i < count; ++i)
         held.push_back(along_row ? line * grid.columns + i : i * grid.columns + line);
 }
@@ -90,7 +90,7 @@ gpu::Result<cloth::Grid> make_grid(const SceneFile& scene, const ClothEntry& ent
     const auto* form = std::get_if<GridEntry>(&entry.form);
     if (form == nullptr)
         return unsupported(entry.line, "a cloth from a mesh file");
-    if (entry.integrator != Integrator::Rk4)
+    if (entry.integrator != Integrator::rk4)
         return unsupported(entry.line, "the integrator \"verlet\"");
     cloth::Grid grid;
     grid.name = entry.name;
