@@ -233,19 +233,35 @@ std::vector<DeviceInfo> list_devices()
 Device::Device(const DeviceOptions& options)
 {
     initialise_loader();
-    create_instance(options);
-    choose_physical_device(options.device);
-    create_device(options);
-    create_allocator();
+    try
+    {
+        create_instance(options);
+        choose_physical_device(options.device);
+        create_device(options);
+        create_allocator();
+    }
+    catch (...)
+    {
+        release(); // a destructor does not run for an object that was not finished
+        throw;
+    }
 }
 
 Device::~Device()
 {
+    release();
+}
+
+void Device::release() noexcept
+{
+    if (pipeline_cache_ != VK_NULL_HANDLE)
+        context_.fn.vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
+    if (allocator_ != VK_NULL_HANDLE)
+        vmaDestroyAllocator(allocator_);
     if (device_ != VK_NULL_HANDLE)
     {
-        vmaDestroyAllocator(allocator_);
-        context_.fn.vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
-        context_.fn.vkDestroyDevice(device_, nullptr);
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(vkGetDeviceProcAddr(device_, "vkDestroyDevice"));
+        destroy(device_, nullptr);
     }
     if (messenger_ != VK_NULL_HANDLE)
         vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);

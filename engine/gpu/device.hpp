@@ -77,6 +77,7 @@ private:
     void choose_physical_device(const std::string& wanted);
     void create_device(const DeviceOptions& options);
     void create_allocator();
+    void release() noexcept;
 
     ValidationLog validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
