@@ -1,7 +1,5 @@
-# First the shortest program: a cloth falls on a sphere, and a picture of it is there.
-add_test(NAME hello_cloth COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:hello_cloth>
-         -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/hello_cloth -P ${CMAKE_CURRENT_SOURCE_DIR}/hello_cloth.cmake)
-
+voile_add_test(test_hello_cloth SOURCES test_hello_cloth.cpp LIBRARIES voile::engine)
+add_dependencies(test_hello_cloth hello_cloth)
 voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES test_bvh.cpp LIBRARIES voile::cloth_internal voile::engine)
