@@ -3,6 +3,7 @@
 #include "cloth/mesh_checks.hpp"
 
 #include "engine/assets/shapes.hpp"
+#include "engine/gpu/device.hpp"
 
 #include <doctest/doctest.h>
 
@@ -271,10 +272,31 @@ TEST_CASE("an open mesh knows its sides and its boundary")
     const auto distance = cloth::MeshDistance::create(collider(ground));
     REQUIRE(distance);
     CHECK_FALSE(distance.value().closed());
+    CHECK(distance.value().has_sides());
     CHECK(distance.value().nearest({0.1, 0.25, 0.3}).signed_distance == doctest::Approx(0.25));
     CHECK(distance.value().nearest({0.1, -0.25, 0.3}).signed_distance == doctest::Approx(-0.25));
     CHECK_FALSE(distance.value().nearest({0.1, 0.25, 0.3}).on_boundary);
     CHECK(distance.value().nearest({3, 0.25, 0.3}).on_boundary);
     CHECK(distance.value().crossing({0.1, 1, 0.3}, {0.1, -3, 0.3}).value_or(-1) == doctest::Approx(0.25));
     CHECK_FALSE(distance.value().crossing({0.1, 1, 0.3}, {0.1, 0.5, 0.3}));
+}
+
+TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
+{
+    engine::Mesh sphere = engine::make_sphere({0, 0, 0}, 1, 12);
+    CHECK(engine::take(cloth::MeshDistance::create(collider(sphere))).has_sides());
+    std::erase_if(sphere.triangles, [&](const glm::uvec3& t) { return sphere.positions[t.x].y > 0.6f; });
+    CHECK_FALSE(engine::take(cloth::MeshDistance::create(collider(sphere))).has_sides());
+}
+
+TEST_CASE("triangles that cut each other are counted in pairs, neighbours are not")
+{
+    const std::vector<glm::vec3> positions{{0, 0, 0},        {1, 0, 0},       {0, 0, 1},
+                                           {1, 0, 1},                                          // a square, y = 0
+                                           {0.2f, -1, 0.2f}, {0.3f, 1, 0.2f}, {0.2f, 1, 0.3f}, // stabs its half
+                                           {5, 0, 0},        {6, 0, 0},       {5, 0, 1}};      // far away
+    const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    CHECK(cloth::count_self_intersections(positions, triangles) == 1);
+    CHECK(cloth::count_self_intersections(positions, std::span(triangles).first(2)) == 0);
+    CHECK(cloth::count_self_intersections(positions, {}) == 0);
 }

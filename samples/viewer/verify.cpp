@@ -31,6 +31,8 @@ gpu::Result<Depth> depth_of(const Solid& solid)
     if (distance->closed())
         return Depth([distance](const glm::dvec3& p, const glm::dvec3&)
                      { return -distance->nearest(p).signed_distance; });
+    if (!distance->has_sides())
+        return Depth([](const glm::dvec3&, const glm::dvec3&) { return 0.0; });
     return Depth(
         [distance](const glm::dvec3& p, const glm::dvec3& start)
         {

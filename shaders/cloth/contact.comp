@@ -66,6 +66,21 @@ void respond(inout Motion motion, Contact contact, float thickness, float static
     motion.x += 0.5 * push.step * change; // the impulse acted throughout the substep
 }
 
+// Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. Where the way from
+// its last place leads through one, it stays at that last place, so that no vertex is ever on the wrong side of a mesh.
+void keep_out(inout Motion motion)
+{
+    for (uint c = 0; c < push.colliders; ++c)
+    {
+        const Contact contact = path_contact(colliders[c], motion.from, motion.x);
+        if (!contact.found)
+            continue;
+        motion.x = motion.from;
+        motion.v -= min(dot(motion.v, contact.direction), 0) * contact.direction;
+        return;
+    }
+}
+
 void main()
 {
     const Chunk chunk = chunks[gl_WorkGroupID.x];
@@ -96,6 +111,8 @@ void main()
                     pair_friction(cloths[cloth].kinetic_friction, collider.kinetic_friction, collider.flags));
         }
     }
+    if (touches > 0)
+        keep_out(motion);
     positions[i] = vec4(motion.x, proposed.w);
     velocities[i] = vec4(motion.v, touches);
 }

@@ -9,6 +9,7 @@
 // How the narrow phase finds the surface within the thickness.
 #define VOILE_METHOD_NORMAL_RAY 0    // a ray along the vertex normal and one along its opposite, the nearest hit
 #define VOILE_METHOD_NEAREST_POINT 1 // the nearest point of the mesh
+#define VOILE_METHOD_PATH_ALONE 2    // nothing but what the path crosses
 
 // Offsets from the nearest point that are shorter than this share of the thickness are too short for a direction.
 #define VOILE_SHORT_OFFSET 0.01
@@ -87,7 +88,7 @@ void visit_triangle(uint index)
     }
     if (query.method == VOILE_METHOD_NORMAL_RAY)
         visit_normal_ray(triangle.a, triangle.b, triangle.c, face);
-    else
+    else if (query.method == VOILE_METHOD_NEAREST_POINT)
         visit_nearest(triangle.a, triangle.b, triangle.c, face);
 }
 
@@ -146,6 +147,26 @@ Contact mesh_contact(ColliderRecord collider, int method, vec3 from, vec3 to, ve
     if (query.crossing <= 1)
         return crossing_contact();
     return nearest_contact();
+}
+
+// Whether the way from `from` to `to` leads through the mesh; contact.direction is the side that it comes from.
+Contact path_contact(ColliderRecord collider, vec3 from, vec3 to)
+{
+    Contact contact;
+    contact.found = false;
+    const vec3 box_min = min(from, to);
+    const vec3 box_max = max(from, to);
+    if (collider.kind != VOILE_COLLIDER_MESH || !boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+        return contact;
+    query.method = VOILE_METHOD_PATH_ALONE;
+    query.from = from;
+    query.to = to;
+    query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
+    query.crossing = 2;
+    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+    if (query.crossing <= 1)
+        contact = crossing_contact();
+    return contact;
 }
 
 Contact find_contact(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)

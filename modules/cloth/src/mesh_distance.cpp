@@ -89,6 +89,16 @@ std::vector<TriangleNormals> pseudonormals(const MeshInput& mesh)
     return result;
 }
 
+// Whether all triangles face the half space of their mean normal.
+bool faces_one_way(const MeshInput& mesh)
+{
+    glm::dvec3 mean(0);
+    for (const glm::uvec3& t : mesh.triangles)
+        mean += face_normal(mesh, t);
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                       [&](const glm::uvec3& t) { return glm::dot(face_normal(mesh, t), mean) > 0; });
+}
+
 } // namespace
 
 struct MeshDistance::State
@@ -96,6 +106,7 @@ struct MeshDistance::State
     MeshInput mesh;
     Bvh bvh;
     std::vector<TriangleNormals> normals;
+    bool has_sides = false;
 };
 
 MeshDistance::MeshDistance(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -112,12 +123,18 @@ Result<MeshDistance> MeshDistance::create(const MeshCollider& collider)
     state->mesh = std::move(mesh.value());
     state->bvh = build_bvh(state->mesh.positions, state->mesh.triangles);
     state->normals = pseudonormals(state->mesh);
+    state->has_sides = state->mesh.closed || faces_one_way(state->mesh);
     return MeshDistance(std::move(state));
 }
 
 bool MeshDistance::closed() const
 {
     return state_->mesh.closed;
+}
+
+bool MeshDistance::has_sides() const
+{
+    return state_->has_sides;
 }
 
 MeshDistance::Nearest MeshDistance::nearest(const glm::dvec3& point) const

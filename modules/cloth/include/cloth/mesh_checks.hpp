@@ -21,8 +21,11 @@ public:
     MeshDistance(MeshDistance&&) noexcept;
     MeshDistance& operator=(MeshDistance&&) noexcept;
 
-    // Whether the mesh encloses a volume. An open mesh has no inside: its sign is the side of its triangles.
+    // Whether the mesh encloses a volume.
     [[nodiscard]] bool closed() const;
+    // Whether the sign tells two sides of the mesh apart: it is closed, or open with all triangles facing the same half
+    // space (a ground, a height field). Any other open mesh has no inside.
+    [[nodiscard]] bool has_sides() const;
 
     struct Nearest
     {
