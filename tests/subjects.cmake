@@ -22,12 +22,16 @@ if(EXISTS /usr/bin/python3)
 endif()
 
 # The installed package, used by a project of its own.
+set(consumer_linker_flags ${CMAKE_EXE_LINKER_FLAGS})
+if(VOILE_SANITIZE)
+    set(consumer_linker_flags -fsanitize=${VOILE_SANITIZE})
+endif()
 set(consumer_prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 add_test(NAME "consumer: install" COMMAND ${CMAKE_COMMAND} --install ${CMAKE_BINARY_DIR} --prefix ${consumer_prefix})
 add_test(NAME "consumer: find_package"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer
                  ${CMAKE_CURRENT_BINARY_DIR}/consumer --build-generator ${CMAKE_GENERATOR}
-                 --build-options -DCMAKE_PREFIX_PATH=${consumer_prefix} -DCMAKE_EXE_LINKER_FLAGS=${CMAKE_EXE_LINKER_FLAGS}
+                 --build-options -DCMAKE_PREFIX_PATH=${consumer_prefix} "-DCMAKE_EXE_LINKER_FLAGS=${consumer_linker_flags}"
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
