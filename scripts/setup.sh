@@ -12,7 +12,7 @@ packages=(
   libglm-dev libglfw3-dev libtinyobjloader-dev libstb-dev nlohmann-json3-dev libcli11-dev doctest-dev
   mesa-vulkan-drivers vulkan-validationlayers
   renderdoc librenderdoc-dev python3-renderdoc
-  ffmpeg
+  ffmpeg xvfb xauth
 )
 
 say() { printf 'setup: %s\n' "$*"; }

@@ -11,6 +11,7 @@ voile_add_test(test_contact SOURCES test_contact.cpp LIBRARIES voile::cloth_inte
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer SOURCES test_viewer.cpp LIBRARIES voile_viewer_parts)
 add_dependencies(test_viewer viewer scene_meshes)
+voile_add_test(test_frame SOURCES test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 voile_add_test(test_hazards SOURCES test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_renderer SOURCES test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
 
@@ -19,6 +20,15 @@ if(EXISTS /usr/bin/python3)
     add_test(NAME "capture: the frame in RenderDoc"
              COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/check_capture.py $<TARGET_FILE:viewer> reference)
     set_tests_properties("capture: the frame in RenderDoc" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+endif()
+
+# A window with its swapchain, where there is a virtual display to open it on.
+find_program(XVFB_RUN xvfb-run)
+if(XVFB_RUN)
+    add_test(NAME "window: frames on a virtual display"
+             COMMAND ${XVFB_RUN} -a $<TARGET_FILE:viewer> reference --frames 10 --validate --cloth-resolution 16
+                     --size 320x180)
+    set_tests_properties("window: frames on a virtual display" PROPERTIES TIMEOUT 120)
 endif()
 
 # The installed package, used by a project of its own.

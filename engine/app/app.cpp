@@ -33,7 +33,8 @@ std::unique_ptr<Window> open_window(const AppOptions& options)
 App::App(const AppOptions& options)
     : window_(open_window(options)), device_(device_options(options, window_ != nullptr)),
       frames_(device_, options.slots), renderer_(device_, {.extent = options.extent, .slots = options.slots}),
-      uploads_in_flight_(options.slots), in_flight_(options.slots), time_step_(options.time_step)
+      uploads_in_flight_(options.slots), in_flight_(options.slots), time_step_(options.time_step),
+      fixed_extent_(options.fixed_extent)
 {
     constexpr uint32_t k_most_passes = 4096; // substeps times passes; beyond it, passes go untimed
     if (options.timestamps)
@@ -84,7 +85,7 @@ bool App::frame()
     if (window_)
     {
         const VkExtent2D wanted = window_->framebuffer_extent();
-        if (wanted.width != renderer_.extent().width || wanted.height != renderer_.extent().height)
+        if (!fixed_extent_ && (wanted.width != renderer_.extent().width || wanted.height != renderer_.extent().height))
         {
             device_.wait_idle();
             renderer_.resize(wanted);

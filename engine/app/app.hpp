@@ -19,7 +19,8 @@ struct AppOptions
 {
     std::string title = "voile";
     VkExtent2D extent{1280, 720};
-    bool headless = false; // no window, even with a display
+    bool headless = false;     // no window, even with a display
+    bool fixed_extent = false; // pictures keep their extent when the window is resized, and are scaled into it
     DeviceOptions device{};
     uint32_t slots = 2;         // frames in flight
     float time_step = 1.f / 60; // s a frame
@@ -77,6 +78,7 @@ private:
     std::vector<std::optional<FrameInfo>> in_flight_;             // one a slot
     Scene scene_;                                                 // last: components go before what they borrow
     float time_step_;
+    bool fixed_extent_;
     uint64_t next_index_ = 0;
     double record_milliseconds_ = 0;
 };

@@ -43,6 +43,7 @@ engine::AppOptions app_options(const Options& options, const SceneFile& scene)
     result.title = "voile: " + scene.name;
     result.extent = {options.width, options.height};
     result.headless = options.headless;
+    result.fixed_extent = options.out || options.video; // files hold pictures of one size
     result.device.device = options.device.value_or("");
     result.device.validation = options.validate;
     result.time_step = 1 / scene.step.rate;
