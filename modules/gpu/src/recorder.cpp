@@ -46,11 +46,12 @@ void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t thre
                                            static_cast<uint32_t>(push.size()), push.data());
         context_.fn.vkCmdDispatch(cmd_, (threads + group_size - 1) / group_size, 1, 1);
         ++dispatches_;
+        // Within the pass: where waiting costs something, it is the pass's cost, and some devices only finish here.
+        if (ordering == Ordering::ordered)
+            barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
+                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
     }
-    if (ordering == Ordering::ordered)
-        barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
-                VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
     if (split_ != nullptr)
         cmd_ = split_(split_user_, cmd_);
 }
