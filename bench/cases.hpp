@@ -12,10 +12,10 @@ namespace bench
 
 struct Case
 {
-    const char* name;
-    const char* purpose; // one line
+    const char* name = nullptr;
+    const char* purpose = nullptr; // one line
     // Adds everything; the cloths added. StartupError with the solver's message.
-    std::vector<cloth::ClothId> (*build)(cloth::Solver& solver);
+    std::vector<cloth::ClothId> (*build)(cloth::Solver& solver) = nullptr;
     cloth::ContactMethod method = cloth::ContactMethod::nearest_point;
     uint32_t frames_before = 0; // of 1/60 s, simulated before anything is measured
     bool in_contact = false;    // vertices must touch a collider then, or the case measures something else

@@ -51,7 +51,7 @@ gpu::Result<Polygons> parse(CheckedObj checked, const std::string& name)
 template <typename Number>
 void append_number(std::string& text, Number number)
 {
-    std::array<char, 32> digits; // the shortest that read back as the same number
+    std::array<char, 32> digits{}; // the shortest that read back as the same number
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     text.append(" ").append(digits.data(), end);
 }

@@ -100,6 +100,7 @@ void export_state(const Options& options, const std::vector<FinalCloth>& state, 
     if (!options.export_file || options.export_format == ExportFormat::point_cache)
         return;
     std::vector<ClothSurface> surfaces;
+    surfaces.reserve(state.size());
     for (const FinalCloth& cloth : state)
         surfaces.push_back({cloth.name, cloth.positions, cloth.normals, cloth.triangles});
     for (const auto& path : engine::take(export_surfaces(*options.export_file, surfaces)))
