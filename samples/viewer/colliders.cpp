@@ -61,7 +61,15 @@ gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry
     return solid;
 }
 
-// Where the scene's meshes stand; without one, a cube below the cloths that they cover.
+// How high the ground is: of a plane or a level mesh.
+std::optional<float> ground_height(const Solid& solid)
+{
+    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
+        return plane->y;
+    return solid.is_ground() ? std::optional<float>(solid.bounds()->max.y) : std::nullopt;
+}
+
+// Where the scene's meshes stand, above the ground; without one, a cube below the cloths that they cover.
 engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& solids)
 {
     std::optional<engine::Bounds> box;
@@ -69,7 +77,12 @@ engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& so
         if (std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground())
             box = merge(box, *solid.bounds());
     if (box)
+    {
+        for (const Solid& solid : solids)
+            if (const auto height = ground_height(solid); height && *height < box->max.y)
+                box->min.y = std::max(box->min.y, *height);
         return *box;
+    }
     std::optional<engine::Bounds> cloths;
     for (const ClothEntry& cloth : scene.cloths)
         cloths = merge(cloths, grid_bounds(cloth));

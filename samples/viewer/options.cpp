@@ -71,7 +71,8 @@ void declare_simulation(CLI::App& app, Typed& typed, Options& options)
     app.add_option("--cloth-resolution", typed.resolution,
                    "Gives every grid of the scene N x N vertices (default: the scene's)")
         ->type_name("N");
-    app.add_option("--collider", typed.colliders, "Adds a collider, fitted to the scene's collider box; repeatable")
+    app.add_option("--collider", typed.colliders,
+                   "Puts a mesh where the scene's meshes stand, fitted to their box; repeatable")
         ->type_name("FILE.obj|.ply");
 }
 
