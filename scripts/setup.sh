@@ -30,8 +30,8 @@ as_root() {
 
 installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
 
-# A package that this release of the distribution does not have (RenderDoc on some) is not worth failing for.
-optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc) true ;; *) false ;; esac; }
+# A package that a release of the distribution may not have (RenderDoc) is not worth failing for.
+optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc | xvfb | xauth) true ;; *) false ;; esac; }
 
 available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
 
@@ -43,9 +43,19 @@ has_vma() {
 missing_packages() {
   local package
   for package in "${packages[@]}"; do
-    installed "$package" || printf '%s\n' "$package"
+    installed "$package" || optional "$package" || printf '%s\n' "$package"
   done
   has_vma || printf 'libvulkan-memory-allocator-dev\n'
+}
+
+# Those that this release has, as far as its package lists tell.
+missing_optional_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    if optional "$package" && ! installed "$package" && available "$package"; then
+      printf '%s\n' "$package"
+    fi
+  done
 }
 
 # Debian 12 has no VulkanMemoryAllocator. Debian 13's package is header-only, for all architectures and
@@ -84,31 +94,34 @@ TEXT
 fi
 
 mapfile -t missing < <(missing_packages)
+mapfile -t extra < <(missing_optional_packages)
 if [ "${1:-}" = "--check" ]; then
   [ "${#missing[@]}" -eq 0 ] && exit 0
   say "missing: ${missing[*]}"
   exit 1
 fi
-[ "${#missing[@]}" -eq 0 ] && exit 0
+[ "${#missing[@]}" -eq 0 ] && [ "${#extra[@]}" -eq 0 ] && exit 0
 
 export DEBIAN_FRONTEND=noninteractive
-say "installing ${#missing[@]} packages: ${missing[*]}"
 as_root apt-get -qq update
-wanted=()
-for package in "${missing[@]}"; do
+mapfile -t extra < <(missing_optional_packages) # the lists may have been empty before
+wanted=(${extra[@]+"${extra[@]}"})
+for package in ${missing[@]+"${missing[@]}"}; do
   if available "$package"; then
     wanted+=("$package")
-  elif [ "$package" = libvulkan-memory-allocator-dev ]; then
-    continue # Debian 12: below
-  elif optional "$package"; then
-    say "$package is not in this release; captures stay off"
-  else
+  elif [ "$package" != libvulkan-memory-allocator-dev ]; then # Debian 12: below
     say "package $package is not in this release of the distribution; install it by hand" >&2
     exit 1
   fi
 done
 if [ "${#wanted[@]}" -gt 0 ]; then
+  say "installing ${#wanted[@]} packages: ${wanted[*]}"
   as_root apt-get -qq install -y --no-install-recommends "${wanted[@]}" >/dev/null
 fi
 has_vma || install_vma_from_trixie
+for package in "${packages[@]}"; do
+  if optional "$package" && ! installed "$package"; then
+    say "$package is not in this release; what needs it stays off"
+  fi
+done
 say "done"

@@ -7,7 +7,11 @@
 #include "cloth/mesh_checks.hpp"
 #include "engine/assets/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
 
 namespace
 {

@@ -8,8 +8,10 @@
 #include "cloth_layout.h"
 #include "engine/assets/shapes.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 
 namespace
 {

@@ -3,6 +3,7 @@
 #include "cloth_harness.hpp"
 #include "reference/cloth_reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace

@@ -8,6 +8,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/scene/static_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

@@ -1,6 +1,8 @@
 // Presets, and what a scene file changes of them.
 #include "samples/viewer/materials.hpp"
 
+#include <algorithm>
+
 namespace viewer
 {
 namespace

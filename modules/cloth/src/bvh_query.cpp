@@ -2,6 +2,7 @@
 #include "bvh_query.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 

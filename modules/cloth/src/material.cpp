@@ -2,6 +2,7 @@
 #include "cloth/material.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace cloth
