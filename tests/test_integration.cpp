@@ -226,3 +226,30 @@ TEST_CASE("normals are the normals of a curved sheet")
     for (const glm::vec4& n : harness.normals(id))
         CHECK(glm::length(glm::vec3(n) - expected) < 1e-5f);
 }
+
+TEST_CASE("normals of a sheet that hangs in folds are the cross products of its central differences")
+{
+    cloth::Grid grid = uneven_sheet(23, 17);
+    grid.held = {0, 22};
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    harness.step({.duration = 0.5f, .substeps = 500});
+    const auto x = harness.positions(id);
+    const auto normals = harness.normals(id);
+    const auto at = [&](uint32_t row, uint32_t column) { return glm::dvec3(x[size_t{row} * 23 + column]); };
+    double straightest = 1;
+    for (uint32_t row = 0; row < 17; ++row)
+        for (uint32_t column = 0; column < 23; ++column)
+        {
+            const glm::dvec3 along_row = at(row, std::min(column + 1, 22u)) - at(row, column == 0 ? 0 : column - 1);
+            const glm::dvec3 along_column = at(std::min(row + 1, 16u), column) - at(row == 0 ? 0 : row - 1, column);
+            const glm::dvec3 expected = glm::normalize(glm::cross(along_column, along_row));
+            const glm::dvec3 found(normals[size_t{row} * 23 + column]);
+            // Differences of coordinates near 2 m over 5 cm or less, in float.
+            CHECK(glm::distance(found, expected) < 16 * std::exp2(-24) * 2 / 0.05);
+            straightest = std::min(
+                straightest, glm::dot(expected, glm::normalize(glm::cross(at(1, 0) - at(0, 0), at(0, 1) - at(0, 0)))));
+        }
+    CHECK(straightest < 0.9); // it is curved
+}
