@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
+#include <optional>
 
 namespace engine
 {
@@ -13,7 +13,6 @@ namespace engine
 namespace
 {
 
-constexpr const char* k_validation_layer = "VK_LAYER_KHRONOS_validation";
 // 1.2 and two extensions rather than 1.3: RenderDoc reports 1.2 while it captures software devices.
 constexpr uint32_t k_api_version = VK_API_VERSION_1_2;
 constexpr std::array k_device_extensions{VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
@@ -26,16 +25,6 @@ void initialise_loader()
             "no Vulkan loader (libvulkan.so.1) on this system; Debian and Ubuntu: apt install libvulkan1");
 }
 
-bool has_layer(const char* name)
-{
-    uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
-}
-
 bool has_instance_extension(const char* name)
 {
     uint32_t count = 0;
@@ -45,25 +34,6 @@ bool has_instance_extension(const char* name)
     return std::any_of(extensions.begin(), extensions.end(),
                        [&](const VkExtensionProperties& extension)
                        { return std::strcmp(extension.extensionName, name) == 0; });
-}
-
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
-{
-    static_cast<ValidationLog*>(user)->add(data->pMessage);
-    return VK_FALSE;
-}
-
-VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog* log)
-{
-    VkDebugUtilsMessengerCreateInfoEXT info{};
-    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-    info.messageSeverity =
-        VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT;
-    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    info.pfnUserCallback = on_message;
-    info.pUserData = log;
-    return info;
 }
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance)
@@ -181,30 +151,6 @@ size_t best_device(const std::vector<DeviceInfo>& infos)
 
 } // namespace
 
-void ValidationLog::add(std::string message)
-{
-    constexpr size_t k_kept = 32;
-    if (echo)
-        std::fprintf(stderr, "validation: %s\n", message.c_str());
-    const std::scoped_lock lock(mutex_);
-    if (messages_.size() < k_kept)
-        messages_.push_back(std::move(message));
-    ++count_;
-}
-
-std::vector<std::string> ValidationLog::messages() const
-{
-    const std::scoped_lock lock(mutex_);
-    return messages_;
-}
-
-void ValidationLog::clear()
-{
-    const std::scoped_lock lock(mutex_);
-    messages_.clear();
-    count_ = 0;
-}
-
 void check(VkResult result, const char* what)
 {
     if (result != VK_SUCCESS)
@@ -276,9 +222,9 @@ void Device::wait_idle() const
 
 void Device::create_instance(const DeviceOptions& options)
 {
-    if (options.validation && !has_layer(k_validation_layer))
-        throw StartupError(
-            "--validate: the Khronos validation layer is not installed (Debian: vulkan-validationlayers)");
+    std::optional<ValidationRequest> validation;
+    if (options.validation)
+        validation.emplace(validation_);
 
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
@@ -290,30 +236,18 @@ void Device::create_instance(const DeviceOptions& options)
     if (debug_utils)
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
-    // Set in the instance's own chain: this layer version has no VK_EXT_layer_settings.
-    constexpr std::array k_enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
-    VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&validation_);
-    VkValidationFeaturesEXT features{};
-    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-    features.enabledValidationFeatureCount = static_cast<uint32_t>(k_enabled.size());
-    features.pEnabledValidationFeatures = k_enabled.data();
-    features.pNext = &messenger;
-
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
+    if (validation)
+        validation->apply(info, extensions);
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    if (options.validation)
-    {
-        info.pNext = &features;
-        info.enabledLayerCount = 1;
-        info.ppEnabledLayerNames = &k_validation_layer;
-    }
     check(vkCreateInstance(&info, nullptr, &instance_), "no Vulkan instance");
     volkLoadInstanceOnly(instance_);
-    if (options.validation)
-        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_), "debug messenger");
+    if (validation)
+        check(vkCreateDebugUtilsMessengerEXT(instance_, &validation->messenger(), nullptr, &messenger_),
+              "debug messenger");
 }
 
 void Device::choose_physical_device(const std::string& wanted)

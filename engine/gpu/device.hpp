@@ -1,10 +1,10 @@
 // Device: the instance, the chosen physical device, the logical device and VMA, made once at start-up.
 #pragma once
 
+#include "engine/gpu/validation.hpp"
+
 #include "gpu/context.hpp"
 
-#include <atomic>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,22 +16,6 @@ namespace engine
 struct StartupError : std::runtime_error
 {
     using std::runtime_error::runtime_error;
-};
-
-// Counts and keeps what the validation layer says. Messages may arrive on any thread.
-class ValidationLog
-{
-public:
-    void add(std::string message);
-    [[nodiscard]] uint32_t count() const { return count_; }
-    [[nodiscard]] std::vector<std::string> messages() const; // the first 32
-    void clear();
-    bool echo = true; // print each message on standard error as it comes
-
-private:
-    std::atomic<uint32_t> count_ = 0;
-    mutable std::mutex mutex_;
-    std::vector<std::string> messages_;
 };
 
 struct DeviceOptions
