@@ -29,12 +29,13 @@ double median_time(TimedQueue& queue, const TimedQueue::Record& record)
 double copy_bandwidth(TimedQueue& queue)
 {
     constexpr uint32_t k_group = 256;
+    constexpr VkDeviceSize k_group_bytes = VkDeviceSize{16} * k_group;
     const gpu::Context& context = queue.context();
     const VkDeviceSize wanted = queue.device().is_cpu() ? VkDeviceSize{128} << 20 : VkDeviceSize{1} << 30;
     // One group a dispatch's x: 65,535 of them are what every device takes.
-    const VkDeviceSize groups = std::min<VkDeviceSize>(std::min(wanted, context.max_buffer_bytes) / (16 * k_group),
+    const VkDeviceSize groups = std::min<VkDeviceSize>(std::min(wanted, context.max_buffer_bytes) / k_group_bytes,
                                                        context.limits.maxComputeWorkGroupCount[0]);
-    const VkDeviceSize bytes = groups * k_group * 16;
+    const VkDeviceSize bytes = groups * k_group_bytes;
     const auto buffer = [&](const char* name)
     {
         return engine::take(gpu::create_buffer(context, name, bytes,

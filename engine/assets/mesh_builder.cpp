@@ -104,7 +104,7 @@ void clean(const Polygons& polygons, std::vector<Triangle>& triangles, MeshRepor
             ++report.degenerate_triangles;
             return true;
         }
-        std::array<uint32_t, 3> points;
+        std::array<uint32_t, 3> points{};
         for (size_t i = 0; i < 3; ++i)
             points[i] = first[static_cast<size_t>(t[i].position)];
         std::sort(points.begin(), points.end());
@@ -122,7 +122,7 @@ std::vector<glm::vec3> compute_normals(const Polygons& polygons, const std::vect
     std::vector<glm::dvec3> sums(polygons.positions.size(), glm::dvec3(0.));
     for (const Triangle& t : triangles)
     {
-        std::array<glm::dvec3, 3> p;
+        std::array<glm::dvec3, 3> p{};
         for (size_t i = 0; i < 3; ++i)
             p[i] = position_of(polygons, t[i]);
         const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));

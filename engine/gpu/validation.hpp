@@ -45,8 +45,8 @@ public:
 private:
     VkDebugUtilsMessengerCreateInfoEXT messenger_{};
     VkValidationFeaturesEXT features_{};
-    bool layer_settings_ = false;
 #ifdef VK_EXT_layer_settings
+    bool layer_settings_ = false;
     VkBool32 on_ = VK_TRUE;
     std::array<VkLayerSettingEXT, 2> settings_{};
     VkLayerSettingsCreateInfoEXT settings_info_{};

@@ -215,6 +215,7 @@ gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const s
     if (extension != ".obj" && extension != ".ply")
         return gpu::Error{one_line(path.string() + ": does not end in .obj or .ply")};
     std::vector<std::string> names;
+    names.reserve(surfaces.size());
     for (const ClothSurface& surface : surfaces)
         names.push_back(surface.name);
     std::vector<fs::path> paths = export_paths(path, names);

@@ -53,6 +53,7 @@ std::vector<std::string> encoder_arguments(const FilmSettings& settings, const f
 int spawn_encoder(std::vector<std::string> arguments, int input, int messages, pid_t& process)
 {
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
@@ -174,7 +175,7 @@ void FilmWriter::discard() noexcept
 gpu::Error FilmWriter::encoder_error()
 {
     const std::string said = messages_ != nullptr ? last_line(messages_) : "";
-    const gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "ffmpeg: " + said);
+    gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "ffmpeg: " + said);
     discard();
     return error;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -46,7 +47,7 @@ ProgressSettings default_progress()
 std::string duration_text(double seconds)
 {
     constexpr double k_longest = 359'999; // 99:59:59
-    const auto whole = static_cast<unsigned>(std::clamp(seconds, 0.0, k_longest) + 0.5);
+    const auto whole = static_cast<unsigned>(std::lround(std::clamp(seconds, 0.0, k_longest)));
     std::array<char, 32> text{};
     if (whole >= 3600)
         (void)std::snprintf(text.data(), text.size(), "%u:%02u:%02u", whole / 3600, whole / 60 % 60, whole % 60);

@@ -57,7 +57,7 @@ struct Split
 struct Binning
 {
     glm::vec3 origin;
-    glm::vec3 scale; // 0 along an axis without extent
+    glm::vec3 scale{0.f}; // 0 along an axis without extent
 
     explicit Binning(const Box& centroids) : origin(centroids.min)
     {

@@ -9,9 +9,9 @@ namespace
 
 struct BufferRequest
 {
-    gpu::Buffer* buffer;
-    const char* name;
-    VkDeviceSize bytes;
+    gpu::Buffer* buffer = nullptr;
+    const char* name = nullptr;
+    VkDeviceSize bytes = 0;
     gpu::Memory memory = gpu::Memory::device;
 };
 
