@@ -9,7 +9,6 @@
 #include "engine/assets/shapes.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <functional>
 
@@ -17,10 +16,6 @@ namespace
 {
 
 using tests::ClothHarness;
-
-// This layer validates submissions on request of the environment alone, which must stand before the instance is made.
-const int k_validate_submissions =
-    setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 1);
 
 // Two dispatches of a small kernel that reads the first buffer and writes the second.
 class TwoDispatches : public tests::GpuFixture
@@ -167,7 +162,6 @@ TEST_CASE_FIXTURE(TwoDispatches, "a write that does not wait for a write is repo
 {
     const VkDescriptorSet a = bind(first(), second());
     const VkDescriptorSet b = bind(third(), second());
-    REQUIRE(k_validate_submissions == 0);
     for (const auto ordering : {gpu::Ordering::unordered, gpu::Ordering::ordered})
     {
         OneDispatchEach buffers(tests::device());

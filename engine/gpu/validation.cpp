@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 namespace engine
@@ -26,7 +27,6 @@ bool has_layer()
                        [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, k_layer) == 0; });
 }
 
-#ifdef VK_EXT_layer_settings
 bool layer_has_settings()
 {
     uint32_t count = 0;
@@ -35,9 +35,8 @@ bool layer_has_settings()
     vkEnumerateInstanceExtensionProperties(k_layer, &count, extensions.data());
     return std::any_of(extensions.begin(), extensions.end(),
                        [](const VkExtensionProperties& extension)
-                       { return std::strcmp(extension.extensionName, VK_EXT_LAYER_SETTINGS_EXTENSION_NAME) == 0; });
+                       { return std::strcmp(extension.extensionName, "VK_EXT_layer_settings") == 0; });
 }
-#endif
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
@@ -91,9 +90,15 @@ ValidationRequest::ValidationRequest(ValidationLog& log)
     features_.pNext = &messenger_;
     features_.enabledValidationFeatureCount = 1;
     features_.pEnabledValidationFeatures = &k_synchronization;
+    if (!layer_has_settings())
+    {
+        // Older layers compare the command buffers of a submission on request of the environment alone.
+        setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
+        return;
+    }
 #ifdef VK_EXT_layer_settings
     // Newer layers look at what shaders access through descriptors only on request.
-    layer_settings_ = layer_has_settings();
+    layer_settings_ = true;
     settings_[0] = {k_layer, "validate_sync", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on_};
     settings_[1] = {k_layer, "syncval_shader_accesses_heuristic", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on_};
     settings_info_.sType = VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT;
