@@ -17,26 +17,21 @@ namespace
 constexpr const char* k_layer = "VK_LAYER_KHRONOS_validation";
 constexpr VkValidationFeatureEnableEXT k_synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
 
-bool has_layer()
+// The version of Vulkan that the installed layer was made for; 0: there is none.
+uint32_t layer_version()
 {
     uint32_t count = 0;
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, k_layer) == 0; });
+    const auto layer = std::find_if(layers.begin(), layers.end(),
+                                    [](const VkLayerProperties& l) { return std::strcmp(l.layerName, k_layer) == 0; });
+    return layer != layers.end() ? layer->specVersion : 0;
 }
 
-bool layer_has_settings()
-{
-    uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(k_layer, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(k_layer, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(),
-                       [](const VkExtensionProperties& extension)
-                       { return std::strcmp(extension.extensionName, "VK_EXT_layer_settings") == 0; });
-}
+// From this version on the layer compares the command buffers of a submission by itself, and looks at what shaders
+// access through descriptors only on request, by VK_EXT_layer_settings.
+constexpr uint32_t k_layer_with_settings = VK_MAKE_API_VERSION(0, 1, 3, 290);
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
@@ -77,7 +72,8 @@ void ValidationLog::clear()
 
 ValidationRequest::ValidationRequest(ValidationLog& log)
 {
-    if (!has_layer())
+    const uint32_t version = layer_version();
+    if (version == 0)
         throw StartupError(
             "--validate: the Khronos validation layer is not installed (Debian: vulkan-validationlayers)");
     messenger_.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
@@ -90,14 +86,13 @@ ValidationRequest::ValidationRequest(ValidationLog& log)
     features_.pNext = &messenger_;
     features_.enabledValidationFeatureCount = 1;
     features_.pEnabledValidationFeatures = &k_synchronization;
-    if (!layer_has_settings())
+    if (version < k_layer_with_settings)
     {
-        // Older layers compare the command buffers of a submission on request of the environment alone.
+        // Comparing the command buffers of a submission is switched on by the environment alone.
         setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
         return;
     }
 #ifdef VK_EXT_layer_settings
-    // Newer layers look at what shaders access through descriptors only on request.
     layer_settings_ = true;
     settings_[0] = {k_layer, "validate_sync", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on_};
     settings_[1] = {k_layer, "syncval_shader_accesses_heuristic", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on_};
