@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace engine
 {
@@ -78,6 +79,7 @@ bool App::frame()
         if (window_->minimised())
             return true;
         steer_camera();
+        keep_pace();
     }
     const FrameRing::Frame frame = frames_.begin();
     complete(frame.slot);
@@ -146,6 +148,16 @@ void App::run(uint64_t headless_frames)
         if (!frame())
             break;
     finish();
+}
+
+void App::keep_pace()
+{
+    using Clock = std::chrono::steady_clock;
+    std::this_thread::sleep_until(next_frame_);
+    // From the due time, not from now: sleeping a little too long must not add up. A late frame starts a new count.
+    const Clock::time_point now = Clock::now();
+    const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<float>(time_step_));
+    next_frame_ = next_frame_ + step < now ? now + step : next_frame_ + step;
 }
 
 // Dragging turns the camera around its target, the wheel brings it nearer.

@@ -6,6 +6,7 @@
 #include "engine/gpu/upload.hpp"
 #include "engine/render/renderer.hpp"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -51,7 +52,8 @@ public:
     std::function<void(const FrameInfo&)> completed;
 
     // Records and submits one frame: uploads, compute, shadow and scene passes, all in one command buffer. False when
-    // the user has closed the window; the frame is then not run. A minimised window waits without simulating.
+    // the user has closed the window; the frame is then not run. A minimised window waits without simulating. In a
+    // window a frame begins no sooner than its time step after the last one, so that fast displays show real time.
     bool frame();
 
     // Waits for all frames in flight and calls `completed` for each.
@@ -67,6 +69,7 @@ private:
     void complete(uint32_t slot);
     void record(const FrameRing::Frame& frame, const FrameInfo& info, const Window::Target* target);
     void steer_camera();
+    void keep_pace();
 
     std::unique_ptr<Window> window_; // before the device: the instance needs its extensions
     Device device_;
@@ -81,6 +84,7 @@ private:
     bool fixed_extent_;
     uint64_t next_index_ = 0;
     double record_milliseconds_ = 0;
+    std::chrono::steady_clock::time_point next_frame_; // when it is due, in a window
 };
 
 } // namespace engine
