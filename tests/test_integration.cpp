@@ -29,6 +29,7 @@ cloth::Grid uneven_sheet(uint32_t columns, uint32_t rows)
     grid.material.springs.diagonal_bend = {30, 0.2f};
     grid.material.air_drag_normal = 1.28f;
     grid.material.air_drag_tangential = 0.1f;
+    grid.material.border_share = 0.7f;
     return grid;
 }
 

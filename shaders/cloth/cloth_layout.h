@@ -39,7 +39,7 @@ struct ClothRecord
     float linear_drag;     // N s/m a vertex: force = linear_drag * (wind - velocity)
     float drag_normal;     // C_n of the quadratic law
     float drag_tangential; // C_t
-    float padding_0;
+    float border_share;    // of masses and of springs along the border
     float padding_1;
     float padding_2;
     SpringClass springs[VOILE_SPRING_CLASSES];

@@ -59,9 +59,16 @@ vec3 acceleration(uint cloth, GridVertex self, vec3 x, float inverse_mass, vec3 
     vec3 force = cloths[cloth].linear_drag * (push.wind - v);
     vec3 along_row = vec3(0);
     vec3 along_column = vec3(0);
+    // Springs along the border stand for half a strip of the fabric where the cloth says so.
+    const float border_share = cloths[cloth].border_share;
+    const float row_share = self.row == 0 || self.row + 1 == int(rows) ? border_share : 1;
+    const float column_share = self.column == 0 || self.column + 1 == int(columns) ? border_share : 1;
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
     {
-        const SpringClass spring = cloths[cloth].springs[c];
+        SpringClass spring = cloths[cloth].springs[c];
+        const float share = c % 4 == 0 ? row_share : c % 4 == 1 ? column_share : 1;
+        spring.stiffness *= share;
+        spring.damping *= share;
         for (int side = 0; side < 2; ++side)
         {
             const float sign = side == 0 ? 1 : -1;

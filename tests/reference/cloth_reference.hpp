@@ -51,6 +51,8 @@ public:
                                      glm::dvec4(u * double(grid.width), 0, v * double(grid.depth), 1));
                 state.v.emplace_back(grid.velocity);
             }
+        for (uint32_t i = 0; i < size(); ++i)
+            inverse_mass_[i] /= border(i / grid.columns, grid.rows) * border(i % grid.columns, grid.columns);
         for (const uint32_t held : grid.held)
         {
             inverse_mass_[held] = 0;
@@ -140,10 +142,19 @@ private:
                 const int other = column + columns;
                 if (other < 0 || other >= int(grid_.columns))
                     continue;
+                // Along a row a spring belongs to that row's strip, along a column to that column's.
+                const double share = rows == 0      ? border(uint32_t(row), grid_.rows)
+                                     : columns == 0 ? border(uint32_t(column), grid_.columns)
+                                                    : 1;
                 springs.push_back({uint32_t(row) * grid_.columns + uint32_t(column),
-                                   uint32_t(row + rows) * grid_.columns + uint32_t(other), double(spring.stiffness),
-                                   double(spring.damping), rest_length});
+                                   uint32_t(row + rows) * grid_.columns + uint32_t(other),
+                                   share * double(spring.stiffness), share * double(spring.damping), rest_length});
             }
+    }
+
+    [[nodiscard]] double border(uint32_t i, uint32_t count) const
+    {
+        return i == 0 || i + 1 == count ? double(grid_.material.border_share) : 1;
     }
 
     [[nodiscard]] ClothState advanced(const std::vector<glm::dvec3>& v, const std::vector<glm::dvec3>& a,

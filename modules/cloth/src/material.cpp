@@ -1,6 +1,7 @@
 // Materials: from fabric properties to springs, and the checks of both.
 #include "cloth/material.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -55,18 +56,22 @@ Spring damped_spring(float stiffness, float damping_ratio, float vertex_mass)
 
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column)
 {
-    const float warp_spacing = spacing_along_row;
-    const float weft_spacing = spacing_along_column;
-    const float area = warp_spacing * weft_spacing;
+    const double a = static_cast<double>(spacing_along_row);
+    const double b = static_cast<double>(spacing_along_column);
+    const double warp = static_cast<double>(fabric.stretch_stiffness[0]);
+    const double weft = static_cast<double>(fabric.stretch_stiffness[1]);
+    const double shear = static_cast<double>(fabric.shear_stiffness);
+    const double held = 0.5 * (warp + std::sqrt(warp * warp + 4 * shear * shear * warp / weft));
     Material material;
-    material.vertex_mass = fabric.areal_density * area;
-    const auto spring = [&](float stiffness)
-    { return damped_spring(stiffness, fabric.damping_ratio, material.vertex_mass); };
-    material.springs.structural_warp = spring(fabric.stretch_stiffness[0] * weft_spacing / warp_spacing);
-    material.springs.structural_weft = spring(fabric.stretch_stiffness[1] * warp_spacing / weft_spacing);
-    material.springs.shear = spring(fabric.shear_stiffness);
-    material.springs.bend_warp = spring(fabric.bending_stiffness / area);
-    material.springs.bend_weft = spring(fabric.bending_stiffness / area);
+    material.vertex_mass = static_cast<float>(static_cast<double>(fabric.areal_density) * a * b);
+    material.border_share = 0.5f;
+    const auto spring = [&](double stiffness)
+    { return damped_spring(static_cast<float>(std::max(stiffness, 0.0)), fabric.damping_ratio, material.vertex_mass); };
+    material.springs.structural_warp = spring((held - shear * a * a / (b * b)) * b / a);
+    material.springs.structural_weft = spring((held * weft / warp - shear * b * b / (a * a)) * a / b);
+    material.springs.shear = spring(shear * (a * a + b * b) / (2 * a * b));
+    material.springs.bend_warp = spring(static_cast<double>(fabric.bending_stiffness) / (a * b));
+    material.springs.bend_weft = material.springs.bend_warp;
     material.thickness = fabric.thickness;
     material.static_friction = fabric.static_friction;
     material.kinetic_friction = fabric.kinetic_friction;
@@ -113,6 +118,8 @@ Result<void> validate(const Material& material)
     for (const Range& range : ranges)
         if (auto result = check("material", range); !result)
             return result;
+    if (!(material.border_share > 0) || material.border_share > 1)
+        return Error{"material: border_share is " + text(material.border_share) + ", must be > 0 and at most 1"};
     return check_friction("material", material.static_friction, material.kinetic_friction);
 }
 

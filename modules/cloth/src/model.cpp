@@ -64,6 +64,7 @@ shared::ClothRecord make_record(const Grid& grid, uint32_t first_vertex)
     record.linear_drag = m.linear_drag;
     record.drag_normal = m.air_drag_normal;
     record.drag_tangential = m.air_drag_tangential;
+    record.border_share = m.border_share;
     record.springs[0] = spring(m.springs.structural_warp, along_row);
     record.springs[1] = spring(m.springs.structural_weft, along_column);
     record.springs[2] = record.springs[3] = spring(m.springs.shear, diagonal);
@@ -73,7 +74,8 @@ shared::ClothRecord make_record(const Grid& grid, uint32_t first_vertex)
     return record;
 }
 
-// Row sums of M^-1 K and M^-1 C for a vertex with all its neighbours (Gershgorin 1931).
+// Row sums of M^-1 K and M^-1 C for a vertex with all its neighbours (Gershgorin 1931). On a border masses and springs
+// shrink alike; drag a vertex does not.
 StabilityBound stability_bound(const shared::ClothRecord& record, const Material& material)
 {
     double stiffness = 0;
@@ -84,7 +86,9 @@ StabilityBound stability_bound(const shared::ClothRecord& record, const Material
         damping += 2.0 * static_cast<double>(spring.damping);
     }
     const auto mass = static_cast<double>(material.vertex_mass);
-    return {std::sqrt(2 * stiffness / mass), (2 * damping + static_cast<double>(material.linear_drag)) / mass};
+    const auto share = static_cast<double>(material.border_share);
+    const double drag = static_cast<double>(material.linear_drag) / (share * share); // in a corner
+    return {std::sqrt(2 * stiffness / mass), (2 * damping + drag) / mass};
 }
 
 ColliderId append(std::vector<shared::ColliderRecord>& colliders, const shared::ColliderRecord& record)
@@ -150,7 +154,6 @@ Result<ClothId> Model::add(const Grid& grid)
         return invalid("cloth", grid.name, "more than 2 147 483 647 vertices in one solver");
 
     const shared::ClothRecord record = make_record(grid, static_cast<uint32_t>(first));
-    const float inverse_mass = 1 / grid.material.vertex_mass;
     positions.reserve(first + count);
     for (uint32_t row = 0; row < grid.rows; ++row)
         for (uint32_t column = 0; column < grid.columns; ++column)
@@ -158,7 +161,11 @@ Result<ClothId> Model::add(const Grid& grid)
             const float u = static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f;
             const float v = static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f;
             const glm::vec4 place = grid.transform * glm::vec4(u * grid.width, 0, v * grid.depth, 1);
-            positions.emplace_back(glm::vec3(place), inverse_mass);
+            const bool row_border = row == 0 || row + 1 == grid.rows;
+            const bool column_border = column == 0 || column + 1 == grid.columns;
+            const float share =
+                (row_border ? grid.material.border_share : 1) * (column_border ? grid.material.border_share : 1);
+            positions.emplace_back(glm::vec3(place), 1 / (grid.material.vertex_mass * share));
         }
     velocities.resize(first + count, glm::vec4(grid.velocity, 0));
     for (const uint32_t held : grid.held)

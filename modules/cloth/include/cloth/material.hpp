@@ -33,8 +33,12 @@ struct SpringSet
 // a fabric that behaves the same at every resolution use make_material.
 struct Material
 {
-    float vertex_mass = 0.01f; // kg, > 0; the same for every vertex
+    float vertex_mass = 0.01f; // kg, > 0; of a vertex inside the grid
     SpringSet springs{};
+    // What a border has of the mass of an inner vertex, and of the springs along a row or column; twice over in a
+    // corner. 1: masses and springs are all alike. 0.5: each vertex stands for the area around it, as make_material has
+    // it.
+    float border_share = 1;        // > 0, <= 1
     float thickness = 0.005f;      // m, > 0; the distance that contact keeps between a vertex and a surface
     float static_friction = 0.4f;  // Coulomb, >= kinetic_friction
     float kinetic_friction = 0.4f; // Coulomb, >= 0
@@ -58,11 +62,15 @@ struct Fabric
     float air_drag_tangential = 0.05f;                  // C_t, >= 0
 };
 
-// The springs and masses of a grid with the given spacing (m, along rows and along columns), so that a strip of the
-// fabric stretches as Fabric says whatever the spacing:
-// - a structural spring carries the tension of a strip as wide as the spacing across it: k = K * across / along;
-// - a shear spring carries K_s; a bend spring two apart resists folding with k = B / (across * along) per fold (from
-//   B kappa^2 / 2 of the strip, with the spring's shortening as its measure: it has no stiffness near flat);
+// The springs and masses of a grid with the given spacing (m, a along rows, b along columns), so that the fabric
+// stretches and shears as Fabric says whatever the spacing. From the energy of one cell under uniform strain:
+// - diagonals carry the shear stiffness: k_d = K_s (a^2 + b^2) / (2 a b);
+// - they also resist stretch, which structural springs therefore do less: with p = a / b, the stiffness A of a strip
+//   along the warp that is held in its width solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and
+//   k_warp = (A - K_s p^2) b / a, k_weft = (A K_weft / K_warp - K_s / p^2) a / b. Where shear is so stiff that these
+//   would be negative, they are 0;
+// - a bend spring two apart resists folding with k = B / (a b) per fold (from B kappa^2 / 2 of the strip, with the
+//   spring's shortening as its measure: it has no stiffness near flat);
 // - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring.
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
