@@ -5,8 +5,9 @@ voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp tes
 voile_add_test(test_bvh SOURCES test_bvh.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
-    SOURCES test_scene_file.cpp test_scene_lookup.cpp test_options.cpp test_exports.cpp test_run_files.cpp
-    LIBRARIES voile_viewer_parts)
+    SOURCES test_scene_file.cpp test_scene_errors.cpp test_options.cpp test_exports.cpp test_statistics_file.cpp
+            test_film.cpp test_progress.cpp
+    LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES test_contact.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer SOURCES test_viewer.cpp LIBRARIES voile_viewer_parts)

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -29,13 +30,23 @@ public:
 
     [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    [[nodiscard]] std::filesystem::path write(const std::string& name, std::string_view bytes) const
+    std::filesystem::path write(const std::string& name, std::string_view bytes) const
     {
         std::ofstream(path_ / name, std::ios::binary) << bytes;
         return path_ / name;
     }
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::string read(const std::string& name) const
+    {
+        std::ifstream file(path_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    // How many files and folders are in it, hidden ones too.
+    [[nodiscard]] size_t entries() const
+    {
+        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+    }
     [[nodiscard]] bool is_empty() const { return std::filesystem::is_empty(path_); }
 
 private:

@@ -1,10 +1,12 @@
 // The viewer's command line.
 #include "samples/viewer/options.hpp"
+#include "test_folder.hpp"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,17 @@ gpu::Result<viewer::Options> parse(std::vector<const char*> arguments)
 {
     arguments.insert(arguments.begin(), "viewer");
     return viewer::parse_options(static_cast<int>(arguments.size()), arguments.data());
+}
+
+// Words between spaces.
+gpu::Result<viewer::Options> parse_line(const std::string& line)
+{
+    std::istringstream stream(line);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+    std::vector<const char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(word.c_str());
+    return parse(arguments);
 }
 
 std::string message(const std::vector<const char*>& arguments)
@@ -43,38 +56,14 @@ TEST_CASE("no options give the defaults")
 
 TEST_CASE("every option is read")
 {
-    const std::filesystem::path mesh = std::filesystem::temp_directory_path() / "voile_test_options.obj";
-    std::ofstream(mesh) << "v 0 0 0\n";
-    const std::string file = mesh.string();
-    const auto result = parse({"drape",
-                               "--headless",
-                               "--frames",
-                               "90",
-                               "--size",
-                               "64x48",
-                               "--out",
-                               "frames",
-                               "--every",
-                               "10",
-                               "--video",
-                               "a.mp4",
-                               "--stats=s.json",
-                               "--export",
-                               "e.PC2",
-                               "--cloth-resolution",
-                               "2",
-                               "--collider",
-                               file.c_str(),
-                               "--collider",
-                               file.c_str(),
-                               "--device",
-                               "1",
-                               "--list-devices",
-                               "--validate",
-                               "--capture",
-                               "89",
-                               "--verify"});
-    std::filesystem::remove(mesh);
+    const TestFolder folder;
+    folder.write("ball.obj", "v 0 0 0\n");
+    const std::string file = (folder / "ball.obj").string();
+    const auto result =
+        parse_line("drape --headless --frames 90 --size 64x48 --out frames --every 10 --video a.mp4 --stats=s.json "
+                   "--export e.PC2 --cloth-resolution 2 --device 1 --list-devices --validate --capture 89 --verify "
+                   "--collider " +
+                   file + " --collider " + file);
     REQUIRE_MESSAGE(result, result.error().message);
     const viewer::Options& options = result.value();
     CHECK(options.scene == "drape");
@@ -136,7 +125,13 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--export", "cloth.stl"}) == "--export: \"cloth.stl\" does not end in .obj, .ply or .pc2");
     CHECK(message({"--video", "a.avi"}) == "--video: \"a.avi\" does not end in .mp4");
     CHECK(message({"--collider", "gone.obj"}) == "--collider: \"gone.obj\" does not exist");
+    const TestFolder folder;
+    const std::string inside = (folder / "folder.obj").string();
+    std::filesystem::create_directory(inside);
+    CHECK(message({"--collider", inside.c_str()}) == "--collider: \"" + inside + "\" is a folder");
     CHECK(message({"--collider", "a.stl"}) == "--collider: \"a.stl\" does not end in .obj or .ply");
+    CHECK(message({"-x"}) == "-x: unknown option");
+    CHECK(message({"--no-headless"}) == "--no-headless: unknown option");
     CHECK(message({"--headless=3"}) == "--headless: takes no value");
     CHECK(message({"one", "two"}) == "\"two\": one scene at most, and \"one\" was given before it");
     CHECK(message({""}) == "the scene's name is empty");

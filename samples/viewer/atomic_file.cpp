@@ -1,6 +1,6 @@
 #include "samples/viewer/atomic_file.hpp"
 
-#include "samples/viewer/json_tree.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <unistd.h>
 
@@ -69,7 +69,8 @@ gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
     const bool direct = fs::exists(result.target_, problem) && !fs::is_regular_file(result.target_, problem);
     const fs::path opened = direct ? result.target_ : temporary_name(result.target_);
     errno = 0;
-    result.file_ = std::fopen(opened.c_str(), "wb");
+    // x: nothing that has the temporary name already is written through; e: a program that is started does not get it.
+    result.file_ = std::fopen(opened.c_str(), direct ? "wbe" : "wbxe");
     if (result.file_ == nullptr)
         return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
     if (!direct)

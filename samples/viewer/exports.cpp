@@ -1,11 +1,10 @@
 #include "samples/viewer/exports.hpp"
 
-#include "samples/viewer/json_tree.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -21,18 +20,10 @@ namespace
 namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little, "the binary formats are written as the memory has them");
-static_assert(sizeof(glm::vec3) == 12);
+static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12);
 
 constexpr long k_sample_count_offset = 28; // of PC2's header of 32 bytes
 constexpr uint32_t k_most_int32 = static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
-
-std::string lower_extension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 // The first vertex with a coordinate that is not finite: such a file would break whoever reads it.
 std::optional<size_t> first_not_finite(std::span<const glm::vec3> values)
@@ -219,6 +210,12 @@ gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const s
     for (const ClothSurface& surface : surfaces)
         names.push_back(surface.name);
     std::vector<fs::path> paths = export_paths(path, names);
+    // All are checked before the first is written, so that bad data leaves no part of an export.
+    for (size_t i = 0; i < surfaces.size(); ++i)
+    {
+        if (const gpu::Result<void> sound = check_surface(paths[i], surfaces[i]); !sound)
+            return sound.error();
+    }
     for (size_t i = 0; i < surfaces.size(); ++i)
     {
         const gpu::Result<void> saved =

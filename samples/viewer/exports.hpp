@@ -36,7 +36,7 @@ gpu::Result<void> save_surface_obj(const std::filesystem::path& path, const Clot
 // Binary little endian: float x y z, with normals also float nx ny nz; faces as uchar count and int vertex_indices.
 gpu::Result<void> save_surface_ply(const std::filesystem::path& path, const ClothSurface& surface);
 
-// All cloths, as OBJ or PLY by the extension of `path`. Returns the files written.
+// All cloths, as OBJ or PLY by the extension of `path`. Returns the files written; none is where a cloth is unsound.
 gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std::filesystem::path& path,
                                                                 const std::vector<ClothSurface>& surfaces);
 

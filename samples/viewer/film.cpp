@@ -1,7 +1,7 @@
 #include "samples/viewer/film.hpp"
 
 #include "samples/viewer/atomic_file.hpp"
-#include "samples/viewer/json_tree.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <locale>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -53,7 +54,6 @@ std::vector<std::string> encoder_arguments(const FilmSettings& settings, const f
 int spawn_encoder(std::vector<std::string> arguments, int input, int messages, pid_t& process)
 {
     std::vector<char*> pointers;
-    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
@@ -65,7 +65,7 @@ int spawn_encoder(std::vector<std::string> arguments, int input, int messages, p
     (void)posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     (void)posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
-    // A process group of its own: Ctrl-C reaches the viewer, which then ends or removes the film.
+    // A process group of its own: Ctrl-C reaches the viewer alone, and the encoder can be ended with what it started.
     (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     (void)posix_spawnattr_setpgroup(&attributes, 0);
     const int problem = posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
@@ -80,19 +80,16 @@ void close_descriptor(int& descriptor)
         (void)::close(std::exchange(descriptor, -1));
 }
 
-std::string last_line(std::FILE* file)
+// The first thing that it said is the cause, the rest is what follows from it.
+std::string first_line(std::FILE* file)
 {
-    std::string text;
-    std::array<char, 4096> block{};
+    std::array<char, 512> line{};
     std::rewind(file);
-    for (size_t n = 0; (n = std::fread(block.data(), 1, block.size(), file)) > 0;)
-        text.append(block.data(), n);
-    const size_t end = text.find_last_not_of(" \r\n");
-    if (end == std::string::npos)
+    if (std::fgets(line.data(), static_cast<int>(line.size()), file) == nullptr)
         return {};
-    text.resize(end + 1);
-    const size_t newline = text.rfind('\n');
-    return newline == std::string::npos ? text : text.substr(newline + 1);
+    std::string text = line.data();
+    text.resize(text.find_last_not_of(" \r\n") + 1);
+    return text;
 }
 
 } // namespace
@@ -129,7 +126,8 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
     if (problem == 0)
         return film;
     film.encoder_ = -1;
-    if (problem == ENOENT)
+    // EACCES also comes from a folder of PATH that may not be searched.
+    if (problem == ENOENT || (problem == EACCES && settings.program.find('/') == std::string::npos))
         return film_error(path, settings.program + " is not installed (or not in PATH)");
     return film_error(path, settings.program + " cannot be started: " + std::strerror(problem));
 }
@@ -163,7 +161,7 @@ int FilmWriter::wait_for_encoder()
 void FilmWriter::discard() noexcept
 {
     if (encoder_ > 0)
-        (void)::kill(encoder_, SIGKILL);
+        (void)::kill(-encoder_, SIGKILL); // its group: it may be a script that started others
     (void)wait_for_encoder();
     if (messages_ != nullptr)
         (void)std::fclose(std::exchange(messages_, nullptr));
@@ -174,8 +172,8 @@ void FilmWriter::discard() noexcept
 
 gpu::Error FilmWriter::encoder_error()
 {
-    const std::string said = messages_ != nullptr ? last_line(messages_) : "";
-    gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "ffmpeg: " + said);
+    const std::string said = messages_ != nullptr ? first_line(messages_) : "";
+    const gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "the encoder says: " + said);
     discard();
     return error;
 }

@@ -1,5 +1,7 @@
 #include "samples/viewer/json_tree.hpp"
 
+#include "samples/viewer/text.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -13,6 +15,7 @@ namespace
 {
 
 constexpr size_t k_deepest_nesting = 64;
+constexpr size_t k_longest_reason = 200; // bytes; the parser quotes the token, which may be a whole file
 
 // Feeds the parser and tells how far it has read, which nlohmann::json's callbacks do not.
 class CountingIterator
@@ -58,7 +61,7 @@ public:
     JsonNode root;
     std::optional<std::string> error;
 
-    bool null() override { return add(make(JsonNode::Kind::null)); }
+    bool null() override { return add(make(JsonNode::Kind::null_value)); }
     bool boolean(bool value) override
     {
         JsonNode node = make(JsonNode::Kind::boolean);
@@ -84,7 +87,7 @@ public:
     {
         JsonNode& object = open_.back();
         if (std::find(object.keys.begin(), object.keys.end(), value) != object.keys.end())
-            return fail("key \"" + value + "\" appears twice in " + path());
+            return fail("key " + in_quotes(value) + " appears twice in " + path());
         object.keys.push_back(value);
         return true;
     }
@@ -94,7 +97,7 @@ public:
     {
         constexpr int k_number_overflow = 406;
         if (problem.id == k_number_overflow)
-            return fail("number " + token + " is beyond the largest that can be held");
+            return fail("number " + shortened(token) + " is beyond the largest that can be held");
         // "[json.exception.parse_error.101] parse error at line 3, column 5: REASON": the place is ours to say.
         std::string reason = problem.what();
         if (const size_t at = reason.find(": "); at != std::string::npos)
@@ -104,7 +107,8 @@ public:
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const size_t newline = before.rfind('\n');
         const size_t column = newline == std::string_view::npos ? offset + 1 : offset - newline;
-        error = one_line(file_ + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + reason);
+        error = one_line(file_ + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " +
+                         shortened(reason, k_longest_reason));
         return false;
     }
 
@@ -199,7 +203,7 @@ const char* describe(JsonNode::Kind kind)
 {
     switch (kind)
     {
-    case JsonNode::Kind::null:
+    case JsonNode::Kind::null_value:
         return "null";
     case JsonNode::Kind::boolean:
         return "true or false";
@@ -226,17 +230,6 @@ gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
     if (!nlohmann::json::sax_parse(begin, end, &builder))
         return gpu::Error{builder.error.value_or(one_line(file + ": not valid JSON"))};
     return std::move(builder.root);
-}
-
-std::string one_line(std::string text)
-{
-    for (char& c : text)
-    {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f)
-            c = '?';
-    }
-    return text;
 }
 
 } // namespace viewer

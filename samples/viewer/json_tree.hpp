@@ -15,15 +15,15 @@ struct JsonNode
 {
     enum class Kind
     {
-        null,
+        null_value,
         boolean,
         number,
         string,
         array,
-        object,
+        object
     };
 
-    Kind kind = Kind::null;
+    Kind kind = Kind::null_value;
     uint32_t line = 0; // from 1; of a container, the line of its opening bracket
     bool boolean = false;
     bool integer = false; // a number written without fraction and exponent
@@ -43,8 +43,5 @@ const char* describe(JsonNode::Kind kind);
 // empty text, a syntax error (FILE:LINE:COLUMN: reason), a number that no double holds, a key that appears twice in an
 // object, more than 64 levels of nesting.
 gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file);
-
-// The same string without control characters, which would break a message into lines.
-std::string one_line(std::string text);
 
 } // namespace viewer

@@ -1,13 +1,11 @@
 #include "samples/viewer/options.hpp"
 
-#include "samples/viewer/json_tree.hpp"
 #include "samples/viewer/scene_file.hpp"
-#include "samples/viewer/scene_reader.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <exception>
 #include <memory>
@@ -173,14 +171,6 @@ public:
         return text ? std::optional<fs::path>(*text) : std::nullopt;
     }
 };
-
-std::string lower_extension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 void convert_size(Converter& convert, const std::vector<std::string>& values, Options& options)
 {

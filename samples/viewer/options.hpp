@@ -18,7 +18,7 @@ enum class ExportFormat
 {
     obj,
     ply,
-    point_cache,
+    point_cache
 };
 
 struct Options

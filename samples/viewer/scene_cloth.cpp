@@ -37,7 +37,7 @@ void parse_corner(SceneReader& reader, const Field& field, const std::string& re
 {
     const std::optional<uint32_t> corner = parse_index(rest);
     if (!corner || *corner > 3)
-        return reader.fail(field, "is \"corner:" + rest + "\"; a corner is 0, 1, 2 or 3");
+        return reader.fail(field, "is " + in_quotes("corner:" + rest) + "; a corner is 0, 1, 2 or 3");
     pin.at = CornerPin{*corner};
 }
 
@@ -52,7 +52,7 @@ void parse_edge(SceneReader& reader, const Field& field, const std::string& rest
             return;
         }
     }
-    reader.fail(field, "is \"edge:" + rest + "\"; an edge is top, bottom, left or right");
+    reader.fail(field, "is " + in_quotes("edge:" + rest) + "; an edge is top, bottom, left or right");
 }
 
 void parse_vertex(SceneReader& reader, const Field& field, const std::string& rest, const GridEntry* grid,
@@ -60,9 +60,9 @@ void parse_vertex(SceneReader& reader, const Field& field, const std::string& re
 {
     const std::optional<uint32_t> vertex = parse_index(rest);
     if (!vertex)
-        return reader.fail(field, "is \"vertex:" + rest + "\"; a vertex is a whole number from 0");
+        return reader.fail(field, "is " + in_quotes("vertex:" + rest) + "; a vertex is a whole number from 0");
     if (grid != nullptr && *vertex >= grid->columns * grid->rows)
-        return reader.fail(field, "is \"vertex:" + rest + "\", but the grid has " +
+        return reader.fail(field, "is " + in_quotes("vertex:" + rest) + ", but the grid has " +
                                       std::to_string(grid->columns * grid->rows) + " vertices");
     pin.at = VertexPin{*vertex};
 }
@@ -77,7 +77,7 @@ void parse_pin_text(SceneReader& reader, const Field& field, const GridEntry* gr
     const std::string kind = text.substr(0, colon);
     const std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
     if ((kind == "corner" || kind == "edge") && grid == nullptr)
-        reader.fail(field, "is \"" + text + "\", but only a grid has corners and edges");
+        reader.fail(field, "is " + in_quotes(text) + ", but only a grid has corners and edges");
     else if (kind == "corner")
         parse_corner(reader, field, rest, pin);
     else if (kind == "edge")
@@ -85,7 +85,7 @@ void parse_pin_text(SceneReader& reader, const Field& field, const GridEntry* gr
     else if (kind == "vertex")
         parse_vertex(reader, field, rest, grid, pin);
     else
-        reader.fail(field, "is \"" + text + "\"; a pin is corner:N, edge:NAME, vertex:N or a box");
+        reader.fail(field, "is " + in_quotes(text) + "; a pin is corner:N, edge:NAME, vertex:N or a box");
 }
 
 void parse_pin_box(SceneReader& reader, const Field& field, PinEntry& pin)
@@ -119,7 +119,7 @@ void check_name(SceneReader& reader, const Field& field, const std::string& name
     for (const char c : name)
     {
         if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20)
-            return reader.fail(field, "is \"" + name + "\"; a name holds no slash and no control character");
+            return reader.fail(field, "is " + in_quotes(name) + "; a name holds no slash and no control character");
     }
 }
 
@@ -167,6 +167,11 @@ MaterialEntry parse_material(SceneReader& reader, const Field& field)
         parse_preset(reader, field, material);
         return material;
     }
+    if (field.node->kind != JsonNode::Kind::object)
+    {
+        reader.fail(field, std::string("is ") + describe(field.node->kind) + "; expected a preset's name or an object");
+        return material;
+    }
     if (!reader.object(field, {"preset", "areal_density", "stretch_stiffness", "shear_stiffness", "bending_stiffness",
                                "damping_ratio", "thickness", "static_friction", "kinetic_friction", "air_drag_normal",
                                "air_drag_tangential", "strain_limit", "bending_model", "vertex_mass",
@@ -191,7 +196,7 @@ MaterialEntry parse_material(SceneReader& reader, const Field& field)
     if (!reader.failed() && material.static_friction && material.kinetic_friction &&
         *material.kinetic_friction > *material.static_friction)
         reader.fail(SceneReader::child(field, "kinetic_friction"),
-                    "is above static_friction, " + number_text(static_cast<double>(*material.static_friction)));
+                    "is above static_friction, " + number_text(*material.static_friction));
     return material;
 }
 

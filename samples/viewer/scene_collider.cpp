@@ -1,7 +1,6 @@
 // Colliders, transforms and motions of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
-#include <algorithm>
 #include <cctype>
 
 namespace viewer
@@ -60,6 +59,8 @@ FrictionEntry parse_friction(SceneReader& reader, const Field& field)
         friction.kinetic_friction = friction.static_friction;
         return friction;
     }
+    if (field.node->kind != JsonNode::Kind::object)
+        reader.fail(field, std::string("is ") + describe(field.node->kind) + "; expected a number or an object");
     if (!reader.object(field, {"static", "kinetic"}))
         return friction;
     std::optional<float> at_rest;
@@ -176,9 +177,7 @@ std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field)
     context.reader.read(field, text);
     if (context.reader.failed() || !field)
         return {};
-    std::string extension = std::filesystem::path(text).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(text);
     if (extension != ".obj" && extension != ".ply")
         context.reader.fail(field, "is \"" + text + "\"; expected a file that ends in .obj or .ply");
     return (context.folder / text).lexically_normal();

@@ -84,7 +84,8 @@ void parse_cloths(ParseContext& context, const Field& root, std::vector<ClothEnt
     {
         cloths.push_back(parse_cloth(context, SceneReader::item(field, i), i));
         if (!names.insert(cloths.back().name).second)
-            reader.fail(SceneReader::item(field, i), "has the name \"" + cloths.back().name + "\" of another cloth");
+            reader.fail(SceneReader::item(field, i),
+                        "has the name " + in_quotes(cloths.back().name) + " of another cloth");
     }
 }
 
@@ -210,6 +211,8 @@ std::string place(const SceneFile& scene, uint32_t line)
 
 gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {
+    if (frame_path(sequence.pattern, 0) == frame_path(sequence.pattern, 1))
+        return gpu::Error{one_line(sequence.pattern.string() + ": has no %d or %04d for the frame's number")};
     std::vector<fs::path> files;
     std::error_code problem;
     for (const uint32_t first : {0u, 1u})

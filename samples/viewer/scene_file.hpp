@@ -60,20 +60,20 @@ struct StepEntry
 enum class BendingModel
 {
     springs,
-    isometric,
+    isometric
 };
 enum class Integrator
 {
     rk4,
-    verlet,
+    verlet
 };
 enum class Edge
 {
-    top,    // row 0
-    bottom, // the last row
-    left,   // column 0
-    right,  // the last column
-};
+    top,
+    bottom,
+    left,
+    right
+}; // row 0, last row, column 0, last column
 
 // A preset, values, or a preset with some values replaced.
 struct MaterialEntry
@@ -217,7 +217,7 @@ gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
 std::string place(const SceneFile& scene, uint32_t line);
 
 // The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the first that is missing.
-// An error if there are none.
+// An error if there are none, or if the pattern has no place for a number.
 gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);

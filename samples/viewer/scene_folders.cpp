@@ -1,7 +1,7 @@
 // Scenes by name.
 #include "samples/viewer/scene_file.hpp"
 
-#include "samples/viewer/json_tree.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,39 +1,12 @@
 #include "samples/viewer/scene_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <numeric>
 
 namespace viewer
 {
 namespace
 {
-
-std::string quoted(const std::string& text)
-{
-    return "\"" + text + "\"";
-}
-
-// Levenshtein 1966: the fewest single-character insertions, deletions and replacements between two words.
-size_t edit_distance(const std::string& a, const std::string& b)
-{
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 1; i <= a.size(); ++i)
-    {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); ++j)
-        {
-            const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
 
 std::string range_text(Range range)
 {
@@ -47,30 +20,6 @@ std::string range_text(Range range)
 }
 
 } // namespace
-
-std::string number_text(double value)
-{
-    std::array<char, 32> text{};
-    (void)std::snprintf(text.data(), text.size(), "%.10g", value);
-    return text.data();
-}
-
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates)
-{
-    constexpr size_t k_longest_word = 64; // beyond it nobody mistyped a key
-    const std::string* best = nullptr;
-    size_t best_distance = word.size() > k_longest_word ? 0 : std::min<size_t>(3, (word.size() + 1) / 2);
-    for (const std::string& candidate : candidates)
-    {
-        const size_t distance = best_distance > 0 ? edit_distance(word, candidate) : 0;
-        if (distance < best_distance)
-        {
-            best = &candidate;
-            best_distance = distance;
-        }
-    }
-    return best == nullptr ? "" : "; did you mean " + quoted(*best) + "?";
-}
 
 void SceneReader::fail(uint32_t line, const std::string& message)
 {
@@ -101,7 +50,7 @@ bool SceneReader::object(const Field& field, std::initializer_list<const char*> 
     {
         const std::string& key = field.node->keys[i];
         if (std::find(known.begin(), known.end(), key) == known.end())
-            fail(field.node->items[i].line, "unknown key " + quoted(key) + " in " +
+            fail(field.node->items[i].line, "unknown key " + in_quotes(key) + " in " +
                                                 (field.path.empty() ? "the scene" : field.path) +
                                                 suggestion(key, known));
     }
@@ -134,7 +83,7 @@ Field SceneReader::required(const Field& object, const char* key)
 {
     Field field = child(object, key);
     if (!field && !failed())
-        fail(object, "has no " + quoted(key));
+        fail(object, "has no " + in_quotes(key));
     return field;
 }
 
@@ -222,7 +171,7 @@ std::optional<size_t> SceneReader::read_word(const Field& field, const char* wha
     std::string list;
     for (const char* each : words)
         list += (list.empty() ? "" : ", ") + std::string(each);
-    fail(field, "is " + quoted(word) + ", which is not " + what + " (" + list + ")");
+    fail(field, "is " + in_quotes(word) + ", which is not " + what + " (" + list + ")");
     return std::nullopt;
 }
 

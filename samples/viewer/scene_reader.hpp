@@ -3,6 +3,7 @@
 #pragma once
 
 #include "samples/viewer/json_tree.hpp"
+#include "samples/viewer/text.hpp"
 
 #include <glm/glm.hpp>
 
@@ -75,11 +76,5 @@ private:
     std::string file_;
     std::optional<std::string> error_;
 };
-
-// "; did you mean "x"?", or nothing where no candidate is close.
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
-
-// A number as a reader would write it.
-std::string number_text(double value);
 
 } // namespace viewer

@@ -14,9 +14,9 @@ struct Verification
     uint64_t self_intersections = 0;   // pairs of a cloth's triangles that cut each other
 };
 
-// A closed mesh is solid inside, a plane below. An open mesh whose triangles face one way (a ground) is solid on the side
-// where a cloth's vertices did not start; past its border it says nothing. Any other open mesh has no inside, and a vertex
-// that is in it may have come through its openings: it is not judged.
+// A closed mesh is solid inside, a plane below. An open mesh whose triangles face one way (a ground) is solid on the
+// side where a cloth's vertices did not start; past its border it says nothing. Any other open mesh has no inside, and
+// a vertex that is in it may have come through its openings: it is not judged.
 gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
                                  const std::vector<FinalCloth>& state);
 

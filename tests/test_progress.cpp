@@ -1,0 +1,67 @@
+// The progress of a long run, on a terminal and elsewhere.
+#include "samples/viewer/progress.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+TEST_CASE("elsewhere than on a terminal, a plain line is written for every tenth")
+{
+    std::ostringstream out;
+    double now = 100;
+    viewer::Progress progress(300, {&out, false, [&] { return now; }});
+    for (uint32_t done = 1; done <= 300; ++done)
+    {
+        now += 0.1;
+        progress.update(done);
+    }
+    progress.finish();
+    const std::string text = out.str();
+    CHECK(std::count(text.begin(), text.end(), '\n') == 11);
+    CHECK(text.starts_with("frame 30 of 300 (10 %), 0:03 elapsed\nframe 60 of 300 (20 %), 0:06 elapsed\n"));
+    CHECK(text.ends_with("frame 300 of 300 (100 %), 0:30 elapsed\n300 frames in 0:30 (10.0 frames/s)\n"));
+    CHECK(text.find('\r') == std::string::npos);
+}
+
+TEST_CASE("a bar is redrawn in place, ten times a second at most, and covers what it was")
+{
+    std::ostringstream out;
+    double now = 0;
+    {
+        viewer::Progress progress(1000, {&out, true, [&] { return now; }});
+        for (uint32_t done = 1; done <= 500; ++done)
+        {
+            now += 0.01;
+            progress.update(done);
+        }
+        const std::string text = out.str();
+        const auto bars = std::count(text.begin(), text.end(), '\r');
+        CHECK(bars >= 40);
+        CHECK(bars <= 51);
+        CHECK(text.find('\n') == std::string::npos);
+        progress.update(1000);
+        CHECK(out.str().find("] 100 %, 1000/1000") != std::string::npos);
+    }
+    CHECK(out.str().ends_with("\n")); // an error message would start on a line of its own
+}
+
+TEST_CASE("a run without frames ends as well")
+{
+    std::ostringstream out;
+    viewer::Progress progress(0, {&out, false, [] { return 0.0; }});
+    progress.update(0);
+    progress.finish();
+    CHECK(out.str().ends_with("0 frames in 0:00\n"));
+}
+
+TEST_CASE("durations")
+{
+    CHECK(viewer::duration_text(7) == "0:07");
+    CHECK(viewer::duration_text(59.6) == "1:00");
+    CHECK(viewer::duration_text(750) == "12:30");
+    CHECK(viewer::duration_text(3723) == "1:02:03");
+    CHECK(viewer::duration_text(-1) == "0:00");
+    CHECK(viewer::duration_text(1e30) == "99:59:59");
+}
