@@ -76,6 +76,19 @@ private:
     gpu::Context context_;
 };
 
+// Waits for the device when its scope ends, also by an exception: declared after what frames in flight write into.
+class IdleGuard
+{
+public:
+    explicit IdleGuard(const Device& device) : device_(device) {}
+    ~IdleGuard() { (void)device_.context().fn.vkDeviceWaitIdle(device_.context().device()); }
+    IdleGuard(const IdleGuard&) = delete;
+    IdleGuard& operator=(const IdleGuard&) = delete;
+
+private:
+    const Device& device_;
+};
+
 // Throws StartupError with `what` and the result's name unless `result` is VK_SUCCESS.
 void check(VkResult result, const char* what);
 

@@ -37,6 +37,7 @@ void run(bool headless)
     scene.add("ground").add<engine::StaticMesh>(app.uploads(), engine::make_ground(60), engine::ground_surface());
 
     engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
+    const engine::IdleGuard idle(app.device());
     if (!app.has_window())
         app.after_render = [&](VkCommandBuffer cmd, const engine::FrameInfo& frame)
         { readback.record(cmd, app.renderer().color(), frame.slot); };

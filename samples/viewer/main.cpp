@@ -5,6 +5,7 @@
 
 #include "engine/gpu/capture.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -17,6 +18,21 @@ using namespace viewer;
 constexpr int k_done = 0;
 constexpr int k_failed = 1;
 constexpr int k_invalid = 2; // validation messages, or a counter that must be zero is not
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+// An interrupted run ends by way of main's error, so that no unfinished file stays behind. A second signal ends it at
+// once.
+void stop_on_signals()
+{
+    for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal,
+                    [](int received)
+                    {
+                        g_interrupted = 1;
+                        std::signal(received, SIG_DFL);
+                    });
+}
 
 void print_devices()
 {
@@ -84,6 +100,8 @@ void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatis
         progress.emplace(frames);
     for (uint32_t i = 0; i < frames; ++i)
     {
+        if (g_interrupted != 0)
+            throw engine::StartupError("interrupted after " + std::to_string(i) + " frames; unfinished files are gone");
         if (!run_frame(app, stage, i, capture, options))
             break;
         statistics.recorded(app.record_milliseconds());
@@ -133,6 +151,7 @@ int exit_code(engine::App& app, const Statistics& statistics)
 
 int run_scene(const Options& options)
 {
+    stop_on_signals();
     const SceneFile scene = engine::take(load_scene(engine::take(find_scene(options.scene))));
     const std::vector<Solid> solids = engine::take(load_solids(scene, options));
     check_targets(options);
@@ -146,6 +165,7 @@ int run_scene(const Options& options)
     Stage stage = engine::take(set_stage(app, scene, solids, options));
     FrameOutputs outputs = engine::take(FrameOutputs::create(app, stage, scene, options));
     RunStatistics measured;
+    const engine::IdleGuard idle(app.device());
     run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
 
     std::vector<std::string> written = engine::take(outputs.finish());
