@@ -183,7 +183,7 @@ TEST_CASE("the golden picture")
         world, stage.uploads, sheet, cloth::component::fabric_surface({0.5f, 0.04f, 0.07f}, {0.4f, 0.3f, 0.2f}, 2));
     add_ground(stage);
     engine::Picture picture;
-    for (uint64_t frame = 0; frame < 30; ++frame)
+    for (uint64_t frame = 0; frame < 20; ++frame)
         picture = stage.draw(frame);
 
     const std::string golden = VOILE_SOURCE_DIR "/tests/golden/drape.png";
@@ -191,9 +191,9 @@ TEST_CASE("the golden picture")
         engine::take(engine::save_png(golden, picture));
     const auto expected = engine::load_png(golden);
     REQUIRE(expected);
-    // Rounding differs between drivers and moves folds by a pixel here and there. Without the cloth, or all black, the
-    // picture is far beyond the tolerance.
-    constexpr double k_tolerance = 6;
+    // Rounding differs between drivers and moves folds, the more the longer the cloth has buckled: hence 20 frames.
+    // Without the cloth, or all black, the picture is far beyond the tolerance.
+    constexpr double k_tolerance = 2; // an H200 and lavapipe differ by 0.2
     CHECK(difference(picture, expected.value()) < k_tolerance);
     Stage bare;
     bare.scene.camera = stage.scene.camera;
