@@ -286,9 +286,18 @@ TEST_CASE("an open mesh knows its sides and its boundary")
 TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
 {
     engine::Mesh sphere = engine::make_sphere({0, 0, 0}, 1, 12);
-    CHECK(engine::take(cloth::MeshDistance::create(collider(sphere))).has_sides());
+    const cloth::MeshDistance closed = engine::take(cloth::MeshDistance::create(collider(sphere)));
+    CHECK(closed.has_sides());
+    CHECK(closed.winding_number({0.1, 0.2, 0.3}) == doctest::Approx(1));
+    CHECK(std::abs(closed.winding_number({0.8, 0.8, 0.1})) < 1e-9);
     std::erase_if(sphere.triangles, [&](const glm::uvec3& t) { return sphere.positions[t.x].y > 0.6f; });
-    CHECK_FALSE(engine::take(cloth::MeshDistance::create(collider(sphere))).has_sides());
+    const cloth::MeshDistance bowl = engine::take(cloth::MeshDistance::create(collider(sphere)));
+    CHECK_FALSE(bowl.has_sides());
+    // Without the cap above y = 0.6, which takes (1 - 0.6) / 2 of the directions from the centre, give or take a band.
+    CHECK(bowl.winding_number({0, 0, 0}) == doctest::Approx(0.8).epsilon(0.1));
+    CHECK(bowl.winding_number({0, -0.9, 0}) > 0.8);
+    CHECK(bowl.winding_number({0.7, -0.9, 0}) < 0.1); // past the surface, within the box
+    CHECK(bowl.winding_number({0, 3, 0}) == 0);
 }
 
 TEST_CASE("triangles that cut each other are counted in pairs, neighbours are not")

@@ -32,7 +32,12 @@ gpu::Result<Depth> depth_of(const Solid& solid)
         return Depth([distance](const glm::dvec3& p, const glm::dvec3&)
                      { return -distance->nearest(p).signed_distance; });
     if (!distance->has_sides())
-        return Depth([](const glm::dvec3&, const glm::dvec3&) { return 0.0; });
+        return Depth(
+            [distance](const glm::dvec3& p, const glm::dvec3&)
+            {
+                const bool inside = std::abs(distance->winding_number(p)) > 0.5;
+                return inside ? std::abs(distance->nearest(p).signed_distance) : 0;
+            });
     return Depth(
         [distance](const glm::dvec3& p, const glm::dvec3& start)
         {

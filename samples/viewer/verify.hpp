@@ -15,8 +15,8 @@ struct Verification
 };
 
 // A closed mesh is solid inside, a plane below. An open mesh whose triangles face one way (a ground) is solid on the
-// side where a cloth's vertices did not start; past its border it says nothing. Any other open mesh has no inside, and
-// a vertex that is in it may have come through its openings: it is not judged.
+// side where a cloth's vertices did not start; past its border it says nothing. In any other open mesh, inside is where
+// it winds around a point by more than a half; a vertex may have come there through an opening.
 gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
                                  const std::vector<FinalCloth>& state);
 

@@ -101,6 +101,16 @@ bool faces_one_way(const MeshInput& mesh)
                        [&](const glm::uvec3& t) { return glm::dot(face_normal(mesh, t), mean) > 0; });
 }
 
+// Of a triangle seen from the origin, signed by its winding (Van Oosterom and Strackee 1983).
+double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    const double volume = glm::dot(a, glm::cross(b, c));
+    return 2 * std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+}
+
 } // namespace
 
 struct MeshDistance::State
@@ -152,6 +162,19 @@ MeshDistance::Nearest MeshDistance::nearest(const glm::dvec3& point) const
     const bool behind = glm::dot(point - found->point, normals.normals[feature]) < 0;
     result.signed_distance = behind ? -found->distance : found->distance;
     return result;
+}
+
+double MeshDistance::winding_number(const glm::dvec3& point) const
+{
+    const shared::BvhNode& root = state_->bvh.nodes[0];
+    const glm::dvec3 min = glm::min(root.left_min, root.right_min);
+    const glm::dvec3 max = glm::max(root.left_max, root.right_max);
+    if (!glm::all(glm::greaterThanEqual(point, min)) || !glm::all(glm::lessThanEqual(point, max)))
+        return 0;
+    double angles = 0;
+    for (const shared::BvhTriangle& t : state_->bvh.triangles)
+        angles += solid_angle(glm::dvec3(t.a) - point, glm::dvec3(t.b) - point, glm::dvec3(t.c) - point);
+    return angles / (4 * 3.14159265358979);
 }
 
 std::optional<double> MeshDistance::crossing(const glm::dvec3& from, const glm::dvec3& to) const

@@ -37,6 +37,12 @@ public:
     // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal").
     [[nodiscard]] Nearest nearest(const glm::dvec3& point) const;
 
+    // How often the mesh winds around the point: 1 inside a closed mesh, 0 outside, near these inside and outside of
+    // one with small holes, negative where it is inside out (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust
+    // inside-outside segmentation using generalized winding numbers"). Looks at every triangle; 0 outside the mesh's
+    // box.
+    [[nodiscard]] double winding_number(const glm::dvec3& point) const;
+
     // Where the segment first crosses the mesh, as a fraction of its length.
     [[nodiscard]] std::optional<double> crossing(const glm::dvec3& from, const glm::dvec3& to) const;
 
