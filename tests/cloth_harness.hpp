@@ -20,6 +20,22 @@ inline glm::mat4 tilted()
     return m;
 }
 
+// A moving sheet in which every spring is stretched or compressed: its transform scales what its rest lengths do not.
+inline cloth::Grid stretched_sheet(uint32_t columns, uint32_t rows)
+{
+    cloth::Grid grid;
+    grid.columns = columns;
+    grid.rows = rows;
+    grid.width = 0.05f * static_cast<float>(columns - 1);
+    grid.depth = 0.06f * static_cast<float>(rows - 1);
+    grid.transform = tests::tilted();
+    grid.transform[0] *= 1.1f;
+    grid.transform[2] *= 0.9f;
+    grid.velocity = {0.3f, -0.2f, 0.5f};
+    grid.material = cloth::reference_material();
+    return grid;
+}
+
 class ClothHarness : public GpuFixture
 {
 public:

@@ -11,19 +11,10 @@ namespace
 
 using tests::ClothHarness;
 
-// A sheet in which every spring is stretched or compressed: its transform scales what its rest lengths do not.
+// Every spring stretched or compressed, and no two families alike.
 cloth::Grid uneven_sheet(uint32_t columns, uint32_t rows)
 {
-    cloth::Grid grid;
-    grid.columns = columns;
-    grid.rows = rows;
-    grid.width = 0.05f * static_cast<float>(columns - 1);
-    grid.depth = 0.06f * static_cast<float>(rows - 1);
-    grid.transform = tests::tilted();
-    grid.transform[0] *= 1.1f;
-    grid.transform[2] *= 0.9f;
-    grid.velocity = {0.3f, -0.2f, 0.5f};
-    grid.material = cloth::reference_material();
+    cloth::Grid grid = tests::stretched_sheet(columns, rows);
     grid.material.springs.shear = {120, 1};
     grid.material.springs.bend_weft = {60, 0.5f};
     grid.material.springs.diagonal_bend = {30, 0.2f};

@@ -11,21 +11,6 @@ namespace
 
 using tests::ClothHarness;
 
-cloth::Grid stretched_sheet(uint32_t columns, uint32_t rows)
-{
-    cloth::Grid grid;
-    grid.columns = columns;
-    grid.rows = rows;
-    grid.width = 0.05f * static_cast<float>(columns - 1);
-    grid.depth = 0.06f * static_cast<float>(rows - 1);
-    grid.transform = tests::tilted();
-    grid.transform[0] *= 1.1f;
-    grid.transform[2] *= 0.9f;
-    grid.velocity = {0.3f, -0.2f, 0.5f};
-    grid.material = cloth::reference_material();
-    return grid;
-}
-
 struct Expected
 {
     double max_stretch = -1;
@@ -69,7 +54,7 @@ TEST_CASE("stretch and energy equal those of the CPU at awkward sizes")
     {
         CAPTURE(size.columns);
         CAPTURE(size.rows);
-        const cloth::Grid grid = stretched_sheet(size.columns, size.rows);
+        const cloth::Grid grid = tests::stretched_sheet(size.columns, size.rows);
         const Expected expected = expected_statistics(grid);
         ClothHarness harness;
         (void)engine::take(harness.solver.add_cloth(grid));
@@ -90,7 +75,7 @@ TEST_CASE("stretch and energy equal those of the CPU at awkward sizes")
 TEST_CASE("vertices under a surface are counted, and the deepest is measured")
 {
     ClothHarness harness;
-    cloth::Grid grid = stretched_sheet(40, 30);
+    cloth::Grid grid = tests::stretched_sheet(40, 30);
     grid.transform = glm::mat4(1.f); // flat at y = 0
     const cloth::SphereCollider ball{.center = {0.1f, 0.05f, 0}, .radius = 0.3f};
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
@@ -114,8 +99,8 @@ TEST_CASE("values that are not finite are counted, and do not spoil the other su
 {
     // A step far beyond stability, until the first cloth overflows; the second has no springs and just falls.
     ClothHarness harness;
-    const cloth::ClothId broken = engine::take(harness.solver.add_cloth(stretched_sheet(20, 10)));
-    cloth::Grid calm = stretched_sheet(9, 7);
+    const cloth::ClothId broken = engine::take(harness.solver.add_cloth(tests::stretched_sheet(20, 10)));
+    cloth::Grid calm = tests::stretched_sheet(9, 7);
     calm.material = {};
     (void)engine::take(harness.solver.add_cloth(calm));
     harness.upload();

@@ -68,9 +68,9 @@ struct ColliderRecord
 // Push constants of the integration stages.
 struct StagePush
 {
-    vec3 gravity; // m/s^2
-    float step;   // s, of the whole substep
-    vec3 wind;    // m/s
+    vec3 gravity;      // m/s^2
+    float step;        // s, of the whole substep
+    vec3 wind;         // m/s
     float air_density; // kg/m^3
 };
 

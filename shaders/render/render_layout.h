@@ -19,7 +19,7 @@ struct FrameUniforms
     float shadow_texel;     // m, the side of a texel of the shadow map
     vec3 to_sun;            // unit
     float shadow_step;      // 1 / the shadow map's resolution
-    vec3 sun_irradiance;      // irradiance of a surface that faces the sun
+    vec3 sun_irradiance;    // irradiance of a surface that faces the sun
     float focus_radius;     // m
     vec3 focus;             // m
     float padding;
