@@ -14,7 +14,9 @@ voile_add_test(test_viewer SOURCES test_viewer.cpp LIBRARIES voile_viewer_parts)
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_fabric SOURCES test_fabric.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_frame SOURCES test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
+if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
+    voile_add_test(test_frame SOURCES test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
+endif()
 voile_add_test(test_hazards SOURCES test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_renderer SOURCES test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
 
