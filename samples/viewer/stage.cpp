@@ -53,13 +53,6 @@ void hold_edge(const cloth::Grid& grid, Edge edge, std::vector<uint32_t>& held)
         held.push_back(along_row ? line * grid.columns + i : i * grid.columns + line);
 }
 
-glm::vec3 grid_point(const cloth::Grid& grid, uint32_t row, uint32_t column)
-{
-    const float x = (static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f) * grid.width;
-    const float z = (static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f) * grid.depth;
-    return grid.transform * glm::vec4(x, 0, z, 1);
-}
-
 void hold_box(const cloth::Grid& grid, const BoxPin& box, std::vector<uint32_t>& held)
 {
     for (uint32_t row = 0; row < grid.rows; ++row)
@@ -186,6 +179,13 @@ void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Boun
 }
 
 } // namespace
+
+glm::vec3 grid_point(const cloth::Grid& grid, uint32_t row, uint32_t column)
+{
+    const float x = (static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f) * grid.width;
+    const float z = (static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f) * grid.depth;
+    return grid.transform * glm::vec4(x, 0, z, 1);
+}
 
 glm::vec3 wind_at(const WindEntry& wind, double time)
 {

@@ -27,6 +27,9 @@ struct Stage
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                              const Options& options);
 
+// Where a vertex of a grid is before the first step, m.
+glm::vec3 grid_point(const cloth::Grid& grid, uint32_t row, uint32_t column);
+
 // The wind at a time (s): its velocity with gusts that swell and fade, always the same at the same time.
 glm::vec3 wind_at(const WindEntry& wind, double time);
 

@@ -47,16 +47,6 @@ gpu::Result<Depth> depth_of(const Solid& solid)
         });
 }
 
-// A point of a grid before the first step.
-glm::dvec3 start_of(const cloth::Grid& grid, size_t vertex)
-{
-    const size_t row = vertex / grid.columns;
-    const size_t column = vertex % grid.columns;
-    const float x = (static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f) * grid.width;
-    const float z = (static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f) * grid.depth;
-    return glm::vec3(grid.transform * glm::vec4(x, 0, z, 1));
-}
-
 } // namespace
 
 gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
@@ -75,7 +65,9 @@ gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& s
     {
         for (size_t v = 0; v < state[i].positions.size(); ++v)
         {
-            const glm::dvec3 start = start_of(stage.cloths[i].grid, v);
+            const cloth::Grid& grid = stage.cloths[i].grid;
+            const auto vertex = static_cast<uint32_t>(v);
+            const glm::dvec3 start = grid_point(grid, vertex / grid.columns, vertex % grid.columns);
             double deepest = 0;
             for (const Depth& depth : depths)
                 deepest = std::max(deepest, depth(state[i].positions[v], start));
