@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gpu/device.hpp"
+#include "engine/gpu/download.hpp"
 #include "engine/gpu/frames.hpp"
 
 #include "gpu/recorder.hpp"
@@ -10,7 +11,6 @@
 #include <doctest/doctest.h>
 #include <glm/glm.hpp>
 
-#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -52,22 +52,7 @@ public:
     template <typename T>
     std::vector<T> read(VkBuffer buffer, size_t count, VkDeviceSize offset = 0)
     {
-        const VkDeviceSize bytes = count * sizeof(T);
-        gpu::Buffer host = engine::take(gpu::create_buffer(context(), "test readback", bytes,
-                                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback));
-        run(
-            [&](VkCommandBuffer cmd)
-            {
-                const VkBufferCopy region{offset, 0, bytes};
-                context().fn.vkCmdCopyBuffer(cmd, buffer, host.handle(), 1, &region);
-                gpu::Recorder(context(), cmd)
-                    .barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
-                             VK_PIPELINE_STAGE_2_HOST_BIT_KHR, VK_ACCESS_2_HOST_READ_BIT_KHR);
-            });
-        host.invalidate();
-        std::vector<T> values(count);
-        std::memcpy(values.data(), host.mapped().data(), bytes);
-        return values;
+        return engine::download_values<T>(device(), buffer, offset, count);
     }
 
     uint32_t expected_messages = 0;
