@@ -88,14 +88,13 @@ Cloths add_drape_sheet(cloth::Solver& solver)
     fabric.air_drag_normal = 0;
     fabric.air_drag_tangential = 0;
 
-    const float spacing = k_size / static_cast<float>(side - 1);
     cloth::Grid grid;
     grid.columns = side;
     grid.rows = side;
     grid.width = k_size;
     grid.depth = k_size;
     grid.transform[3] = {0, 0.85f, 0, 1};
-    grid.material = cloth::make_material(fabric, spacing, spacing);
+    grid.material = fabric;
     return {engine::take(solver.add_cloth(grid))};
 }
 

@@ -20,6 +20,16 @@ inline glm::mat4 tilted()
     return m;
 }
 
+// The masses and springs of a grid that has them outright.
+inline cloth::Material& raw(cloth::Grid& grid)
+{
+    return std::get<cloth::Material>(grid.material);
+}
+inline const cloth::Material& raw(const cloth::Grid& grid)
+{
+    return std::get<cloth::Material>(grid.material);
+}
+
 // A moving sheet in which every spring is stretched or compressed: its transform scales what its rest lengths do not.
 inline cloth::Grid stretched_sheet(uint32_t columns, uint32_t rows)
 {

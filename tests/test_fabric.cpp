@@ -47,7 +47,7 @@ double elongation(uint32_t columns, uint32_t rows, float width, float shear)
     cloth::Fabric fabric = still_air(shear);
     fabric.damping_ratio = 0.3f;
     cloth::Grid grid = hanging_sheet(columns, rows, width, 1, fabric);
-    grid.material.linear_drag = 40 * grid.material.vertex_mass; // near critical for the slowest stretch, 17 Hz
+    tests::raw(grid).linear_drag = 40 * tests::raw(grid).vertex_mass; // near critical for the slowest stretch, 17 Hz
     ClothHarness harness;
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -117,7 +117,7 @@ TEST_CASE("a strip between two holds hangs in a catenary")
         grid.width = 1;
         grid.depth = 0.02f;
         grid.material = cloth::make_material(fabric, 1.f / 64, 0.02f);
-        grid.material.linear_drag = 4 * grid.material.vertex_mass; // 1/s, near critical for its slow swinging
+        tests::raw(grid).linear_drag = 4 * tests::raw(grid).vertex_mass; // 1/s, near critical for its slow swinging
         grid.held = {0, 64, 65, 129};
         // Compressed to its span along x, and tilted a little, or symmetry would keep it on a line.
         grid.transform[0] = {row.span, 0, 0, 0};

@@ -15,12 +15,12 @@ using tests::ClothHarness;
 cloth::Grid uneven_sheet(uint32_t columns, uint32_t rows)
 {
     cloth::Grid grid = tests::stretched_sheet(columns, rows);
-    grid.material.springs.shear = {120, 1};
-    grid.material.springs.bend_weft = {60, 0.5f};
-    grid.material.springs.diagonal_bend = {30, 0.2f};
-    grid.material.air_drag_normal = 1.28f;
-    grid.material.air_drag_tangential = 0.1f;
-    grid.material.border_share = 0.7f;
+    tests::raw(grid).springs.shear = {120, 1};
+    tests::raw(grid).springs.bend_weft = {60, 0.5f};
+    tests::raw(grid).springs.diagonal_bend = {30, 0.2f};
+    tests::raw(grid).air_drag_normal = 1.28f;
+    tests::raw(grid).air_drag_tangential = 0.1f;
+    tests::raw(grid).border_share = 0.7f;
     return grid;
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("free fall does not feel internal damping")
     grid.rows = 9;
     grid.transform[3] = {0, 4, 0, 1};
     grid.material = cloth::reference_material();
-    grid.material.linear_drag = 0;
+    tests::raw(grid).linear_drag = 0;
     ClothHarness harness;
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -113,9 +113,9 @@ TEST_CASE("a spring pair swings with period 2 pi sqrt(m / 2 k)")
     cloth::Grid grid;
     grid.columns = grid.rows = 2;
     grid.transform[0] *= 1.05f;
-    grid.material = {};
-    grid.material.vertex_mass = 0.2f;
-    grid.material.springs.structural_warp = {50, 0};
+    grid.material = cloth::Material{};
+    tests::raw(grid).vertex_mass = 0.2f;
+    tests::raw(grid).springs.structural_warp = {50, 0};
     ClothHarness harness;
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -135,9 +135,9 @@ TEST_CASE("the error falls with the fourth power of the step")
     grid.columns = grid.rows = 2;
     grid.width = 1;
     grid.transform[0] *= 1.5f;
-    grid.material = {};
-    grid.material.vertex_mass = 1;
-    grid.material.springs.structural_warp = {50, 0};
+    grid.material = cloth::Material{};
+    tests::raw(grid).vertex_mass = 1;
+    tests::raw(grid).springs.structural_warp = {50, 0};
     const double omega = std::sqrt(2 * 50.0);
     const double t = 1;
     std::vector<double> errors; // in phase space, where amplitude and phase errors cannot cancel

@@ -178,7 +178,6 @@ TEST_CASE("the golden picture")
     world.add_collider(cloth::PlaneCollider{});
     cloth::Grid sheet{.columns = 32, .rows = 32, .width = 2, .depth = 2};
     sheet.transform[3] = {0, 1.2f, 0, 1};
-    sheet.material = cloth::make_material({}, 2.f / 31, 2.f / 31);
     stage.scene.add("sheet").add<cloth::component::Sheet>(
         world, stage.uploads, sheet, cloth::component::fabric_surface({0.5f, 0.04f, 0.07f}, {0.4f, 0.3f, 0.2f}, 2));
     add_ground(stage);

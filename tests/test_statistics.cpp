@@ -37,7 +37,7 @@ Expected expected_statistics(const cloth::Grid& grid)
     }
     result.mean_stretch /= springs;
     for (const glm::dvec3& v : reference.state.v)
-        result.kinetic_energy += 0.5 * static_cast<double>(grid.material.vertex_mass) * glm::dot(v, v);
+        result.kinetic_energy += 0.5 * static_cast<double>(tests::raw(grid).vertex_mass) * glm::dot(v, v);
     return result;
 }
 
@@ -97,18 +97,22 @@ TEST_CASE("vertices under a surface are counted, and the deepest is measured")
 
 TEST_CASE("values that are not finite are counted, and do not spoil the other sums")
 {
-    // A step far beyond stability, until the first cloth overflows; the second has no springs and just falls.
     ClothHarness harness;
     const cloth::ClothId broken = engine::take(harness.solver.add_cloth(tests::stretched_sheet(20, 10)));
     cloth::Grid calm = tests::stretched_sheet(9, 7);
-    calm.material = {};
+    calm.material = cloth::Material{};
     (void)engine::take(harness.solver.add_cloth(calm));
     harness.upload();
-    harness.step({.duration = 1, .substeps = 1, .gravity = {0, 0, 0}}, 12);
-    uint32_t not_finite = 0;
-    for (const glm::vec4& p : harness.positions(broken))
-        not_finite += !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
-    REQUIRE(not_finite == 20 * 10);
+    const cloth::VertexStreams streams = harness.solver.vertices(broken);
+    harness.run(
+        [&](VkCommandBuffer cmd)
+        {
+            constexpr uint32_t k_not_a_number = 0xffffffff;
+            const auto bytes = streams.vertices * sizeof(glm::vec4);
+            harness.solver.context().fn.vkCmdFillBuffer(cmd, streams.positions, streams.offset, bytes, k_not_a_number);
+        });
+    harness.step({.duration = 0.01f, .substeps = 1, .gravity = {0, 0, 0}});
+    const uint32_t not_finite = 20 * 10;
     const cloth::Statistics found = harness.statistics();
     CHECK(found.nan_vertices == not_finite);
     CHECK(static_cast<double>(found.kinetic_energy) ==

@@ -28,7 +28,6 @@ void run(bool headless)
 
     cloth::Grid sheet{.name = "sheet", .width = 2, .depth = 2};
     sheet.transform[3] = {0, 1.2f, 0, 1};
-    sheet.material = cloth::make_material({}, 2.f / 63, 2.f / 63);
     scene.add("sheet").add<cloth::component::Sheet>(
         world, app.uploads(), sheet, cloth::component::fabric_surface({0.55f, 0.05f, 0.08f}, {0.6f, 0.5f, 0.35f}, 2));
 

@@ -69,6 +69,10 @@ void apply(const MaterialEntry& entry, cloth::Fabric& fabric)
     override_with(entry.shear_stiffness, fabric.shear_stiffness);
     override_with(entry.bending_stiffness, fabric.bending_stiffness);
     override_with(entry.damping_ratio, fabric.damping_ratio);
+    override_with(entry.strain_limit, fabric.strain_limit);
+    if (entry.bending_model)
+        fabric.bending_model = *entry.bending_model == BendingModel::isometric ? cloth::BendingModel::isometric
+                                                                                : cloth::BendingModel::springs;
 }
 
 void apply(const MaterialEntry& entry, cloth::Material& material)
@@ -107,11 +111,6 @@ gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const Ma
 {
     const auto bad = [&](const std::string& reason)
     { return gpu::Error{place(scene, entry.line) + ": material: " + reason}; };
-    if (entry.strain_limit.value_or(0) > 0)
-        return bad("strain_limit is not supported yet");
-    if (entry.bending_model.value_or(BendingModel::springs) != BendingModel::springs)
-        return bad("bending_model \"isometric\" is not supported yet");
-
     cloth::Material material;
     if (entry.preset == "reference")
     {

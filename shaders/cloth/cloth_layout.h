@@ -6,7 +6,17 @@
 
 // The springs of a grid vertex come in eight classes; a class joins it to the vertices at +offset and -offset.
 // Classes 0-1 structural (column, row), 2-3 shear, 4-5 bend, 6-7 diagonal bend.
+// A mesh has two: 0 along its edges, 1 between the vertices opposite to an edge.
 #define VOILE_SPRING_CLASSES 8
+#define VOILE_CLASS_EDGE 0
+#define VOILE_CLASS_OPPOSITE 1
+
+// Flags of a cloth.
+#define VOILE_CLOTH_VERLET 1u       // velocity Verlet; else RK4
+#define VOILE_CLOTH_ISOMETRIC 2u    // bends by the isometric model; its bend springs are slack
+#define VOILE_CLOTH_ALIKE 4u        // a mesh whose springs all have the class's constants, whatever their weight
+// Set in MeshSpring.neighbour: the spring crosses an edge, between the vertices opposite to it.
+#define VOILE_OPPOSITE_BIT 0x80000000u
 
 #define VOILE_COLLIDER_PLANE 0
 #define VOILE_COLLIDER_SPHERE 1
@@ -16,6 +26,15 @@
 #define VOILE_COLLIDER_CLOSED 1u
 // The collider has friction coefficients of its own.
 #define VOILE_COLLIDER_FRICTION 2u
+
+// Wave vectors of the gusts (wind.glsl), in units of the longest one's.
+#define VOILE_GUST_WAVES                                                                                               \
+    vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                             \
+        vec3(1.5689f, -4.7068f, 6.2757f)
+
+// What a velocity's w says of its vertex, as a sum of these.
+#define VOILE_VERTEX_TOUCHES 1 // it touches a collider
+#define VOILE_VERTEX_LIMITED 2 // it bears less than the whole of its inner forces; see stable_acceleration
 
 VOILE_SHARED_BEGIN(cloth)
 
@@ -27,22 +46,58 @@ struct SpringClass
     float padding;
 };
 
-// One a cloth. Vertices of a cloth are consecutive: row * columns + column, from first_vertex.
+// One a cloth. Its vertices are consecutive, from first_vertex; those of a grid are row * columns + column.
 struct ClothRecord
 {
     uint first_vertex;
-    uint columns;
+    uint vertices;
+    uint columns;          // of a grid; 0: a mesh
     uint rows;
+    uint first_list;       // of a mesh: its first MeshVertex
     float thickness;       // m
     float static_friction; // Coulomb coefficients of the fabric
     float kinetic_friction;
     float linear_drag;     // N s/m a vertex: force = linear_drag * (wind - velocity)
     float drag_normal;     // C_n of the quadratic law
     float drag_tangential; // C_t
-    float border_share;    // of masses and of springs along the border
+    float border_share;    // of masses and of springs along a grid's border
+    uint flags;
+    float omega_squared;   // 1/s^2, of the fastest mode at rest, bending included
+    float bending_omega_squared; // 1/s^2, what isometric bending has of it
+    float decay;           // 1/s, of the fastest decay
+    float damping_time;    // s, the largest damping / stiffness of a spring
+    float strain_limit;    // largest l / L - 1; 0: none
+    float padding_0;
     float padding_1;
-    float padding_2;
+    vec3 bending;          // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
+    float bending_time;    // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
+};
+
+// A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[] and
+// of MeshCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first entries of
+// its vertices stand side by side, then their second ones, so that a workgroup's reads coalesce.
+struct MeshVertex
+{
+    uint first_spring;
+    uint springs;
+    uint first_corner;
+    uint corners;
+};
+
+struct MeshSpring
+{
+    uint neighbour;    // counted within the cloth; VOILE_OPPOSITE_BIT
+    float rest_length; // m
+    float weight;      // times the class's stiffness and damping. Edge: none; opposite: 1/m^2
+    float bending;     // of the isometric model, 1/m^2: force = -B * bending * (x_neighbour - x)
+};
+
+// A triangle around a vertex by its other two corners, counter-clockwise, counted within the cloth.
+struct MeshCorner
+{
+    uint b;
+    uint c;
 };
 
 // What one workgroup works on: vertices first .. first + group size - 1 of one cloth.
@@ -65,13 +120,19 @@ struct ColliderRecord
     vec4 shape; // plane: unit normal and offset (normal . x of its points); sphere: centre and radius
 };
 
-// Push constants of the integration stages.
+// Push constants of the integration passes.
 struct StagePush
 {
     vec3 gravity;      // m/s^2
     float step;        // s, of the whole substep
     vec3 wind;         // m/s
     float air_density; // kg/m^3
+    vec4 gust_phases;  // rad, of the four waves of the gusts at this time
+    float gust_speed;  // m/s, of all waves together, root mean square
+    float gust_wavenumber; // rad/m, of the longest wave
+    uint first_chunk;  // of the dispatch
+    float kick;        // Verlet: s, how long the acceleration acts on the velocity
+    float drift;       // Verlet: s, how far the position moves on; 0 ends a step
 };
 
 // Push constants of the contact pass.
@@ -104,6 +165,10 @@ struct StatisticsRecord
     uint nan_vertices;         // vertices with a position or velocity that is not finite
     uint penetrating_vertices; // vertices under the surface of a collider
     uint contacts;             // vertices that touch a collider
+    uint limited_vertices;     // vertices that bore less than the whole of their inner forces
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
 
 VOILE_SHARED_END

@@ -5,7 +5,8 @@
 // Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
-// Reads: cloths, chunks, colliders, hierarchy, proposed state, own previous state. Writes: state (velocity.w: 1 = touches).
+// Reads: cloths, chunks, mesh lists, colliders, hierarchy, proposed state, own previous state. Writes: state (velocity.w:
+// 1 = touches), predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 
@@ -21,11 +22,15 @@ layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velociti
 layout(set = 0, binding = 6, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(set = 0, binding = 7, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
 layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = 9, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 11, std430) readonly buffer ProposedPredicted { vec4 proposed_predicted[]; };
+layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
-#include "grid_normal.glsl"
+#include "vertex_normal.glsl"
 #include "contact_query.glsl"
 
 struct Motion
@@ -85,27 +90,25 @@ void main()
 {
     const Chunk chunk = chunks[gl_WorkGroupID.x];
     const uint cloth = chunk.cloth;
-    const uint columns = cloths[cloth].columns;
-    const uint rows = cloths[cloth].rows;
-    const GridVertex self =
-        grid_vertex(cloths[cloth].first_vertex, columns, rows, chunk.first + gl_LocalInvocationID.x);
-    if (!self.exists)
+    const uint local = chunk.first + gl_LocalInvocationID.x;
+    if (local >= cloths[cloth].vertices)
         return;
-    const uint i = self.index;
+    const uint i = cloths[cloth].first_vertex + local;
     const vec4 proposed = proposed_positions[i];
-    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocities[i].xyz);
+    const vec4 proposed_velocity = proposed_velocities[i];
+    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz);
     float touches = 0;
     if (proposed.w > 0)
     {
         const float thickness = cloths[cloth].thickness;
-        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? grid_normal(self, columns, rows) : vec3(0);
+        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(cloth, local) : vec3(0);
         for (uint c = 0; c < push.colliders; ++c)
         {
             const ColliderRecord collider = colliders[c];
             const Contact contact = find_contact(collider, METHOD, motion.from, motion.x, normal, thickness);
             if (!contact.found)
                 continue;
-            touches = 1;
+            touches = VOILE_VERTEX_TOUCHES;
             respond(motion, contact, thickness,
                     pair_friction(cloths[cloth].static_friction, collider.static_friction, collider.flags),
                     pair_friction(cloths[cloth].kinetic_friction, collider.kinetic_friction, collider.flags));
@@ -114,5 +117,7 @@ void main()
     if (touches > 0)
         keep_out(motion);
     positions[i] = vec4(motion.x, proposed.w);
-    velocities[i] = vec4(motion.v, touches);
+    velocities[i] = vec4(motion.v, touches + proposed_velocity.w);
+    if ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0)
+        predicted[i] = proposed_predicted[i] + vec4(motion.v - proposed_velocity.xyz, 0);
 }

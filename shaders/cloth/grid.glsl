@@ -1,4 +1,4 @@
-// Grid topology: which vertex of which cloth a thread is, and who its neighbours are.
+// Grid topology: which column and row a vertex has, and who its neighbours are.
 #ifndef VOILE_GRID_GLSL
 #define VOILE_GRID_GLSL
 
@@ -7,19 +7,17 @@ const ivec2 k_spring_offsets[VOILE_SPRING_CLASSES] =
 
 struct GridVertex
 {
-    uint index;  // in the solver's buffers
+    uint index; // in the solver's buffers
     int column;
     int row;
-    bool exists; // false for the threads beyond the last vertex of a cloth
 };
 
-GridVertex grid_vertex(uint first_vertex, uint columns, uint rows, uint local)
+GridVertex grid_vertex(uint first_vertex, uint columns, uint local)
 {
     GridVertex v;
     v.index = first_vertex + local;
     v.row = int(local / columns);
     v.column = int(local - uint(v.row) * columns);
-    v.exists = local < columns * rows;
     return v;
 }
 

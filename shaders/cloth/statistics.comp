@@ -2,11 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // Statistics of one chunk of vertices: stretch, kinetic energy, values that are not finite, penetration.
 //
-// A thread measures one vertex: the structural and shear springs on its positive side, its energy, and how deep it lies
-// under the surface of a collider. Reads: cloths, chunks, state, colliders, hierarchy. Writes: one record a workgroup.
+// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and how deep it lies
+// under the surface of a collider. Reads: cloths, chunks, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "grid.glsl"
+#include "mesh.glsl"
 
 layout(local_size_x_id = 0) in;
 
@@ -18,6 +19,8 @@ layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord 
 layout(set = 0, binding = 5, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
 layout(set = 0, binding = 6, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
@@ -26,20 +29,36 @@ layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
 
-void measure_springs(uint cloth, GridVertex self, vec3 x, inout StatisticsRecord record)
+void measure_spring(vec3 x, uint other, float rest_length, inout StatisticsRecord record)
+{
+    const float stretch = distance(x, positions[other].xyz) / rest_length - 1;
+    record.max_stretch = max(record.max_stretch, stretch);
+    record.stretch_sum += stretch;
+    record.springs += 1;
+}
+
+void measure_grid_springs(uint cloth, GridVertex self, vec3 x, inout StatisticsRecord record)
 {
     for (int c = 0; c < 4; ++c) // structural and shear
     {
         const SpringClass spring = cloths[cloth].springs[c];
         const ivec2 offset = k_spring_offsets[c];
-        if (spring.stiffness == 0 ||
-            !in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows))
-            continue;
-        const vec3 other = positions[neighbour(self, offset, cloths[cloth].columns)].xyz;
-        const float stretch = distance(x, other) / spring.rest_length - 1;
-        record.max_stretch = max(record.max_stretch, stretch);
-        record.stretch_sum += stretch;
-        record.springs += 1;
+        if (spring.stiffness > 0 &&
+            in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows))
+            measure_spring(x, neighbour(self, offset, cloths[cloth].columns), spring.rest_length, record);
+    }
+}
+
+// An edge is measured by the vertex with the smaller index.
+void measure_mesh_springs(uint cloth, uint local, vec3 x, inout StatisticsRecord record)
+{
+    const uint first = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        if (entry.neighbour > local && (entry.neighbour & VOILE_OPPOSITE_BIT) == 0)
+            measure_spring(x, first + entry.neighbour, entry.rest_length, record);
     }
 }
 
@@ -60,21 +79,26 @@ void main()
 {
     const Chunk chunk = chunks[gl_WorkGroupID.x];
     const uint cloth = chunk.cloth;
-    const GridVertex self = grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, cloths[cloth].rows,
-                                        chunk.first + gl_LocalInvocationID.x);
+    const uint local = chunk.first + gl_LocalInvocationID.x;
     StatisticsRecord record = no_statistics();
-    if (self.exists)
+    if (local < cloths[cloth].vertices)
     {
-        const vec4 x = positions[self.index];
-        const vec4 v = velocities[self.index];
+        const uint i = cloths[cloth].first_vertex + local;
+        const vec4 x = positions[i];
+        const vec4 v = velocities[i];
         if (!finite(x.xyz) || !finite(v.xyz))
             record.nan_vertices = 1;
         else
         {
-            measure_springs(cloth, self, x.xyz, record);
+            const uint columns = cloths[cloth].columns;
+            if (columns > 0)
+                measure_grid_springs(cloth, grid_vertex(cloths[cloth].first_vertex, columns, local), x.xyz, record);
+            else
+                measure_mesh_springs(cloth, local, x.xyz, record);
             measure_penetration(x.xyz, cloths[cloth].thickness, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
-            record.contacts = v.w > 0 ? 1 : 0;
+            record.contacts = uint(v.w) & VOILE_VERTEX_TOUCHES;
+            record.limited_vertices = (uint(v.w) & VOILE_VERTEX_LIMITED) != 0 ? 1 : 0;
         }
     }
     const StatisticsRecord merged = merge_workgroup(record);

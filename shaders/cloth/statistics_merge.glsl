@@ -4,7 +4,7 @@
 
 shared StatisticsRecord partial[gl_WorkGroupSize.x];
 
-StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0); } // -1: shrunk to a point
+StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0); } // -1: shrunk to a point
 
 StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
 {
@@ -16,6 +16,7 @@ StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
     a.nan_vertices += b.nan_vertices;
     a.penetrating_vertices += b.penetrating_vertices;
     a.contacts += b.contacts;
+    a.limited_vertices += b.limited_vertices;
     return a;
 }
 

@@ -3,7 +3,8 @@
 #define VOILE_TRIANGLE_GLSL
 
 // Where the segment from `origin` to `origin + span` meets triangle (a, b, c): its parameter in [0, 1], or 2 for a miss.
-// Möller and Trumbore 1997, from both sides. Hits on an edge count: the barycentric tests are closed.
+// Möller and Trumbore 1997, from both sides. Hits on an edge count, and those that rounding puts beside it: nothing slips
+// through between two triangles.
 float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
 {
     const vec3 e1 = b - a;
@@ -18,7 +19,8 @@ float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
     const vec3 q = cross(s, e1);
     const float v = dot(span, q) * inverse;
     const float t = dot(e2, q) * inverse;
-    const bool inside = u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1;
+    const float rounding = 1e-6;
+    const bool inside = u >= -rounding && v >= -rounding && u + v <= 1 + rounding && t >= 0 && t <= 1;
     return inside ? t : 2;
 }
 

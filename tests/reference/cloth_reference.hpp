@@ -38,7 +38,9 @@ struct Environment
 class Cloth
 {
 public:
-    explicit Cloth(const cloth::Grid& grid) : grid_(grid), inverse_mass_(size(), 1 / double(grid.material.vertex_mass))
+    explicit Cloth(const cloth::Grid& grid)
+        : grid_(grid), material_(std::get<cloth::Material>(grid.material)),
+          inverse_mass_(size(), 1 / double(material_.vertex_mass))
     {
         const double du = double(grid.width) / (grid.columns - 1);
         const double dv = double(grid.depth) / (grid.rows - 1);
@@ -58,7 +60,7 @@ public:
             inverse_mass_[held] = 0;
             state.v[held] = glm::dvec3(0);
         }
-        const cloth::SpringSet& s = grid.material.springs;
+        const cloth::SpringSet& s = material_.springs;
         const double diagonal = std::hypot(du, dv);
         add_family(1, 0, s.structural_warp, du);
         add_family(0, 1, s.structural_weft, dv);
@@ -76,7 +78,7 @@ public:
     {
         std::vector<glm::dvec3> force(size());
         for (size_t i = 0; i < size(); ++i)
-            force[i] = double(grid_.material.linear_drag) * (environment.wind - s.v[i]) + air_force(s, i, environment);
+            force[i] = double(material_.linear_drag) * (environment.wind - s.v[i]) + air_force(s, i, environment);
         for (const Spring& spring : springs)
         {
             const glm::dvec3 delta = s.x[spring.b] - s.x[spring.a];
@@ -154,7 +156,7 @@ private:
 
     [[nodiscard]] double border(uint32_t i, uint32_t count) const
     {
-        return i == 0 || i + 1 == count ? double(grid_.material.border_share) : 1;
+        return i == 0 || i + 1 == count ? double(material_.border_share) : 1;
     }
 
     [[nodiscard]] ClothState advanced(const std::vector<glm::dvec3>& v, const std::vector<glm::dvec3>& a,
@@ -170,29 +172,38 @@ private:
         return result;
     }
 
+    // Each of the four cells around the vertex acts on half of the triangle that its two sides span, a quarter of it.
     [[nodiscard]] glm::dvec3 air_force(const ClothState& s, size_t i, const Environment& environment) const
     {
-        const double c_n = grid_.material.air_drag_normal;
-        const double c_t = grid_.material.air_drag_tangential;
-        if (c_n + c_t == 0)
-            return glm::dvec3(0);
-        const uint32_t row = uint32_t(i) / grid_.columns;
-        const uint32_t column = uint32_t(i) % grid_.columns;
-        const auto at = [&](uint32_t r, uint32_t c) { return s.x[size_t{r} * grid_.columns + c]; };
-        const glm::dvec3 along_row =
-            at(row, std::min(column + 1, grid_.columns - 1)) - at(row, column == 0 ? 0 : column - 1);
-        const glm::dvec3 along_column =
-            at(std::min(row + 1, grid_.rows - 1), column) - at(row == 0 ? 0 : row - 1, column);
-        const glm::dvec3 across = glm::cross(along_column, along_row);
-        const glm::dvec3 n = glm::normalize(across);
-        const double area = glm::length(across) / 4;
-        const glm::dvec3 u = environment.wind - s.v[i];
-        const double u_n = glm::dot(u, n);
-        const glm::dvec3 u_t = u - u_n * n;
-        return 0.5 * environment.air_density * area * (c_n * std::abs(u_n) * u_n * n + c_t * glm::length(u_t) * u_t);
+        const double c_n = material_.air_drag_normal;
+        const double c_t = material_.air_drag_tangential;
+        const int row = int(i / grid_.columns);
+        const int column = int(i % grid_.columns);
+        const auto side = [&](int r, int c)
+        {
+            const bool exists = r >= 0 && c >= 0 && r < int(grid_.rows) && c < int(grid_.columns);
+            return exists ? s.x[size_t(r) * grid_.columns + size_t(c)] - s.x[i] : glm::dvec3(0);
+        };
+        glm::dvec3 force(0);
+        for (const int down : {-1, 1})
+            for (const int right : {-1, 1})
+            {
+                const glm::dvec3 across = glm::cross(side(row + down, column), side(row, column + right));
+                if (glm::length(across) == 0 || c_n + c_t == 0)
+                    continue;
+                const glm::dvec3 n = glm::normalize(across);
+                const double area = glm::length(across) / 4;
+                const glm::dvec3 u = environment.wind - s.v[i];
+                const double u_n = glm::dot(u, n);
+                const glm::dvec3 u_t = u - u_n * n;
+                force +=
+                    0.5 * environment.air_density * area * (c_n * std::abs(u_n) * u_n * n + c_t * glm::length(u_t) * u_t);
+            }
+        return force;
     }
 
     cloth::Grid grid_;
+    cloth::Material material_;
     std::vector<double> inverse_mass_;
 };
 

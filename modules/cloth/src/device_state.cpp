@@ -16,14 +16,18 @@ struct BufferRequest
 };
 
 gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const Model& model,
-                                 uint32_t chunk_count, uint32_t statistics_slots)
+                                 const UploadData& data, uint32_t statistics_slots)
 {
+    const size_t chunk_count = data.chunks.chunks.size();
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const BufferRequest requests[] = {
-        {&state.cloths, "cloth records", model.cloths.size() * sizeof(shared::ClothRecord)},
+        {&state.cloths, "cloth records", model.records.size() * sizeof(shared::ClothRecord)},
         {&state.chunks, "cloth chunks", chunk_count * sizeof(shared::Chunk)},
+        {&state.mesh_vertices, "cloth mesh vertices", data.lists.vertices.size() * sizeof(shared::MeshVertex)},
+        {&state.mesh_springs, "cloth mesh springs", data.lists.springs.size() * sizeof(shared::MeshSpring)},
+        {&state.mesh_corners, "cloth mesh corners", data.lists.corners.size() * sizeof(shared::MeshCorner)},
         {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
         {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
         {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
@@ -74,22 +78,50 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
         binder.bind(set, kernels.stages[stage],
                     {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
-                     output.velocities.handle(), s.sums.positions.handle(), s.sums.velocities.handle()});
+                     output.velocities.handle(), s.sums.positions.handle(), s.sums.velocities.handle(),
+                     s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle()});
     };
     bind_stage(s.stages[0], 0, s.state, s.stage_a);
     bind_stage(s.stages[1], 1, s.stage_a, s.stage_b);
     bind_stage(s.stages[2], 2, s.stage_b, s.stage_a);
     bind_stage(s.stages[3], 3, s.stage_a, s.stage_b);
     bind_stage(s.last_stage_alone, 3, s.stage_a, s.state);
+    // Of a Verlet cloth: positions, velocities at their time or predicted for it, velocities half a substep before.
+    struct Motion
+    {
+        const gpu::Buffer& positions;
+        const gpu::Buffer& gathered;
+        const gpu::Buffer& velocities;
+    };
+    const Motion start{s.state.positions, s.state.velocities, s.state.velocities};
+    const Motion here{s.state.positions, s.stage_a.velocities, s.state.velocities};
+    const Motion there{s.stage_b.positions, s.sums.velocities, s.stage_b.velocities};
+    const auto bind_verlet = [&](VkDescriptorSet& set, const Motion& input, const Motion& output)
+    {
+        binder.bind(set, kernels.verlet,
+                    {s.cloths.handle(), s.chunks.handle(), input.positions.handle(), input.gathered.handle(),
+                     input.velocities.handle(), output.positions.handle(), output.velocities.handle(),
+                     output.gathered.handle(), s.mesh_vertices.handle(), s.mesh_springs.handle(),
+                     s.mesh_corners.handle()});
+    };
+    bind_verlet(s.verlet_first, start, there);
+    bind_verlet(s.verlet_forth, here, there);
+    bind_verlet(s.verlet_back, there, here);
+    // The last kick leaves positions alone; what it would write of them goes where nobody looks.
+    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.sums.velocities, s.state.velocities});
+    bind_verlet(s.verlet_last_back, there, here);
     binder.bind(s.contact, kernels.contact,
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
                  s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
-                 s.triangles.handle()});
+                 s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(), s.sums.velocities.handle(),
+                 s.stage_a.velocities.handle()});
     binder.bind(s.normals_set, kernels.normals,
-                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle()});
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle(),
+                 s.mesh_vertices.handle(), s.mesh_corners.handle()});
     binder.bind(s.statistics, kernels.statistics,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
-                 s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle()});
+                 s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
+                 s.mesh_vertices.handle(), s.mesh_springs.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
     return binder.status;
 }
@@ -97,16 +129,17 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
 } // namespace
 
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             uint32_t chunk_count, uint32_t statistics_slots)
+                                             const UploadData& data, uint32_t statistics_slots)
 {
     DeviceState state;
     state.vertices = static_cast<uint32_t>(model.positions.size());
-    state.chunk_count = chunk_count;
+    state.chunk_count = static_cast<uint32_t>(data.chunks.chunks.size());
+    state.rk4_chunks = data.chunks.rk4;
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
-    if (auto buffers = create_buffers(context, state, model, chunk_count, statistics_slots); !buffers)
+    if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 9;
-    constexpr uint32_t k_most_bindings = 10;
+    constexpr uint32_t k_sets = 14;
+    constexpr uint32_t k_most_bindings = 13;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

@@ -22,6 +22,9 @@ struct DeviceState
 {
     gpu::Buffer cloths;
     gpu::Buffer chunks;
+    gpu::Buffer mesh_vertices;
+    gpu::Buffer mesh_springs;
+    gpu::Buffer mesh_corners;
     gpu::Buffer colliders;
     gpu::Buffer nodes;
     gpu::Buffer triangles;
@@ -36,6 +39,12 @@ struct DeviceState
     gpu::BindingPool pool;
     std::array<VkDescriptorSet, 4> stages{};
     VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
+    // Velocity Verlet goes from the state to stage B, with predictions in stage A's and the sums' velocities.
+    VkDescriptorSet verlet_first{}; // state to stage B: the velocities are those of the positions' time
+    VkDescriptorSet verlet_forth{}; // state to stage B
+    VkDescriptorSet verlet_back{};  // stage B to state, where no contact pass does that
+    VkDescriptorSet verlet_last{};  // velocities of the state alone
+    VkDescriptorSet verlet_last_back{}; // stage B to state
     VkDescriptorSet contact{};
     VkDescriptorSet normals_set{};
     VkDescriptorSet statistics{};
@@ -43,10 +52,18 @@ struct DeviceState
 
     uint32_t vertices = 0;
     uint32_t chunk_count = 0;
+    uint32_t rk4_chunks = 0; // the first ones
     uint32_t collider_count = 0;
 };
 
+// What an upload puts into the buffers beside the model's own arrays.
+struct UploadData
+{
+    Chunks chunks;
+    MeshLists lists;
+};
+
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             uint32_t chunk_count, uint32_t statistics_slots);
+                                             const UploadData& data, uint32_t statistics_slots);
 
 } // namespace cloth

@@ -27,11 +27,19 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     const uint32_t group = options.workgroup_size;
     const auto method = static_cast<uint32_t>(options.contact_method);
     Kernels kernels;
+    const auto layout = static_cast<uint32_t>(options.mesh_layout);
+    constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
-        {&kernels.contact, {"cloth contact", shaders::k_contact_comp, 9, sizeof(shared::ContactPush), {group, method}}},
-        {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 4, 0, {group}}},
+        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.contact,
+         {"cloth contact", shaders::k_contact_comp, 13, sizeof(shared::ContactPush), {group, method, layout}}},
+        {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},
         {&kernels.statistics,
-         {"cloth statistics", shaders::k_statistics_comp, 8, sizeof(shared::StatisticsPush), {group}}},
+         {"cloth statistics",
+          shaders::k_statistics_comp,
+          10,
+          sizeof(shared::StatisticsPush),
+          {group, 0, layout}}},
         {&kernels.statistics_reduce,
          {"cloth statistics reduce",
           shaders::k_statistics_reduce_comp,
@@ -42,7 +50,7 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     for (uint32_t stage = 0; stage < 4; ++stage)
         requests.push_back(
             {&kernels.stages[stage],
-             {k_stage_names[stage], shaders::k_integrate_comp, 10, sizeof(shared::StagePush), {group, stage + 1}}});
+             {k_stage_names[stage], shaders::k_integrate_comp, 13, k_stage_bytes, {group, stage + 1, layout}}});
     for (const Request& request : requests)
     {
         auto kernel = gpu::Kernel::create(context, request.description);

@@ -13,6 +13,7 @@ struct SolverOptions;
 struct Kernels
 {
     std::array<gpu::Kernel, 4> stages; // the four stages of RK4
+    gpu::Kernel verlet;
     gpu::Kernel contact;
     gpu::Kernel normals;
     gpu::Kernel statistics;

@@ -24,27 +24,43 @@ struct Range
     const char* name;
     float value;
     float min;
-    bool min_excluded;
+    float max;
     const char* unit;
 };
 
 Result<void> check(const char* what, const Range& range)
 {
-    const bool above = range.min_excluded ? range.value > range.min : range.value >= range.min;
-    if (std::isfinite(range.value) && above)
+    if (range.value >= range.min && range.value <= range.max) // false for NaN
         return {};
-    return Error{std::string(what) + ": " + range.name + " is " + text(range.value) + range.unit +
-                 ", must be finite and " + (range.min_excluded ? "> " : ">= ") + text(range.min)};
+    return Error{std::string(what) + ": " + range.name + " is " + text(range.value) + range.unit + ", must be " +
+                 text(range.min) + " to " + text(range.max)};
+}
+
+constexpr float k_least_thickness = 1e-5f; // m
+constexpr float k_most_friction = 100;
+constexpr float k_most_spring = 1e7f;    // N/m
+constexpr float k_most_damping = 1e6f;   // N s/m
+constexpr float k_most_bending = 1e3f;   // N m
+constexpr float k_least_strain = 1e-3f;
+constexpr float k_most_strain = 10;
+
+Result<void> check_strain_limit(const char* what, float limit)
+{
+    if (limit == 0)
+        return {};
+    if (auto result = check(what, {"strain_limit", limit, k_least_strain, k_most_strain, ""}); !result)
+        return Error{result.error().message + ", or 0 for none"};
+    return {};
 }
 
 Result<void> check_friction(const char* what, float static_friction, float kinetic_friction)
 {
-    if (auto result = check(what, {"kinetic_friction", kinetic_friction, 0, false, ""}); !result)
+    if (auto result = check(what, {"kinetic_friction", kinetic_friction, 0, k_most_friction, ""}); !result)
         return result;
-    if (!std::isfinite(static_friction) || static_friction < kinetic_friction)
+    if (!(static_friction >= kinetic_friction))
         return Error{std::string(what) + ": static_friction is " + text(static_friction) +
-                     ", must be finite and at least kinetic_friction, " + text(kinetic_friction)};
-    return {};
+                     ", must be at least kinetic_friction, " + text(kinetic_friction)};
+    return check(what, {"static_friction", static_friction, 0, k_most_friction, ""});
 }
 
 Spring damped_spring(float stiffness, float damping_ratio, float vertex_mass)
@@ -70,8 +86,19 @@ Material make_material(const Fabric& fabric, float spacing_along_row, float spac
     material.springs.structural_warp = spring((held - shear * a * a / (b * b)) * b / a);
     material.springs.structural_weft = spring((held * weft / warp - shear * b * b / (a * a)) * a / b);
     material.springs.shear = spring(shear * (a * a + b * b) / (2 * a * b));
-    material.springs.bend_warp = spring(static_cast<double>(fabric.bending_stiffness) / (a * b));
-    material.springs.bend_weft = material.springs.bend_warp;
+    if (fabric.bending_model == BendingModel::springs)
+        material.springs.bend_warp = material.springs.bend_weft =
+            spring(static_cast<double>(fabric.bending_stiffness) / (a * b));
+    else if (fabric.bending_stiffness > 0)
+    {
+        material.bending_stiffness = fabric.bending_stiffness;
+        // The mode that alternates along rows and columns: 16 B (b / a^3 + a / b^3 + 2 / (a b)) / m.
+        const double omega =
+            4 * (b / a + a / b) *
+            std::sqrt(static_cast<double>(fabric.bending_stiffness) / (a * b * static_cast<double>(material.vertex_mass)));
+        material.bending_time = static_cast<float>(2 * static_cast<double>(fabric.damping_ratio) / omega);
+    }
+    material.strain_limit = fabric.strain_limit;
     material.thickness = fabric.thickness;
     material.static_friction = fabric.static_friction;
     material.kinetic_friction = fabric.kinetic_friction;
@@ -96,51 +123,62 @@ Material reference_material()
 Result<void> validate(const Material& material)
 {
     const SpringSet& s = material.springs;
+    const struct
+    {
+        const char* stiffness;
+        const char* damping;
+        const Spring& spring;
+    } springs[] = {
+        {"structural_warp stiffness", "structural_warp damping", s.structural_warp},
+        {"structural_weft stiffness", "structural_weft damping", s.structural_weft},
+        {"shear stiffness", "shear damping", s.shear},
+        {"bend_warp stiffness", "bend_warp damping", s.bend_warp},
+        {"bend_weft stiffness", "bend_weft damping", s.bend_weft},
+        {"diagonal_bend stiffness", "diagonal_bend damping", s.diagonal_bend},
+    };
+    for (const auto& [stiffness, damping, spring] : springs)
+    {
+        if (auto result = check("material", {stiffness, spring.stiffness, 0, k_most_spring, " N/m"}); !result)
+            return result;
+        if (auto result = check("material", {damping, spring.damping, 0, k_most_damping, " N s/m"}); !result)
+            return result;
+    }
     const Range ranges[] = {
-        {"vertex_mass", material.vertex_mass, 0, true, " kg"},
-        {"thickness", material.thickness, 0, true, " m"},
-        {"linear_drag", material.linear_drag, 0, false, " N s/m"},
-        {"air_drag_normal", material.air_drag_normal, 0, false, ""},
-        {"air_drag_tangential", material.air_drag_tangential, 0, false, ""},
-        {"structural_warp stiffness", s.structural_warp.stiffness, 0, false, " N/m"},
-        {"structural_warp damping", s.structural_warp.damping, 0, false, " N s/m"},
-        {"structural_weft stiffness", s.structural_weft.stiffness, 0, false, " N/m"},
-        {"structural_weft damping", s.structural_weft.damping, 0, false, " N s/m"},
-        {"shear stiffness", s.shear.stiffness, 0, false, " N/m"},
-        {"shear damping", s.shear.damping, 0, false, " N s/m"},
-        {"bend_warp stiffness", s.bend_warp.stiffness, 0, false, " N/m"},
-        {"bend_warp damping", s.bend_warp.damping, 0, false, " N s/m"},
-        {"bend_weft stiffness", s.bend_weft.stiffness, 0, false, " N/m"},
-        {"bend_weft damping", s.bend_weft.damping, 0, false, " N s/m"},
-        {"diagonal_bend stiffness", s.diagonal_bend.stiffness, 0, false, " N/m"},
-        {"diagonal_bend damping", s.diagonal_bend.damping, 0, false, " N s/m"},
+        {"vertex_mass", material.vertex_mass, 1e-9f, 1e6f, " kg"},
+        {"border_share", material.border_share, 0.1f, 1, ""},
+        {"bending_stiffness", material.bending_stiffness, 0, k_most_bending, " N m"},
+        {"bending_time", material.bending_time, 0, 1, " s"},
+        {"thickness", material.thickness, k_least_thickness, 10, " m"},
+        {"linear_drag", material.linear_drag, 0, 1e6f, " N s/m"},
+        {"air_drag_normal", material.air_drag_normal, 0, 100, ""},
+        {"air_drag_tangential", material.air_drag_tangential, 0, 100, ""},
     };
     for (const Range& range : ranges)
         if (auto result = check("material", range); !result)
             return result;
-    if (!(material.border_share > 0) || material.border_share > 1)
-        return Error{"material: border_share is " + text(material.border_share) + ", must be > 0 and at most 1"};
+    if (auto result = check_strain_limit("material", material.strain_limit); !result)
+        return result;
     return check_friction("material", material.static_friction, material.kinetic_friction);
 }
 
 Result<void> validate(const Fabric& fabric)
 {
     const Range ranges[] = {
-        {"areal_density", fabric.areal_density, 0, true, " kg/m^2"},
-        {"stretch_stiffness (warp)", fabric.stretch_stiffness[0], 0, true, " N/m"},
-        {"stretch_stiffness (weft)", fabric.stretch_stiffness[1], 0, true, " N/m"},
-        {"shear_stiffness", fabric.shear_stiffness, 0, false, " N/m"},
-        {"bending_stiffness", fabric.bending_stiffness, 0, false, " N m"},
-        {"damping_ratio", fabric.damping_ratio, 0, false, ""},
-        {"thickness", fabric.thickness, 0, true, " m"},
-        {"air_drag_normal", fabric.air_drag_normal, 0, false, ""},
-        {"air_drag_tangential", fabric.air_drag_tangential, 0, false, ""},
+        {"areal_density", fabric.areal_density, 1e-3f, 1e3f, " kg/m^2"},
+        {"stretch_stiffness (warp)", fabric.stretch_stiffness[0], 1e-2f, k_most_spring, " N/m"},
+        {"stretch_stiffness (weft)", fabric.stretch_stiffness[1], 1e-2f, k_most_spring, " N/m"},
+        {"shear_stiffness", fabric.shear_stiffness, 0, k_most_spring, " N/m"},
+        {"bending_stiffness", fabric.bending_stiffness, 0, k_most_bending, " N m"},
+        {"damping_ratio", fabric.damping_ratio, 0, 1, ""},
+        {"thickness", fabric.thickness, k_least_thickness, 10, " m"},
+        {"air_drag_normal", fabric.air_drag_normal, 0, 100, ""},
+        {"air_drag_tangential", fabric.air_drag_tangential, 0, 100, ""},
     };
     for (const Range& range : ranges)
         if (auto result = check("fabric", range); !result)
             return result;
-    if (fabric.damping_ratio > 1)
-        return Error{"fabric: damping_ratio is " + text(fabric.damping_ratio) + ", must be at most 1"};
+    if (auto result = check_strain_limit("fabric", fabric.strain_limit); !result)
+        return result;
     return check_friction("fabric", fabric.static_friction, fabric.kinetic_friction);
 }
 

@@ -21,15 +21,8 @@ Result<void> validate(const MeshCollider& collider)
         return bad("the mesh has no triangles");
     if (!finite(collider.transform))
         return bad("its transform is not finite");
-    for (size_t i = 0; i < collider.positions.size(); ++i)
-        if (!finite(collider.positions[i]))
-            return bad("position " + std::to_string(i) + " is not finite");
-    for (size_t t = 0; t < collider.triangles.size(); ++t)
-        for (int corner = 0; corner < 3; ++corner)
-            if (collider.triangles[t][corner] >= collider.positions.size())
-                return bad("triangle " + std::to_string(t) + " refers to position " +
-                           std::to_string(collider.triangles[t][corner]) + " of " +
-                           std::to_string(collider.positions.size()));
+    if (auto valid = validate_triangles("collider", collider.name, collider.positions, collider.triangles); !valid)
+        return valid.error();
     if (collider.triangles.size() > VOILE_BVH_FIRST_MASK)
         return bad(std::to_string(collider.triangles.size()) + " triangles, at most " +
                    std::to_string(VOILE_BVH_FIRST_MASK));
@@ -53,6 +46,21 @@ bool has_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t)
 }
 
 } // namespace
+
+Result<void> validate_triangles(const std::string& what, const std::string& name, std::span<const glm::vec3> positions,
+                                std::span<const glm::uvec3> triangles)
+{
+    for (size_t i = 0; i < positions.size(); ++i)
+        if (!finite(positions[i]))
+            return invalid(what, name, "position " + std::to_string(i) + " is not finite");
+    for (size_t t = 0; t < triangles.size(); ++t)
+        for (int corner = 0; corner < 3; ++corner)
+            if (triangles[t][corner] >= positions.size())
+                return invalid(what, name,
+                               "triangle " + std::to_string(t) + " refers to position " +
+                                   std::to_string(triangles[t][corner]) + " of " + std::to_string(positions.size()));
+    return {};
+}
 
 std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
 {

@@ -20,6 +20,10 @@ struct MeshInput
 // Errors: see Solver::add_collider.
 Result<MeshInput> prepare_mesh(const MeshCollider& collider);
 
+// Errors: a position that is not finite, an index beyond the positions; `what` and `name` say whose.
+Result<void> validate_triangles(const std::string& what, const std::string& name, std::span<const glm::vec3> positions,
+                                std::span<const glm::uvec3> triangles);
+
 // For each position, the index of the first one at the same place.
 std::vector<uint32_t> weld(std::span<const glm::vec3> positions);
 

@@ -5,33 +5,46 @@
 
 #include "bvh_layout.h"
 #include "cloth_layout.h"
+#include "mesh_topology.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace cloth
 {
 
-// How fast a cloth's stiffest vertex can move; decides the number of substeps.
-struct StabilityBound
+// A cloth as the solver remembers it: what its record follows from when its material changes.
+struct ClothModel
 {
-    double omega = 0; // 1/s: sqrt(max 2 sum k / m)
-    double decay = 0; // 1/s: max (2 sum c + drag) / m
+    std::string name;
+    ClothMaterial material;
+    Integrator integrator = Integrator::rk4;
+    std::optional<MeshTopology> mesh; // none: a grid
+    glm::vec2 spacing{0.f};           // m, of a grid along a row and along a column
+    // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's area
+    // (fabric) or share (material). 0: all are the material's.
+    double own_inverse_mass = 0;
+    std::vector<glm::uvec3> triangles;          // of a mesh, as they were given
+    std::vector<glm::vec2> texture_coordinates; // of a mesh
 };
 
 struct Model
 {
-    std::vector<std::string> cloth_names;
-    std::vector<shared::ClothRecord> cloths;
-    std::vector<StabilityBound> bounds; // one a cloth
-    std::vector<glm::vec4> positions;   // at the start; w: inverse mass
-    std::vector<glm::vec4> velocities;  // at the start
+    std::vector<ClothModel> cloths;
+    std::vector<shared::ClothRecord> records; // one a cloth
+    std::vector<glm::vec4> positions;         // at the start; w: inverse mass
+    std::vector<glm::vec4> velocities;        // at the start
+    std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
+    std::vector<shared::MeshSpring> mesh_springs;
+    std::vector<shared::MeshCorner> mesh_corners;
     std::vector<shared::ColliderRecord> colliders;
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
 
     // Append after validating; unchanged on error.
     Result<ClothId> add(const Grid& grid);
+    Result<ClothId> add(const MeshCloth& cloth);
     Result<ColliderId> add(const MeshCollider& collider);
     Result<ColliderId> add(const PlaneCollider& collider);
     Result<ColliderId> add(const SphereCollider& collider);
@@ -44,7 +57,44 @@ bool finite(const glm::mat4& m);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
 shared::ColliderRecord make_collider_record(uint32_t kind, const std::optional<Friction>& friction);
 
-// The chunks that cover all cloths with workgroups of `workgroup_size` vertices; none straddles two cloths.
-std::vector<shared::Chunk> make_chunks(const Model& model, uint32_t workgroup_size);
+// What the validation of grids and meshes shares: transform, velocity, material, held vertices, inverse masses.
+struct ClothInput
+{
+    const std::string& name;
+    const glm::mat4& transform;
+    const glm::vec3& velocity;
+    const ClothMaterial& material;
+    std::span<const uint32_t> held;
+    std::span<const float> inverse_masses;
+};
+Result<void> validate(const ClothInput& cloth, uint64_t vertices);
+
+// The record that follows from a material; places (first_vertex, first_list) and sizes of `record` are kept.
+void apply_material(const ClothModel& cloth, shared::ClothRecord& record);
+
+// Mass of a vertex by the material, kg.
+double vertex_mass(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex);
+
+// Appends the start of a cloth whose record is complete: masses from the material unless they are given.
+void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index);
+
+// The chunks that cover all cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those of cloths
+// that use RK4 come first.
+struct Chunks
+{
+    std::vector<shared::Chunk> chunks;
+    uint32_t rk4 = 0; // how many
+};
+Chunks make_chunks(const Model& model, uint32_t workgroup_size);
+
+// The lists of mesh vertices, those of a workgroup's vertices interleaved: their first entries side by side, then their
+// second ones, each list as long as the longest of the workgroup.
+struct MeshLists
+{
+    std::vector<shared::MeshVertex> vertices;
+    std::vector<shared::MeshSpring> springs;
+    std::vector<shared::MeshCorner> corners;
+};
+MeshLists interleave(const Model& model, uint32_t workgroup_size);
 
 } // namespace cloth

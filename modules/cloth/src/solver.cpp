@@ -1,9 +1,9 @@
 // Solver: creation, additions, upload and queries. Recording is in record.cpp.
 #include "solver_state.hpp"
+#include "stability.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 namespace cloth
@@ -47,15 +47,42 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     return Solver(std::move(state));
 }
 
+namespace
+{
+
+// What `entries` of `bytes` each need against what the device binds.
+Result<void> check_size(const gpu::Context& context, const std::string& name, const std::string& what, uint64_t bytes)
+{
+    if (bytes <= context.max_buffer_bytes)
+        return {};
+    return invalid("cloth", name,
+                   what + " need buffers of " + std::to_string(bytes >> 20) + " MiB, the device binds at most " +
+                       std::to_string(context.max_buffer_bytes >> 20) + " MiB");
+}
+
+} // namespace
+
 Result<ClothId> Solver::add_cloth(const Grid& grid)
 {
     const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * sizeof(glm::vec4);
-    if (bytes > state_->context.max_buffer_bytes)
-        return invalid("cloth", grid.name,
-                       std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices need buffers of " +
-                           std::to_string(bytes >> 20) + " MiB, the device binds at most " +
-                           std::to_string(state_->context.max_buffer_bytes >> 20) + " MiB");
+    if (auto size = check_size(state_->context, grid.name,
+                               std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
+        !size)
+        return size.error();
     auto result = state_->model.add(grid);
+    state_->dirty |= result.ok();
+    return result;
+}
+
+Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
+{
+    // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
+    constexpr uint64_t k_bytes_a_vertex = 256;
+    const uint64_t bytes = (state_->model.mesh_vertices.size() + mesh.positions.size()) * k_bytes_a_vertex;
+    if (auto size = check_size(state_->context, mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
+        !size)
+        return size.error();
+    auto result = state_->model.add(mesh);
     state_->dirty |= result.ok();
     return result;
 }
@@ -102,20 +129,28 @@ Statistics Solver::statistics(uint32_t slot) const
     result.penetrating_vertices = record.penetrating_vertices;
     result.nan_vertices = record.nan_vertices;
     result.contacts = record.contacts;
+    result.limited_vertices = record.limited_vertices;
     return result;
 }
 
-uint32_t Solver::stable_substeps(float duration) const
+uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
 {
-    // The stability region of RK4 reaches 2.83 along the imaginary axis, 2.78 along the negative real one, and nowhere
-    // in the left half plane comes nearer to the origin than 2.6.
-    constexpr double k_reach = 2.6;
-    constexpr double k_margin = 0.9;
-    double fastest = 0;
-    for (const StabilityBound& bound : state_->model.bounds)
-        fastest = std::max({fastest, bound.omega, bound.decay});
-    const double substeps = std::ceil(static_cast<double>(duration) * fastest / (k_reach * k_margin));
-    return static_cast<uint32_t>(std::clamp(substeps, 1.0, 1e6));
+    uint32_t substeps = 1;
+    for (const shared::ClothRecord& record : state_->model.records)
+        substeps = std::max(substeps, cloth::stable_substeps(record, static_cast<double>(duration)));
+    return std::min(substeps, std::max(max_substeps, 1u));
+}
+
+Stability Solver::stability(ClothId cloth, const Step& step) const
+{
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    Stability result;
+    result.needed = cloth::stable_substeps(record, static_cast<double>(step.duration));
+    result.used = state_->substeps(*this, step);
+    const StableShares shares = stable_shares(record, static_cast<double>(step.duration) / result.used);
+    result.stiffness_share = static_cast<float>(shares.stiffness);
+    result.damping_share = static_cast<float>(shares.damping);
+    return result;
 }
 
 VertexStreams Solver::vertices(ClothId cloth) const
@@ -124,18 +159,21 @@ VertexStreams Solver::vertices(ClothId cloth) const
     if (!state_->device)
         return streams;
     const DeviceState& device = *state_->device;
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
     streams.positions = device.state.positions.handle();
     streams.velocities = device.state.velocities.handle();
     streams.normals = device.normals.handle();
     streams.offset = record.first_vertex * sizeof(glm::vec4);
-    streams.vertices = record.columns * record.rows;
+    streams.vertices = record.vertices;
     return streams;
 }
 
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    const ClothModel& model = state_->model.cloths[cloth.index];
+    if (model.mesh)
+        return model.triangles;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
     std::vector<glm::uvec3> result;
     result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
     for (uint32_t row = 0; row + 1 < record.rows; ++row)
@@ -151,19 +189,27 @@ std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 
 std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
 {
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index];
+    const ClothModel& model = state_->model.cloths[cloth.index];
+    if (model.mesh)
+        return model.texture_coordinates;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
     std::vector<glm::vec2> result;
-    result.reserve(size_t{record.columns} * record.rows);
+    result.reserve(record.vertices);
     for (uint32_t row = 0; row < record.rows; ++row)
         for (uint32_t column = 0; column < record.columns; ++column)
-            result.emplace_back(static_cast<float>(column) * record.springs[0].rest_length,
-                                static_cast<float>(row) * record.springs[1].rest_length);
+            result.emplace_back(static_cast<float>(column) * model.spacing.x, static_cast<float>(row) * model.spacing.y);
     return result;
 }
 
 const std::string& Solver::name(ClothId cloth) const
 {
-    return state_->model.cloth_names[cloth.index];
+    return state_->model.cloths[cloth.index].name;
+}
+
+MeshReport Solver::mesh_report(ClothId cloth) const
+{
+    const ClothModel& model = state_->model.cloths[cloth.index];
+    return model.mesh ? model.mesh->report : MeshReport{};
 }
 
 const gpu::Context& Solver::context() const
@@ -178,10 +224,14 @@ uint32_t Solver::vertex_count() const
 
 uint32_t Solver::triangle_count() const
 {
-    uint32_t count = 0;
-    for (const shared::ClothRecord& record : state_->model.cloths)
-        count += 2 * (record.columns - 1) * (record.rows - 1);
-    return count;
+    size_t count = 0;
+    for (size_t i = 0; i < state_->model.cloths.size(); ++i)
+    {
+        const shared::ClothRecord& record = state_->model.records[i];
+        count += record.columns > 0 ? size_t{2} * (record.columns - 1) * (record.rows - 1)
+                                    : state_->model.cloths[i].triangles.size();
+    }
+    return static_cast<uint32_t>(count);
 }
 
 } // namespace cloth

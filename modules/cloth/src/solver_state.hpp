@@ -18,6 +18,12 @@ struct Solver::State
     Model model;
     std::optional<DeviceState> device; // none before the first upload
     bool dirty = false;
+
+    // Substeps that a step takes.
+    [[nodiscard]] static uint32_t substeps(const Solver& solver, const Step& step)
+    {
+        return step.substeps > 0 ? step.substeps : solver.stable_substeps(step.duration, step.max_substeps);
+    }
 };
 
 struct Upload::Contents

@@ -78,9 +78,11 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 {
     State& s = *state_;
-    const std::vector<shared::Chunk> chunks = make_chunks(s.model, s.options.workgroup_size);
-    auto created = create_device_state(s.context, s.kernels, s.model, static_cast<uint32_t>(chunks.size()),
-                                       s.options.statistics_slots);
+    UploadData data{make_chunks(s.model, s.options.workgroup_size), {}};
+    data.lists = s.options.mesh_layout == MeshLayout::interleaved
+                     ? interleave(s.model, s.options.workgroup_size)
+                     : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners};
+    auto created = create_device_state(s.context, s.kernels, s.model, data, s.options.statistics_slots);
     if (!created)
         return created.error();
     DeviceState& next = created.value();
@@ -97,8 +99,11 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         std::span<const std::byte> bytes;
     };
     const Staged staged[] = {
-        {next.cloths, 0, bytes_of(s.model.cloths)},
-        {next.chunks, 0, bytes_of(chunks)},
+        {next.cloths, 0, bytes_of(s.model.records)},
+        {next.chunks, 0, bytes_of(data.chunks.chunks)},
+        {next.mesh_vertices, 0, bytes_of(data.lists.vertices)},
+        {next.mesh_springs, 0, bytes_of(data.lists.springs)},
+        {next.mesh_corners, 0, bytes_of(data.lists.corners)},
         {next.colliders, 0, bytes_of(s.model.colliders)},
         {next.nodes, 0, bytes_of(s.model.nodes)},
         {next.triangles, 0, bytes_of(s.model.triangles)},

@@ -14,6 +14,14 @@
 namespace cloth
 {
 
+// How a cloth is advanced. RK4 evaluates the forces four times a substep and takes substeps 1.3 times as long; it is the
+// one to take where accuracy counts. Velocity Verlet evaluates them once: the faster one for stiff cloth.
+enum class Integrator
+{
+    rk4,
+    verlet,
+};
+
 // A rectangular cloth, flat in x and z and centred on the origin before its transform. Vertex index = row * columns +
 // column; column c lies at x = (c / (columns - 1) - 1/2) * width, row r likewise in z.
 struct Grid
@@ -21,12 +29,44 @@ struct Grid
     std::string name = "cloth"; // for messages and captures
     uint32_t columns = 64;      // vertices along x, 2..8192
     uint32_t rows = 64;         // vertices along z, 2..8192
-    float width = 1;            // m along x, > 0
-    float depth = 1;            // m along z, > 0
+    float width = 1;            // m along x, 1e-4..1e5
+    float depth = 1;            // m along z, 1e-4..1e5
     glm::mat4 transform{1.f};   // world from grid; affine. Rest lengths are the grid's, not the transformed ones
     glm::vec3 velocity{0.f};    // m/s, of every vertex at the start
-    Material material{};
-    std::vector<uint32_t> held{}; // vertices that never move (inverse mass 0)
+    ClothMaterial material{};
+    Integrator integrator = Integrator::rk4;
+    std::vector<uint32_t> held{};        // vertices that do not move (inverse mass 0)
+    std::vector<float> inverse_masses{}; // 1/kg, one a vertex, in place of the material's; 0 holds. Empty: none given
+};
+
+// A cloth of any triangles: open or closed, in one piece or several, vertices and their order kept. Triangles without area
+// have no springs; vertices without a triangle are held; across an edge of three or more triangles each pair of them
+// bends. mesh_report tells of all of these.
+struct MeshCloth
+{
+    std::string name = "cloth";
+    std::span<const glm::vec3> positions{};           // m, in the mesh's space
+    std::span<const glm::uvec3> triangles{};          // indices into positions, counter-clockwise seen from outside
+    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the axis
+                                                      // of its smallest extent
+    glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
+    glm::vec3 velocity{0.f};                          // m/s, of every vertex at the start
+    ClothMaterial material{};
+    Integrator integrator = Integrator::rk4;
+    std::vector<uint32_t> held{};
+    std::vector<float> inverse_masses{};
+};
+
+// What a mesh is like as a cloth.
+struct MeshReport
+{
+    uint32_t components = 0;           // pieces that hang together by edges
+    uint32_t boundary_edges = 0;       // with one triangle; 0: closed
+    uint32_t non_manifold_edges = 0;   // with three triangles or more
+    uint32_t isolated_vertices = 0;    // without a triangle that has area
+    uint32_t degenerate_triangles = 0; // without area
+    uint32_t coincident_vertices = 0;  // at the place of an earlier one, and not joined to it: a seam that is open
+    float shortest_edge = 0;           // m; the number of substeps follows from the smallest triangles
 };
 
 struct Friction

@@ -1,9 +1,10 @@
-// Material: what a fabric is made of, and the springs that a grid of it gets. SI units.
+// What a cloth is made of: a Fabric, by its own properties, or a Material, masses and springs outright. SI units.
 #pragma once
 
 #include "gpu/result.hpp"
 
 #include <array>
+#include <variant>
 
 namespace cloth
 {
@@ -29,38 +30,53 @@ struct SpringSet
     Spring diagonal_bend;   // two apart along a diagonal
 };
 
+// How a cloth resists folding.
+enum class BendingModel
+{
+    springs,   // springs between vertices two apart: no stiffness near flat, more the sharper the fold
+    isometric, // linear in the curvature, as a thin plate's (Bergou et al. 2006): follows a cantilever
+};
+
 // Everything that moves a vertex, with masses and spring constants given outright. The reference scene is given so; for
-// a fabric that behaves the same at every resolution use make_material.
+// a cloth that behaves the same at every resolution give a Fabric. On a mesh, the edges are structural_warp springs, those
+// between the vertices opposite to an edge bend_warp springs, all alike; the other families are a grid's.
 struct Material
 {
-    float vertex_mass = 0.01f; // kg, > 0; of a vertex inside the grid
+    float vertex_mass = 0.01f; // kg, 1e-9..1e6; of a vertex inside the grid
     SpringSet springs{};
     // What a border has of the mass of an inner vertex, and of the springs along a row or column; twice over in a
     // corner. 1: masses and springs are all alike. 0.5: each vertex stands for the area around it, as make_material has
-    // it.
-    float border_share = 1;        // > 0, <= 1
-    float thickness = 0.005f;      // m, > 0; the distance that contact keeps between a vertex and a surface
-    float static_friction = 0.4f;  // Coulomb, >= kinetic_friction
+    // it. Grids only.
+    float border_share = 1;        // 0.1..1
+    float bending_stiffness = 0;   // N m, 0..1e3, of the isometric model, beside what bend springs do
+    float bending_time = 0;        // s, 0..1: isometric bending is damped by as much times its stiffness
+    float thickness = 0.005f;      // m, 1e-5..10; the distance that contact keeps between a vertex and a surface
+    float static_friction = 0.4f;  // Coulomb, kinetic_friction..100
     float kinetic_friction = 0.4f; // Coulomb, >= 0
-    float linear_drag = 0;         // N s/m a vertex, >= 0: force = linear_drag * (wind - velocity)
-    float air_drag_normal = 0;     // C_n, >= 0: 1/2 rho A C_n |u_n| u_n along the normal, u = wind - velocity
-    float air_drag_tangential = 0; // C_t, >= 0: 1/2 rho A C_t |u_t| u_t across the normal
+    float linear_drag = 0;         // N s/m a vertex, 0..1e6: force = linear_drag * (wind - velocity)
+    float air_drag_normal = 0;     // C_n, 0..100: 1/2 rho A C_n |u_n| u_n along the normal, u = wind - velocity
+    float air_drag_tangential = 0; // C_t, 0..100: 1/2 rho A C_t |u_t| u_t across the normal
+    float strain_limit = 0;        // 0.001..10, the largest l / L - 1 at the end of a step; 0: none
 };
 
-// A fabric by its own properties, independent of the grid that it is sampled with.
+// A fabric by its own properties, independent of the mesh that it is sampled with.
 struct Fabric
 {
-    float areal_density = 0.15f;                        // kg/m^2, > 0
-    std::array<float, 2> stretch_stiffness{1000, 1000}; // N/m, > 0; warp (along rows), weft (along columns)
-    float shear_stiffness = 100;                        // N/m, >= 0
-    float bending_stiffness = 1e-5f;                    // N m, >= 0
+    float areal_density = 0.15f;                        // kg/m^2, 1e-3..1e3
+    std::array<float, 2> stretch_stiffness{1000, 1000}; // N/m, 1e-2..1e7; warp (along rows), weft (along columns)
+    float shear_stiffness = 100;                        // N/m, 0..1e7. Grids only: see mesh_springs
+    float bending_stiffness = 1e-5f;                    // N m, 0..1e3
     float damping_ratio = 0.02f;                        // of each spring's critical damping, 0..1
-    float thickness = 0.005f;                           // m, > 0
-    float static_friction = 0.5f;                       // >= kinetic_friction
+    float thickness = 0.005f;                           // m, 1e-5..10
+    float static_friction = 0.5f;                       // kinetic_friction..100
     float kinetic_friction = 0.4f;                      // >= 0
-    float air_drag_normal = 1.28f;                      // C_n, >= 0; a flat plate's
-    float air_drag_tangential = 0.05f;                  // C_t, >= 0
+    float air_drag_normal = 1.28f;                      // C_n, 0..100; a flat plate's
+    float air_drag_tangential = 0.05f;                  // C_t, 0..100
+    float strain_limit = 0;                             // 0.001..10, the largest l / L - 1 of a step; 0: none
+    BendingModel bending_model = BendingModel::springs;
 };
+
+using ClothMaterial = std::variant<Fabric, Material>;
 
 // The springs and masses of a grid with the given spacing (m, a along rows, b along columns), so that the fabric
 // stretches and shears as Fabric says whatever the spacing. From the energy of one cell under uniform strain:
@@ -71,7 +87,11 @@ struct Fabric
 //   would be negative, they are 0;
 // - a bend spring two apart resists folding with k = B / (a b) per fold (from B kappa^2 / 2 of the strip, with the
 //   spring's shortening as its measure: it has no stiffness near flat);
-// - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring.
+// - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring;
+// - the isometric model has no bend springs, and its fastest mode the same share of critical damping.
+// Meshes: k = E A / L^2 for an edge of length L between triangles of total area A, E the mean of warp and weft (Van Gelder
+// 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"); shear follows from it, 3/8 of E on
+// equilateral triangles. A vertex has a third of the mass of each triangle around it.
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
 // The constants of the reference scene: 0.15 kg a vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag

@@ -9,10 +9,13 @@
 //
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
 //   buffer            format                 written by             read by
-//   positions         vec4 x y z 1/mass      contact, stage 4       stage 1, contact, normals, statistics, drawing
-//   velocities        vec4, w: touches       contact, stage 4       stage 1, statistics
-//   stage A, stage B  vec4 x and v each      stages 1-4             stages 2-4, contact
-//   sums              vec4 x and v each      stages 1-3             stages 2-4
+//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, contact, normals, statistics,
+//                                            Verlet                 drawing
+//   velocities        vec4, w: touches       the same               stage 1, Verlet, statistics
+//   stage A, stage B  vec4 x and v each      stages 1-4, Verlet     stages 2-4, contact, Verlet
+//   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
+//   mesh lists        MeshVertex, -Spring,   upload                 stages, Verlet, contact, normals, statistics
+//                     -Corner
 //   normals           vec4                   normals                drawing
 //   cloths, chunks    ClothRecord, Chunk     upload                 all
 //   colliders, nodes, triangles              upload                 contact, statistics
@@ -46,21 +49,42 @@ enum class ContactMethod
     nearest_point, // the nearest point of the mesh
 };
 
+// How the lists of mesh vertices lie in memory.
+enum class MeshLayout
+{
+    compact,     // one vertex's list after the other
+    interleaved, // those of a workgroup's vertices entry by entry, so that its reads coalesce
+};
+
 struct SolverOptions
 {
     uint32_t workgroup_size = 128; // power of two, 1 to the device's limit
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
+    MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
-// One call of record: `substeps` RK4 steps of duration / substeps each.
+// One call of record.
 struct Step
 {
     float duration = 1.f / 60;       // s, > 0
-    uint32_t substeps = 0;           // 0: stable_substeps(duration)
+    uint32_t substeps = 0;           // 0: as many as stability asks for, stable_substeps(duration)
+    uint32_t max_substeps = 2000;    // of those; a cloth for which they are too few is softened, see stability
     glm::vec3 gravity{0, -9.81f, 0}; // m/s^2
     glm::vec3 wind{0.f};             // m/s
+    float gust = 0;                  // root mean square of the gusts as a share of the wind's speed, 0..10
+    float gust_length = 4;           // m, > 0: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;                 // s, at the step's start; the gusts depend on it and on the place alone
     float air_density = 1.225f;      // kg/m^3
+};
+
+// What the substeps of a step mean for a cloth.
+struct Stability
+{
+    uint32_t needed = 0;        // substeps that bear all of its stiffness and damping
+    uint32_t used = 0;          // substeps that the step takes
+    float stiffness_share = 1;  // of its stiffness that it has in this step, 0..1
+    float damping_share = 1;    // likewise
 };
 
 // Staging memory and the buffers that an upload replaced. Destroy it once the command buffer has completed.
@@ -82,7 +106,8 @@ private:
 struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s) and 1 where the vertex touches a collider
+    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if it bore
+                                          // less than the whole of its inner forces
     VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
     VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
@@ -98,9 +123,10 @@ public:
     Solver& operator=(Solver&&) noexcept;
 
     // Copy and validate; nothing changes on the GPU before record_upload. Errors name the input and the value: a grid
-    // smaller than 2 x 2, a material out of range, a held vertex that does not exist, a coordinate that is not finite,
-    // an index beyond the positions, a mesh without a triangle that has area, more than the device's buffers hold.
+    // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a held vertex that does not exist, a
+    // coordinate that is not finite, an index beyond the positions, more than the device's buffers hold.
     Result<ClothId> add_cloth(const Grid& grid);
+    Result<ClothId> add_cloth(const MeshCloth& mesh);
     Result<ColliderId> add_collider(const MeshCollider& collider);
     Result<ColliderId> add_collider(const PlaneCollider& collider);
     Result<ColliderId> add_collider(const SphereCollider& collider);
@@ -124,17 +150,22 @@ public:
     void record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The fewest substeps with which RK4 is stable for every cloth added, with a margin of 10 %. From the row sums of
-    // M^-1 K and M^-1 C (Gershgorin 1931): omega^2 <= max 2 sum k / m with omega h <= 2.83, and max 2 sum c / m * h
-    // <= 2.78.
-    [[nodiscard]] uint32_t stable_substeps(float duration) const;
+    // The substeps with which every cloth is stable at its full stiffness, with a margin of 10 %; at most max_substeps.
+    // From the blocks of M^-1 K and M^-1 C at rest (stability.hpp): RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2,
+    // less with damping. A cloth that turns out stiffer on its way, crumpled or torn, is held by stable_acceleration in
+    // shaders/cloth/stability.glsl; Statistics::limited_vertices counts where.
+    [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
+    [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;
-    // Triangles of a cloth as the normals see them, indices within the cloth; counter-clockwise seen from +y when flat.
+    // Triangles of a cloth as the normals see them, indices within the cloth; a grid's counter-clockwise seen from +y when
+    // flat, a mesh's as they were given.
     [[nodiscard]] std::vector<glm::uvec3> triangles(ClothId cloth) const;
-    // One a vertex: column / (columns - 1), row / (rows - 1), scaled to metres of fabric.
+    // One a vertex, metres of fabric: a grid's from its first vertex, a mesh's as they were given.
     [[nodiscard]] std::vector<glm::vec2> texture_coordinates(ClothId cloth) const;
     [[nodiscard]] const std::string& name(ClothId cloth) const;
+    // What a mesh is like as a cloth; all 0 for a grid.
+    [[nodiscard]] MeshReport mesh_report(ClothId cloth) const;
 
     [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;               // of all cloths

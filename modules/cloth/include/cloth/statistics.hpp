@@ -8,12 +8,13 @@ namespace cloth
 
 struct Statistics
 {
-    float max_stretch = 0;             // max of l / L - 1 over the structural and shear springs
+    float max_stretch = 0;             // max of l / L - 1 over the structural and shear springs, or a mesh's edges
     float mean_stretch = 0;            // mean of the same
     float kinetic_energy = 0;          // J
     float deepest_penetration = 0;     // m under the surface of a collider; 0 if no vertex is under one
     uint32_t penetrating_vertices = 0; // vertices under the surface of a collider
     uint32_t nan_vertices = 0;         // vertices whose position or velocity is not finite
+    uint32_t limited_vertices = 0;     // vertices too stiff for the substep, which bore less than their inner forces
     uint32_t contacts = 0;             // vertices that touched a collider in the last substep
 };
 

@@ -1,0 +1,321 @@
+// What grids and meshes have in common: validation, the record that follows from a material, the state at the start.
+#include "model.hpp"
+
+#include "stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cloth
+{
+
+namespace
+{
+
+// A grid's springs, as two rows and columns from either end and the middle see them: any other vertex is like one of these.
+std::vector<int> representatives(uint32_t count)
+{
+    std::vector<int> result{0, 1, 2, static_cast<int>(count) / 2, static_cast<int>(count) - 3, static_cast<int>(count) - 2,
+                            static_cast<int>(count) - 1};
+    std::erase_if(result, [&](int i) { return i < 0 || i >= static_cast<int>(count); });
+    return result;
+}
+
+struct GridOffset
+{
+    int column;
+    int row;
+};
+constexpr GridOffset k_offsets[VOILE_SPRING_CLASSES] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 2}, {2, -2}};
+
+struct Rates
+{
+    double omega_squared = 0; // 1/s^2, of springs
+    double decay = 0;         // 1/s
+};
+
+double border_share(const shared::ClothRecord& record, int row, int column)
+{
+    const auto share = static_cast<double>(record.border_share);
+    const bool row_border = row == 0 || row + 1 == static_cast<int>(record.rows);
+    const bool column_border = column == 0 || column + 1 == static_cast<int>(record.columns);
+    return (row_border ? share : 1) * (column_border ? share : 1);
+}
+
+// The blocks of one vertex of a flat grid: twice their largest eigenvalue over the mass.
+Rates vertex_rates(const shared::ClothRecord& record, const glm::vec2& spacing, double inner_mass, int row, int column)
+{
+    glm::dmat3 stiffness(0.0);
+    glm::dmat3 damping(0.0);
+    for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
+        for (const int side : {1, -1})
+        {
+            const int other_row = row + side * k_offsets[c].row;
+            const int other_column = column + side * k_offsets[c].column;
+            if (other_row < 0 || other_row >= static_cast<int>(record.rows) || other_column < 0 ||
+                other_column >= static_cast<int>(record.columns))
+                continue;
+            // Along a border the springs of the line itself have the border's share.
+            const double share = c % 4 == 0   ? border_share(record, row, 1)
+                                 : c % 4 == 1 ? border_share(record, 1, column)
+                                              : 1;
+            const glm::dvec3 d = glm::normalize(glm::dvec3(k_offsets[c].column * static_cast<double>(spacing.x),
+                                                           k_offsets[c].row * static_cast<double>(spacing.y), 0));
+            stiffness += share * static_cast<double>(record.springs[c].stiffness) * glm::outerProduct(d, d);
+            damping += share * static_cast<double>(record.springs[c].damping) * glm::outerProduct(d, d);
+        }
+    const double mass = inner_mass * border_share(record, row, column);
+    return {2 * largest_eigenvalue(stiffness) / mass,
+            (2 * largest_eigenvalue(damping) + static_cast<double>(record.linear_drag)) / mass};
+}
+
+Rates grid_rates(const shared::ClothRecord& record, const glm::vec2& spacing, double inner_mass)
+{
+    Rates largest;
+    for (const int row : representatives(record.rows))
+        for (const int column : representatives(record.columns))
+        {
+            const Rates rates = vertex_rates(record, spacing, inner_mass, row, column);
+            largest.omega_squared = std::max(largest.omega_squared, rates.omega_squared);
+            largest.decay = std::max(largest.decay, rates.decay);
+        }
+    return largest;
+}
+
+shared::SpringClass spring_class(const Spring& spring, double rest_length)
+{
+    return {spring.stiffness, spring.damping, static_cast<float>(rest_length), 0};
+}
+
+// The coefficients of the isometric model on a grid: B b / a^3 for second differences along a row, B a / b^3 along a column,
+// 2 B / (a b) for the twist of a cell. Its fastest mode alternates along rows and columns: 16, 16 and 16 times these.
+glm::vec3 grid_bending(double stiffness, const glm::vec2& spacing)
+{
+    const auto a = static_cast<double>(spacing.x);
+    const auto b = static_cast<double>(spacing.y);
+    return {stiffness * b / (a * a * a), stiffness * a / (b * b * b), 2 * stiffness / (a * b)};
+}
+
+// Returns what vertices weigh, kg, inside the grid.
+double apply_grid(const glm::vec2& spacing, const Material& m, shared::ClothRecord& record)
+{
+    const auto a = static_cast<double>(spacing.x);
+    const auto b = static_cast<double>(spacing.y);
+    const double diagonal = std::hypot(a, b);
+    record.border_share = m.border_share;
+    record.springs[0] = spring_class(m.springs.structural_warp, a);
+    record.springs[1] = spring_class(m.springs.structural_weft, b);
+    record.springs[2] = record.springs[3] = spring_class(m.springs.shear, diagonal);
+    record.springs[4] = spring_class(m.springs.bend_warp, 2 * a);
+    record.springs[5] = spring_class(m.springs.bend_weft, 2 * b);
+    record.springs[6] = record.springs[7] = spring_class(m.springs.diagonal_bend, 2 * diagonal);
+    record.bending = grid_bending(static_cast<double>(m.bending_stiffness), spacing);
+    return static_cast<double>(m.vertex_mass);
+}
+
+void set_grid_rates(const glm::vec2& spacing, double mass, shared::ClothRecord& record)
+{
+    const Rates rates = grid_rates(record, spacing, mass);
+    // A corner has the fourth part of the stencils (row sums of 4, not 16) for its share of the mass.
+    const auto share = static_cast<double>(record.border_share);
+    const double bending = 16 * static_cast<double>(record.bending.x + record.bending.y + record.bending.z) / mass *
+                           std::max(1.0, 0.25 / (share * share));
+    record.bending_omega_squared = static_cast<float>(bending);
+    record.omega_squared = static_cast<float>(rates.omega_squared + bending);
+    record.decay = static_cast<float>(rates.decay + static_cast<double>(record.bending_time) * bending);
+}
+
+// A mesh of springs that follow from a fabric: the classes' constants are per unit of the springs' weights.
+void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothRecord& record)
+{
+    const auto density = static_cast<double>(f.areal_density);
+    const double stretch =
+        0.5 * (static_cast<double>(f.stretch_stiffness[0]) + static_cast<double>(f.stretch_stiffness[1]));
+    const auto bending = static_cast<double>(f.bending_stiffness);
+    const bool isometric = f.bending_model == BendingModel::isometric;
+    // Damping in proportion to stiffness: 2 ratio sqrt(k m / 2) for the mean spring between vertices of the mean mass.
+    const double mean_stiffness = std::max(stretch * mesh.mean_weight, 1e-30);
+    const double time =
+        2 * static_cast<double>(f.damping_ratio) * std::sqrt(density * mesh.mean_area / (2 * mean_stiffness));
+    const double edge_omega_squared = stretch * mesh.fabric.edge / density;
+    const double opposite_omega_squared = (isometric ? 0 : bending) * mesh.fabric.opposite / density;
+    const double bending_omega_squared = (isometric ? bending : 0) * mesh.fabric.bending / density;
+
+    record.springs[VOILE_CLASS_EDGE] = {static_cast<float>(stretch), static_cast<float>(stretch * time), 0, 0};
+    const double bend = isometric ? 0 : bending;
+    record.springs[VOILE_CLASS_OPPOSITE] = {static_cast<float>(bend), static_cast<float>(bend * time), 0, 0};
+    record.bending = glm::vec3(isometric ? f.bending_stiffness : 0, 0, 0);
+    const double bending_time = bending_omega_squared > 0 ? 2 * static_cast<double>(f.damping_ratio) / std::sqrt(bending_omega_squared) : 0;
+    record.bending_time = static_cast<float>(bending_time);
+    record.bending_omega_squared = static_cast<float>(bending_omega_squared);
+    record.omega_squared = static_cast<float>(edge_omega_squared + opposite_omega_squared + bending_omega_squared);
+    record.decay = static_cast<float>(time * (edge_omega_squared + opposite_omega_squared) +
+                                      bending_time * bending_omega_squared);
+}
+
+void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::ClothRecord& record)
+{
+    const auto mass = static_cast<double>(m.vertex_mass);
+    record.flags |= VOILE_CLOTH_ALIKE;
+    record.springs[VOILE_CLASS_EDGE] = spring_class(m.springs.structural_warp, 0);
+    record.springs[VOILE_CLASS_OPPOSITE] = spring_class(m.springs.bend_warp, 0);
+    record.bending = glm::vec3(m.bending_stiffness, 0, 0);
+    const double bending = static_cast<double>(m.bending_stiffness) * mesh.alike.bending / mass;
+    const auto rate = [&](float edge, float opposite)
+    {
+        return (static_cast<double>(edge) * mesh.alike.edge + static_cast<double>(opposite) * mesh.alike.opposite) / mass;
+    };
+    record.bending_omega_squared = static_cast<float>(bending);
+    record.omega_squared = static_cast<float>(
+        rate(m.springs.structural_warp.stiffness, m.springs.bend_warp.stiffness) + bending);
+    record.decay =
+        static_cast<float>(rate(m.springs.structural_warp.damping, m.springs.bend_warp.damping) +
+                           static_cast<double>(m.linear_drag) / mass + static_cast<double>(m.bending_time) * bending);
+}
+
+float largest_damping_time(const shared::ClothRecord& record)
+{
+    float time = 0;
+    for (const shared::SpringClass& spring : record.springs)
+        if (spring.stiffness > 0)
+            time = std::max(time, spring.damping / spring.stiffness);
+    return time;
+}
+
+// What both kinds of material give alike.
+template <typename M>
+void apply_surface(const M& m, shared::ClothRecord& record)
+{
+    record.thickness = m.thickness;
+    record.static_friction = m.static_friction;
+    record.kinetic_friction = m.kinetic_friction;
+    record.drag_normal = m.air_drag_normal;
+    record.drag_tangential = m.air_drag_tangential;
+    record.strain_limit = m.strain_limit;
+}
+
+} // namespace
+
+void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
+{
+    const auto* fabric = std::get_if<Fabric>(&cloth.material);
+    record.flags = cloth.integrator == Integrator::verlet ? VOILE_CLOTH_VERLET : 0;
+    std::visit([&](const auto& m) { apply_surface(m, record); }, cloth.material);
+    record.linear_drag = fabric ? 0 : std::get<Material>(cloth.material).linear_drag;
+    if (cloth.mesh && fabric)
+        apply_mesh_fabric(*cloth.mesh, *fabric, record);
+    else if (cloth.mesh)
+    {
+        record.bending_time = std::get<Material>(cloth.material).bending_time;
+        apply_mesh_material(*cloth.mesh, std::get<Material>(cloth.material), record);
+    }
+    else
+    {
+        const Material material = fabric ? make_material(*fabric, cloth.spacing.x, cloth.spacing.y)
+                                         : std::get<Material>(cloth.material);
+        record.bending_time = material.bending_time;
+        set_grid_rates(cloth.spacing, apply_grid(cloth.spacing, material, record), record);
+    }
+    if (record.bending != glm::vec3(0))
+        record.flags |= VOILE_CLOTH_ISOMETRIC;
+    record.damping_time = largest_damping_time(record);
+    if (cloth.own_inverse_mass > 0)
+    {
+        // The lightest vertex against what the material gives it.
+        const double density = fabric ? static_cast<double>(fabric->areal_density)
+                                      : static_cast<double>(std::get<Material>(cloth.material).vertex_mass);
+        const auto lighter = static_cast<float>(std::max(cloth.own_inverse_mass * density, 1e-6));
+        record.omega_squared *= lighter;
+        record.bending_omega_squared *= lighter;
+        record.decay *= lighter;
+    }
+}
+
+namespace
+{
+
+// What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex for
+// masses given outright.
+double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
+{
+    const bool fabric = std::holds_alternative<Fabric>(cloth.material);
+    if (cloth.mesh)
+        return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
+    const double share = border_share(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
+    return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
+}
+
+} // namespace
+
+double vertex_mass(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
+{
+    const auto* fabric = std::get_if<Fabric>(&cloth.material);
+    const double density = fabric ? static_cast<double>(fabric->areal_density)
+                                  : static_cast<double>(std::get<Material>(cloth.material).vertex_mass);
+    return density * mass_measure(cloth, record, vertex);
+}
+
+Result<void> validate(const ClothInput& cloth, uint64_t vertices)
+{
+    const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
+    if (!finite(cloth.transform))
+        return bad("its transform is not finite");
+    if (!finite(cloth.velocity))
+        return bad("its velocity is not finite");
+    if (auto material = std::visit([](const auto& m) { return validate(m); }, cloth.material); !material)
+        return bad(material.error().message);
+    for (const uint32_t held : cloth.held)
+        if (held >= vertices)
+            return bad("held vertex " + std::to_string(held) + " of " + std::to_string(vertices));
+    if (!cloth.inverse_masses.empty() && cloth.inverse_masses.size() != vertices)
+        return bad(std::to_string(cloth.inverse_masses.size()) + " inverse masses for " + std::to_string(vertices) +
+                   " vertices");
+    for (size_t i = 0; i < cloth.inverse_masses.size(); ++i)
+        if (!(cloth.inverse_masses[i] >= 0) || cloth.inverse_masses[i] > 1e9f)
+            return bad("inverse mass " + std::to_string(i) + " is " + std::to_string(cloth.inverse_masses[i]) +
+                       " 1/kg, must be 0 to 1e9");
+    return {};
+}
+
+void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index)
+{
+    ClothModel& kept = model.cloths[index];
+    shared::ClothRecord& record = model.records[index];
+    for (uint32_t i = 0; i < places.size(); ++i)
+    {
+        const double mass = vertex_mass(kept, record, i);
+        float inverse = mass > 0 ? static_cast<float>(1 / mass) : 0;
+        if (!cloth.inverse_masses.empty())
+        {
+            inverse = mass > 0 ? cloth.inverse_masses[i] : 0;
+            kept.own_inverse_mass =
+                std::max(kept.own_inverse_mass, static_cast<double>(inverse) * mass_measure(kept, record, i));
+        }
+        model.positions.emplace_back(places[i], inverse);
+        model.velocities.emplace_back(inverse > 0 ? cloth.velocity : glm::vec3(0), 0);
+    }
+    for (const uint32_t held : cloth.held)
+    {
+        model.positions[record.first_vertex + held].w = 0;
+        model.velocities[record.first_vertex + held] = glm::vec4(0);
+    }
+    if (kept.own_inverse_mass > 0)
+        apply_material(kept, record);
+}
+
+Chunks make_chunks(const Model& model, uint32_t workgroup_size)
+{
+    Chunks result;
+    for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
+    {
+        for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            if (model.cloths[cloth].integrator == integrator)
+                for (uint32_t first = 0; first < model.records[cloth].vertices; first += workgroup_size)
+                    result.chunks.push_back({cloth, first});
+        if (integrator == Integrator::rk4)
+            result.rk4 = static_cast<uint32_t>(result.chunks.size());
+    }
+    return result;
+}
+
+} // namespace cloth

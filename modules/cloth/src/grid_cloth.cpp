@@ -1,0 +1,76 @@
+// Grids: validation and the places of their vertices.
+#include "model.hpp"
+
+#include <cmath>
+
+namespace cloth
+{
+
+namespace
+{
+
+constexpr uint32_t k_largest_side = 8192; // 67 million vertices: beyond what the buffers of any device hold
+constexpr float k_least_size = 1e-4f;     // m
+constexpr float k_largest_size = 1e5f;    // m
+
+Result<void> validate_shape(const Grid& grid)
+{
+    if (grid.columns < 2 || grid.rows < 2 || grid.columns > k_largest_side || grid.rows > k_largest_side)
+        return invalid("cloth", grid.name,
+                       "a grid of " + std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
+                           " vertices; each side needs 2 to " + std::to_string(k_largest_side));
+    for (const float size : {grid.width, grid.depth})
+        if (!(size >= k_least_size && size <= k_largest_size))
+            return invalid("cloth", grid.name,
+                           "its size is " + std::to_string(grid.width) + " x " + std::to_string(grid.depth) +
+                               " m, must be finite and > 0: 1e-4 to 1e5 m a side");
+    return {};
+}
+
+std::vector<glm::vec3> places(const Grid& grid)
+{
+    std::vector<glm::vec3> result;
+    result.reserve(size_t{grid.columns} * grid.rows);
+    for (uint32_t row = 0; row < grid.rows; ++row)
+        for (uint32_t column = 0; column < grid.columns; ++column)
+        {
+            const float u = static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f;
+            const float v = static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f;
+            result.emplace_back(grid.transform * glm::vec4(u * grid.width, 0, v * grid.depth, 1));
+        }
+    return result;
+}
+
+} // namespace
+
+Result<ClothId> Model::add(const Grid& grid)
+{
+    if (auto valid = validate_shape(grid); !valid)
+        return valid.error();
+    const ClothInput input{grid.name, grid.transform, grid.velocity, grid.material, grid.held, grid.inverse_masses};
+    const size_t first = positions.size();
+    const size_t count = size_t{grid.columns} * grid.rows;
+    if (auto valid = validate(input, count); !valid)
+        return valid.error();
+    if (first + count > UINT32_MAX / 2)
+        return invalid("cloth", grid.name, "more than 2 147 483 647 vertices in one solver");
+
+    ClothModel cloth;
+    cloth.name = grid.name;
+    cloth.material = grid.material;
+    cloth.integrator = grid.integrator;
+    cloth.spacing = {grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)};
+    shared::ClothRecord record{};
+    record.first_vertex = static_cast<uint32_t>(first);
+    record.vertices = static_cast<uint32_t>(count);
+    record.columns = grid.columns;
+    record.rows = grid.rows;
+    apply_material(cloth, record);
+    const auto index = static_cast<uint32_t>(cloths.size());
+    cloths.push_back(std::move(cloth));
+    records.push_back(record);
+    append_state(*this, input, places(grid), index);
+    return ClothId{index};
+}
+
+} // namespace cloth

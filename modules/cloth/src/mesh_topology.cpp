@@ -1,0 +1,285 @@
+// From triangles to springs and bending stencils.
+#include "mesh_topology.hpp"
+
+#include "mesh_input.hpp"
+#include "stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace cloth
+{
+
+namespace
+{
+
+double triangle_area(std::span<const glm::vec3> x, const glm::uvec3& t)
+{
+    const glm::dvec3 a(x[t.x]);
+    return 0.5 * glm::length(glm::cross(glm::dvec3(x[t.y]) - a, glm::dvec3(x[t.z]) - a));
+}
+
+// A triangle is degenerate where float cannot tell its height from 0.
+bool degenerate(std::span<const glm::vec3> x, const glm::uvec3& t)
+{
+    const double longest =
+        std::max({glm::distance(glm::dvec3(x[t.x]), glm::dvec3(x[t.y])), glm::distance(glm::dvec3(x[t.y]), glm::dvec3(x[t.z])),
+                  glm::distance(glm::dvec3(x[t.z]), glm::dvec3(x[t.x]))});
+    return triangle_area(x, t) <= 1e-6 * longest * longest;
+}
+
+// A triangle seen from one of its edges.
+struct Side
+{
+    uint32_t a; // a < b, the edge
+    uint32_t b;
+    uint32_t opposite;
+    double area; // m^2
+
+    [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
+};
+
+// A spring between two vertices, either way round, or the isometric model's coefficient of the pair, or both.
+struct Pair
+{
+    uint32_t a;
+    uint32_t b;
+    bool opposite;
+    double weight;
+    double bending;
+};
+
+// Cotangent of the angle at `at` between the ways to p and q.
+double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
+{
+    return glm::dot(p - at, q - at) / glm::length(glm::cross(p - at, q - at));
+}
+
+// The isometric model's matrix of one hinge, the edge (0, 1) between the triangles of 2 and 3: Q = K K^T / (A0 + A1) with
+// K = (c03 + c04, c01 + c02, -c01 - c03, -c02 - c04), cotangents of the angles between the edges (Bergou et al. 2006,
+// section 3). Their factor is 3 / (A0 + A1), a third of which belongs here: where a sheet is rolled up, the whole of its
+// curvature is in a third of its hinges, those along the axis; the energy is then 1/2 B kappa^2 an area.
+void add_hinge(std::span<const glm::vec3> positions, const Side& first, const Side& second, std::vector<Pair>& pairs)
+{
+    const uint32_t corner[4] = {first.a, first.b, first.opposite, second.opposite};
+    glm::dvec3 x[4];
+    for (int i = 0; i < 4; ++i)
+        x[i] = glm::dvec3(positions[corner[i]]);
+    const double c01 = cotangent(x[0], x[1], x[2]);
+    const double c02 = cotangent(x[0], x[1], x[3]);
+    const double c03 = cotangent(x[1], x[0], x[2]);
+    const double c04 = cotangent(x[1], x[0], x[3]);
+    const double k[4] = {c03 + c04, c01 + c02, -c01 - c03, -c02 - c04};
+    const double scale = 1 / (first.area + second.area);
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            pairs.push_back({corner[i], corner[j], i == 2 && j == 3, 0, scale * k[i] * k[j]});
+    // One bend spring for three edges a vertex, where a grid has two directions: two thirds of its B / area.
+    pairs.back().weight = 2.0 / 3 * scale;
+}
+
+// The sides of the triangles that share an edge, and what the edge contributes.
+void add_edge(std::span<const glm::vec3> positions, std::span<const Side> sides, std::vector<Pair>& pairs, MeshReport& report)
+{
+    const double length = glm::distance(glm::dvec3(positions[sides[0].a]), glm::dvec3(positions[sides[0].b]));
+    double area = 0;
+    for (const Side& side : sides)
+        area += side.area;
+    pairs.push_back({sides[0].a, sides[0].b, false, area / (length * length), 0});
+    for (size_t i = 0; i < sides.size(); ++i)
+        for (size_t j = i + 1; j < sides.size(); ++j)
+            if (sides[i].opposite != sides[j].opposite) // two triangles back to back
+                add_hinge(positions, sides[i], sides[j], pairs);
+    report.boundary_edges += sides.size() == 1 ? 1 : 0;
+    report.non_manifold_edges += sides.size() > 2 ? 1 : 0;
+    report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
+}
+
+std::vector<Side> sides_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    std::vector<Side> sides;
+    sides.reserve(3 * triangles.size());
+    for (const glm::uvec3& t : triangles)
+    {
+        const double area = triangle_area(positions, t);
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            const uint32_t a = t[corner];
+            const uint32_t b = t[(corner + 1) % 3];
+            sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], area});
+        }
+    }
+    std::stable_sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.key() < r.key(); });
+    return sides;
+}
+
+// Every pair of vertices once, its weights and coefficients summed up.
+std::vector<Pair> merged(std::vector<Pair> pairs)
+{
+    for (Pair& pair : pairs)
+        if (pair.a > pair.b)
+            std::swap(pair.a, pair.b);
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& l, const Pair& r)
+                     { return l.a != r.a ? l.a < r.a : l.b != r.b ? l.b < r.b : l.opposite < r.opposite; });
+    std::vector<Pair> result;
+    for (const Pair& pair : pairs)
+    {
+        // An edge and an opposite pair of the same vertices stay apart: their springs are of different classes.
+        if (!result.empty() && result.back().a == pair.a && result.back().b == pair.b &&
+            result.back().opposite == pair.opposite)
+        {
+            result.back().weight += pair.weight;
+            result.back().bending += pair.bending;
+        }
+        else
+            result.push_back(pair);
+    }
+    return result;
+}
+
+uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
+{
+    std::vector<uint32_t> parent(vertices);
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](uint32_t i)
+    {
+        while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::vector<bool> used(vertices);
+    for (const glm::uvec3& t : triangles)
+    {
+        parent[root(t.y)] = root(t.x);
+        parent[root(t.z)] = root(t.x);
+        used[t.x] = used[t.y] = used[t.z] = true;
+    }
+    uint32_t components = 0;
+    for (uint32_t i = 0; i < vertices; ++i)
+        components += used[i] && root(i) == i ? 1 : 0;
+    return components;
+}
+
+void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                std::span<const Pair> pairs)
+{
+    for (const Pair& pair : pairs)
+    {
+        ++mesh.vertices[pair.a].springs;
+        ++mesh.vertices[pair.b].springs;
+    }
+    for (const glm::uvec3& t : triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            ++mesh.vertices[t[corner]].corners;
+    uint32_t springs = 0;
+    uint32_t corners = 0;
+    for (shared::MeshVertex& vertex : mesh.vertices)
+    {
+        vertex.first_spring = std::exchange(springs, springs + vertex.springs);
+        vertex.first_corner = std::exchange(corners, corners + vertex.corners);
+        vertex.springs = vertex.corners = 0; // counted again while filling
+    }
+    mesh.springs.resize(springs);
+    mesh.corners.resize(corners);
+    const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
+    {
+        shared::MeshVertex& v = mesh.vertices[vertex];
+        mesh.springs[v.first_spring + v.springs++] = {other | (pair.opposite ? VOILE_OPPOSITE_BIT : 0),
+                                                      glm::distance(positions[pair.a], positions[pair.b]),
+                                                      static_cast<float>(pair.weight), static_cast<float>(pair.bending)};
+    };
+    for (const Pair& pair : pairs) // sorted by a, then b: a vertex meets its smaller neighbours first
+        put(pair.b, pair.a, pair);
+    for (const Pair& pair : pairs)
+        put(pair.a, pair.b, pair);
+    for (const glm::uvec3& t : triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            shared::MeshVertex& v = mesh.vertices[t[corner]];
+            mesh.corners[v.first_corner + v.corners++] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+        }
+}
+
+// The blocks of a vertex's springs at rest, sum of weight * d d^T, and the row sum of its bending.
+void find_bounds(MeshTopology& mesh, std::span<const glm::vec3> positions)
+{
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    {
+        const shared::MeshVertex& vertex = mesh.vertices[i];
+        if (mesh.areas[i] <= 0)
+            continue;
+        glm::dmat3 weighted[2] = {glm::dmat3(0.0), glm::dmat3(0.0)};
+        glm::dmat3 alike[2] = {glm::dmat3(0.0), glm::dmat3(0.0)};
+        double bending = 0;
+        for (uint32_t s = 0; s < vertex.springs; ++s)
+        {
+            const shared::MeshSpring& spring = mesh.springs[vertex.first_spring + s];
+            const int kind = (spring.neighbour & VOILE_OPPOSITE_BIT) != 0 ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE;
+            const glm::dvec3 delta =
+                glm::dvec3(positions[spring.neighbour & ~VOILE_OPPOSITE_BIT]) - glm::dvec3(positions[i]);
+            const glm::dmat3 block = glm::outerProduct(delta, delta) / std::max(glm::dot(delta, delta), 1e-30);
+            weighted[kind] += static_cast<double>(spring.weight) * block;
+            alike[kind] += block;
+            bending += std::abs(static_cast<double>(spring.bending));
+        }
+        const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
+        raise(mesh.fabric.edge, 2 * largest_eigenvalue(weighted[0]) / mesh.areas[i]);
+        raise(mesh.fabric.opposite, 2 * largest_eigenvalue(weighted[1]) / mesh.areas[i]);
+        raise(mesh.fabric.bending, 2 * bending / mesh.areas[i]);
+        raise(mesh.alike.edge, 2 * largest_eigenvalue(alike[0]));
+        raise(mesh.alike.opposite, 2 * largest_eigenvalue(alike[1]));
+        raise(mesh.alike.bending, 2 * bending);
+    }
+}
+
+} // namespace
+
+MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    std::vector<glm::uvec3> solid;
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
+                 [&](const glm::uvec3& t) { return !degenerate(positions, t); });
+    MeshTopology mesh;
+    mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
+    mesh.report.components = count_components(positions.size(), solid);
+    mesh.report.shortest_edge = std::numeric_limits<float>::max();
+    mesh.vertices.resize(positions.size());
+    mesh.areas.resize(positions.size());
+    for (const glm::uvec3& t : solid)
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.areas[t[corner]] += triangle_area(positions, t) / 3;
+    for (const double area : mesh.areas)
+    {
+        mesh.report.isolated_vertices += area > 0 ? 0 : 1;
+        mesh.mean_area += area;
+    }
+    mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
+    const std::vector<uint32_t> places = weld(positions);
+    for (uint32_t i = 0; i < places.size(); ++i)
+        mesh.report.coincident_vertices += places[i] != i && mesh.areas[i] > 0 ? 1 : 0;
+
+    const std::vector<Side> sides = sides_of(positions, solid);
+    std::vector<Pair> pairs;
+    size_t edges = 0;
+    for (size_t first = 0; first < sides.size();)
+    {
+        size_t last = first + 1;
+        while (last < sides.size() && sides[last].key() == sides[first].key())
+            ++last;
+        add_edge(positions, std::span(sides).subspan(first, last - first), pairs, mesh.report);
+        ++edges;
+        first = last;
+    }
+    pairs = merged(std::move(pairs));
+    for (const Pair& pair : pairs)
+        mesh.mean_weight += pair.opposite ? 0 : pair.weight / static_cast<double>(edges);
+    fill_lists(mesh, positions, solid, pairs);
+    find_bounds(mesh, positions);
+    return mesh;
+}
+
+} // namespace cloth

@@ -1,0 +1,40 @@
+// The springs, bending stencils and vertex areas of a triangle mesh: what makes it a cloth, before any material.
+#pragma once
+
+#include "cloth/descriptions.hpp"
+
+#include "cloth_layout.h"
+
+#include <span>
+#include <vector>
+
+namespace cloth
+{
+
+// Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbours, and corners
+// likewise, in the order of the triangles.
+struct MeshTopology
+{
+    std::vector<shared::MeshVertex> vertices;
+    std::vector<shared::MeshSpring> springs; // each spring twice, once for either end
+    std::vector<shared::MeshCorner> corners;
+    std::vector<double> areas; // m^2, a third of the triangles around each vertex; 0 for isolated ones
+    MeshReport report;
+
+    // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike.
+    struct Bounds
+    {
+        double edge = 0;     // fabric: 1/m^2 (times E / rho = omega^2); alike: 1 (times k / m)
+        double opposite = 0; // fabric: 1/m^4 (times B / rho); alike: 1
+        double bending = 0;  // of the isometric model: 1/m^4 (times B / rho); alike: 1/m^2 (times B / m)
+    };
+    Bounds fabric;
+    Bounds alike;
+    double mean_area = 0;   // m^2, of the vertices that have any
+    double mean_weight = 0; // of the edges
+};
+
+// `positions`: the shape at rest. Indices must be within it.
+MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+
+} // namespace cloth

@@ -1,0 +1,75 @@
+// Stability bounds, and the substeps that follow from them.
+#include "stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cloth
+{
+
+namespace
+{
+
+// As in stability.glsl.
+constexpr double k_rk4_reach = 2.6;
+constexpr double k_margin = 0.9;
+constexpr uint32_t k_most_substeps = 1'000'000;
+
+bool uses_verlet(const shared::ClothRecord& record)
+{
+    return (record.flags & VOILE_CLOTH_VERLET) != 0;
+}
+
+} // namespace
+
+StableShares stable_shares(const shared::ClothRecord& record, double substep)
+{
+    const auto omega_squared = static_cast<double>(record.omega_squared);
+    const auto decay = static_cast<double>(record.decay);
+    if (uses_verlet(record))
+    {
+        const double load = 0.25 * omega_squared * substep * substep + 0.5 * decay * substep;
+        const double share = std::min(1.0, k_margin * k_margin / std::max(load, 1e-30));
+        return {share, share};
+    }
+    const double reach = k_margin * k_rk4_reach / substep;
+    return {std::min(1.0, reach * reach / std::max(omega_squared, 1e-30)), std::min(1.0, reach / std::max(decay, 1e-30))};
+}
+
+uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
+{
+    const double omega = std::sqrt(static_cast<double>(record.omega_squared));
+    const auto decay = static_cast<double>(record.decay);
+    double longest = 0; // substep, s, times (omega or decay)
+    double fastest = 0; // 1/s
+    if (uses_verlet(record))
+    {
+        // (omega h / 2)^2 + decay h / 2 = margin^2, solved for 1 / h.
+        const double half = 0.25 * decay;
+        longest = k_margin * k_margin;
+        fastest = half + std::sqrt(half * half + 0.25 * omega * omega * longest);
+    }
+    else
+    {
+        longest = k_margin * k_rk4_reach;
+        fastest = std::max(omega, decay);
+    }
+    const double substeps = std::ceil(duration * fastest / longest * (1 - 1e-6)); // a whole number stays one in float
+    return static_cast<uint32_t>(std::clamp(substeps, 1.0, static_cast<double>(k_most_substeps)));
+}
+
+double largest_eigenvalue(const glm::dmat3& m)
+{
+    const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3;
+    const glm::dmat3 deviation = m - mean * glm::dmat3(1.0);
+    double squares = 0;
+    for (int column = 0; column < 3; ++column)
+        squares += glm::dot(deviation[column], deviation[column]);
+    const double p = std::sqrt(squares / 6);
+    if (p <= 1e-12 * mean)
+        return mean;
+    const double half_determinant = std::clamp(0.5 * glm::determinant(deviation) / (p * p * p), -1.0, 1.0);
+    return mean + 2 * p * std::cos(std::acos(half_determinant) / 3);
+}
+
+} // namespace cloth

@@ -1,0 +1,227 @@
+// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbours (no atomics, so the sum's
+// order never changes).
+//
+// The including kernel declares cloths[], stage_positions[], stage_velocities[], mesh_vertices[], mesh_springs[],
+// mesh_corners[] and `push` (StagePush), and the constant MEASURE: whether the stiffness of the springs in their present
+// directions is summed up too, for the share of the acceleration that a step bears (stability.glsl).
+#ifndef VOILE_FORCES_GLSL
+#define VOILE_FORCES_GLSL
+
+#include "grid.glsl"
+#include "mesh.glsl"
+#include "stability.glsl"
+#include "wind.glsl"
+
+struct Gather
+{
+    vec3 x;       // of the vertex, m
+    vec3 v;       // m/s
+    vec3 force;   // N, of the springs
+    vec3 bending; // N, of the isometric model, before the share that a step bears
+    vec3 wind; // m/s, at x
+    vec3 air;  // N
+    StiffnessSum stiffness;
+};
+
+void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
+{
+    const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
+    const float inverse_length = inversesqrt(length_squared);
+    const vec3 direction = delta * inverse_length;
+    const float stretch = length_squared * inverse_length - rest_length;
+    g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
+    if (MEASURE)
+        add_stiffness(g.stiffness, stiffness, direction, rest_length * inverse_length);
+}
+
+// Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
+// A C |u| u along the normal and across it. Its parts along and across the wind are the drag and the lift.
+void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
+{
+    const vec3 across = cross(to_b, to_c); // twice the area, along the normal
+    const float across_length = length(across);
+    if (across_length < 1e-20)
+        return;
+    const vec3 n = across / across_length;
+    const vec3 u = g.wind - g.v;
+    const float u_n = dot(u, n);
+    const vec3 u_t = u - u_n * n;
+    g.air += 0.25 * push.air_density * share * across_length *
+             (cloths[cloth].drag_normal * abs(u_n) * u_n * n + cloths[cloth].drag_tangential * length(u_t) * u_t);
+}
+
+bool feels_air(uint cloth) { return cloths[cloth].drag_normal + cloths[cloth].drag_tangential > 0; }
+bool bends_isometrically(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_ISOMETRIC) != 0; }
+
+// A neighbour on a grid: its place from the vertex, and the same as bending sees it; zero where there is none.
+struct Neighbour
+{
+    bool exists;
+    vec3 delta;   // m
+    vec3 bending; // m, delta + bending_time * relative velocity
+};
+
+// Reads the neighbour and adds the spring to it, if the class has any.
+Neighbour grid_neighbour(inout Gather g, uint cloth, GridVertex self, ivec2 offset, SpringClass spring)
+{
+    Neighbour n;
+    n.exists = in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows);
+    n.delta = vec3(0);
+    n.bending = vec3(0);
+    if (!n.exists)
+        return n;
+    const uint other = neighbour(self, offset, cloths[cloth].columns);
+    n.delta = stage_positions[other].xyz - g.x;
+    const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
+    n.bending = n.delta + cloths[cloth].bending_time * relative_velocity;
+    if (spring.stiffness + spring.damping > 0)
+        add_spring(g, spring.stiffness, spring.damping, spring.rest_length, n.delta, relative_velocity);
+    return n;
+}
+
+SpringClass scaled(SpringClass spring, float stiffness, float damping)
+{
+    spring.stiffness *= stiffness;
+    spring.damping *= damping;
+    return spring;
+}
+
+// One line of the grid through the vertex: its structural and bend springs, and bending by the isometric model, from the
+// energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of the line: minus its gradient over c.
+void gather_line(inout Gather g, uint cloth, GridVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
+                 out Neighbour ahead, out Neighbour behind)
+{
+    ahead = grid_neighbour(g, cloth, self, along, spring);
+    behind = grid_neighbour(g, cloth, self, -along, spring);
+    if (c == 0 && bend.stiffness + bend.damping == 0)
+        return;
+    const Neighbour far_ahead = grid_neighbour(g, cloth, self, 2 * along, bend);
+    const Neighbour far_behind = grid_neighbour(g, cloth, self, -2 * along, bend);
+    if (far_ahead.exists)
+        g.bending -= c * (far_ahead.bending - 2 * ahead.bending);
+    if (far_behind.exists)
+        g.bending -= c * (far_behind.bending - 2 * behind.bending);
+    if (ahead.exists && behind.exists)
+        g.bending += 2 * c * (ahead.bending + behind.bending);
+}
+
+// One cell at the vertex: its shear spring and the cell's twist, x_diagonal - x_along_row - x_along_column + x.
+void gather_cell(inout Gather g, uint cloth, GridVertex self, ivec2 offset, SpringClass shear, Neighbour along_row,
+                 Neighbour along_column)
+{
+    const float c = cloths[cloth].bending.z;
+    if (c == 0 && shear.stiffness + shear.damping == 0)
+        return;
+    const Neighbour diagonal = grid_neighbour(g, cloth, self, offset, shear);
+    if (diagonal.exists)
+        g.bending -= c * (diagonal.bending - along_row.bending - along_column.bending);
+}
+
+// Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
+// bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
+// the sum of the squared second differences along rows and columns and of twice the squared twist of the cells.
+void gather_grid(inout Gather g, uint cloth, GridVertex self, Shares shares)
+{
+    const float share = cloths[cloth].border_share;
+    const float row_share = self.row == 0 || self.row + 1 == int(cloths[cloth].rows) ? share : 1;
+    const float column_share = self.column == 0 || self.column + 1 == int(cloths[cloth].columns) ? share : 1;
+    SpringClass springs[VOILE_SPRING_CLASSES];
+    for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
+    {
+        const float border = c % 4 == 0 ? row_share : c % 4 == 1 ? column_share : 1;
+        springs[c] = scaled(cloths[cloth].springs[c], border * shares.stiffness, border * shares.damping);
+    }
+    Neighbour east, west, south, north; // +column, -column, +row, -row
+    gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], row_share * cloths[cloth].bending.x, east, west);
+    gather_line(g, cloth, self, ivec2(0, 1), springs[1], springs[5], column_share * cloths[cloth].bending.y, south, north);
+    gather_cell(g, cloth, self, ivec2(1, 1), springs[2], east, south);
+    gather_cell(g, cloth, self, ivec2(-1, -1), springs[2], west, north);
+    gather_cell(g, cloth, self, ivec2(1, -1), springs[3], east, north);
+    gather_cell(g, cloth, self, ivec2(-1, 1), springs[3], west, south);
+    if (springs[6].stiffness + springs[6].damping > 0)
+    {
+        grid_neighbour(g, cloth, self, ivec2(2, 2), springs[6]);
+        grid_neighbour(g, cloth, self, ivec2(-2, -2), springs[6]);
+        grid_neighbour(g, cloth, self, ivec2(2, -2), springs[7]);
+        grid_neighbour(g, cloth, self, ivec2(-2, 2), springs[7]);
+    }
+    if (feels_air(cloth))
+    {
+        // Of each cell around it the vertex has a quarter: half of the triangle that two sides span.
+        add_air(g, cloth, east.delta, north.delta, 0.5);
+        add_air(g, cloth, north.delta, west.delta, 0.5);
+        add_air(g, cloth, west.delta, south.delta, 0.5);
+        add_air(g, cloth, south.delta, east.delta, 0.5);
+    }
+}
+
+// A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it.
+void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
+{
+    const uint first_vertex = cloths[cloth].first_vertex;
+    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
+        const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
+        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
+        const float weight = alike ? 1 : entry.weight;
+        const vec3 delta = stage_positions[other].xyz - g.x;
+        const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
+        add_spring(g, shares.stiffness * weight * spring.stiffness, shares.damping * weight * spring.damping,
+                   entry.rest_length, delta, relative_velocity);
+        g.bending -= entry.bending * (delta + cloths[cloth].bending_time * relative_velocity);
+    }
+    g.bending *= cloths[cloth].bending.x;
+    if (feels_air(cloth))
+    {
+        for (uint c = 0; c < vertex.corners; ++c)
+        {
+            const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
+            add_air(g, cloth, stage_positions[first_vertex + corner.b].xyz - g.x,
+                    stage_positions[first_vertex + corner.c].xyz - g.x, 1.0 / 3);
+        }
+    }
+}
+
+// Air must not turn the motion round within a step, however light the vertex and however strong the wind: what it takes
+// from the velocity relative to it is kept below the whole.
+vec3 bounded_air(vec3 air, float inverse_mass, vec3 relative_velocity)
+{
+    const float rate = inverse_mass * length(air) / max(length(relative_velocity), 1e-20); // 1/s
+    return air * min(1, 1 / max(rate * push.step, 1e-30));
+}
+
+// The acceleration of a vertex, m/s^2. `share`: what the step bears of the inner forces' part; found where MEASURE is set,
+// else given.
+vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, inout float share)
+{
+    Gather g;
+    g.x = x;
+    g.v = v;
+    g.force = g.bending = g.air = vec3(0);
+    g.wind = wind_at(x);
+    g.stiffness.diagonal = g.stiffness.mixed = vec3(0);
+    const Shares shares =
+        stable_shares(cloths[cloth].flags, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    if (cloths[cloth].columns > 0)
+        gather_grid(g, cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local), shares);
+    else
+        gather_mesh(g, cloth, local, shares);
+    if (MEASURE)
+    {
+        // The largest eigenvalue of M^-1 K is at most twice that of a vertex's own block: u^T K u = sum k (d . (u_i -
+        // u_j))^2 <= sum 2 k ((d . u_i)^2 + (d . u_j)^2).
+        const float springs = 2 * inverse_mass * largest_eigenvalue(g.stiffness);
+        const float bending = shares.stiffness * cloths[cloth].bending_omega_squared;
+        const float decay = shares.damping / shares.stiffness * cloths[cloth].damping_time * springs;
+        share = stable_acceleration(cloths[cloth].flags, springs + bending, decay, push.step);
+    }
+    const vec3 drag = shares.damping * cloths[cloth].linear_drag * (g.wind - v);
+    const vec3 air = bounded_air(g.air, inverse_mass, g.wind - v);
+    return push.gravity + inverse_mass * (share * (g.force + shares.stiffness * g.bending) + drag + air);
+}
+
+#endif

@@ -1,0 +1,81 @@
+// What keeps an explicit step stable: the shares of stiffness and damping that a step of a given length bears.
+//
+// The same formulas stand in modules/cloth/src/stability.cpp, which derives the substeps from them.
+#ifndef VOILE_STABILITY_GLSL
+#define VOILE_STABILITY_GLSL
+
+// RK4's stability region reaches 2.83 along the imaginary axis, 2.78 along the negative real one, and in the left half
+// plane comes nowhere nearer to the origin than 2.6.
+const float k_rk4_reach = 2.6;
+// At rest, a step uses at most this share of the reach: springs turn and stretch, and are then stiffer along one axis.
+const float k_stability_margin = 0.9;
+
+// How much of the step's reach a mode of frequency^2 `omega_squared` (1/s^2) and decay rate `decay` (1/s) takes up; a
+// step is stable up to 1. Velocity Verlet whose damping force sees the velocity half a step before: (omega h / 2)^2 +
+// decay h / 2 <= 1, from its characteristic polynomial.
+float verlet_load(float omega_squared, float decay, float h)
+{
+    return 0.25 * omega_squared * h * h + 0.5 * decay * h;
+}
+
+struct Shares
+{
+    float stiffness; // 0..1
+    float damping;   // 0..1
+};
+
+// The shares of a cloth's stiffness and damping that a step of h seconds bears at rest.
+Shares stable_shares(uint flags, float omega_squared, float decay, float h)
+{
+    if ((flags & VOILE_CLOTH_VERLET) != 0)
+    {
+        const float load = verlet_load(omega_squared, decay, h);
+        const float share = min(1, k_stability_margin * k_stability_margin / max(load, 1e-30));
+        return Shares(share, share);
+    }
+    const float reach = k_stability_margin * k_rk4_reach / h;
+    return Shares(min(1, reach * reach / max(omega_squared, 1e-30)), min(1, reach / max(decay, 1e-30)));
+}
+
+// The share of its acceleration by inner forces that a vertex keeps, given what its springs amount to in their present
+// directions. Below 1 only where cloth is crumpled or torn so far that it is stiffer than the margin foresees: the vertex
+// then is as if it were heavier.
+float stable_acceleration(uint flags, float omega_squared, float decay, float h)
+{
+    if ((flags & VOILE_CLOTH_VERLET) != 0)
+        return min(1, 1 / max(verlet_load(omega_squared, decay, h), 1e-30));
+    const float reach = k_rk4_reach / h;
+    return min(1, min(reach * reach / max(omega_squared, 1e-30), reach / max(decay, 1e-30)));
+}
+
+// Sum of stiffness * (d d^T) over the springs of a vertex: a symmetric matrix, N/m.
+struct StiffnessSum
+{
+    vec3 diagonal; // xx yy zz
+    vec3 mixed;    // xy xz yz
+};
+
+// Adds a spring of length l > L along the unit vector d: k (L/l d d^T + (1 - L/l) I), what it resists displacement with;
+// a shorter one, which buckles, k d d^T.
+void add_stiffness(inout StiffnessSum sum, float stiffness, vec3 d, float rest_over_length)
+{
+    const float along = stiffness * min(rest_over_length, 1);
+    sum.diagonal += along * d * d + (stiffness - along);
+    sum.mixed += along * vec3(d.x * d.y, d.x * d.z, d.y * d.z);
+}
+
+// The largest eigenvalue of the matrix (Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix").
+float largest_eigenvalue(StiffnessSum m)
+{
+    const float mean = (m.diagonal.x + m.diagonal.y + m.diagonal.z) / 3;
+    const vec3 d = m.diagonal - mean;
+    const float p = sqrt((dot(d, d) + 2 * dot(m.mixed, m.mixed)) / 6);
+    if (p <= 1e-6 * mean)
+        return mean;
+    const float determinant = d.x * (d.y * d.z - m.mixed.z * m.mixed.z) - m.mixed.x * (m.mixed.x * d.z - m.mixed.z * m.mixed.y) +
+                              m.mixed.y * (m.mixed.x * m.mixed.z - d.y * m.mixed.y);
+    const float angle = acos(clamp(0.5 * determinant / (p * p * p), -1, 1)) / 3;
+    return mean + 2 * p * cos(angle);
+}
+
+#endif

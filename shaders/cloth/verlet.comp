@@ -1,0 +1,50 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One step of velocity Verlet (Swope et al. 1982) for the cloths that use it: kick and drift in one dispatch.
+//
+// The half kicks at the end of one substep and at the beginning of the next are one: a step of n substeps is n + 1
+// dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
+// after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction,
+// v + a h/2, for the next, which keeps the second order.
+// A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions, predicted and own velocities. Writes: next
+// positions, velocities, predicted velocities.
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // w: inverse mass, 1/kg
+layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; }; // predicted
+layout(set = 0, binding = 4, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer NextPredicted { vec4 next_predicted[]; };
+layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+
+layout(push_constant, std430) uniform Push { StagePush push; };
+
+const bool MEASURE = true;
+#include "forces.glsl"
+
+void main()
+{
+    const Chunk chunk = chunks[push.first_chunk + gl_WorkGroupID.x];
+    const uint cloth = chunk.cloth;
+    const uint local = chunk.first + gl_LocalInvocationID.x;
+    if (local >= cloths[cloth].vertices)
+        return;
+    const uint i = cloths[cloth].first_vertex + local;
+    const vec4 x = stage_positions[i];
+    float share = 1;
+    const vec3 a = x.w > 0 ? acceleration(cloth, local, x.xyz, x.w, stage_velocities[i].xyz, share) : vec3(0);
+    const vec4 before = velocities[i];
+    const vec3 v = before.xyz + push.kick * a;
+    // The kick that ends a step moves nothing: what the vertex touches, it still touches.
+    const uint touches = push.drift == 0 ? uint(before.w) & VOILE_VERTEX_TOUCHES : 0;
+    next_positions[i] = vec4(x.xyz + push.drift * v, x.w);
+    next_velocities[i] = vec4(v, touches + (share < 1 ? VOILE_VERTEX_LIMITED : 0));
+    next_predicted[i] = vec4(v + 0.5 * push.step * a, 0);
+}

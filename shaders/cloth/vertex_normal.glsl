@@ -1,0 +1,53 @@
+// The normal of a vertex, from the buffer that the including kernel names VOILE_NORMAL_POSITIONS. The kernel declares
+// cloths[], mesh_vertices[] and mesh_corners[] too.
+#ifndef VOILE_VERTEX_NORMAL_GLSL
+#define VOILE_VERTEX_NORMAL_GLSL
+
+#include "grid.glsl"
+#include "mesh.glsl"
+
+vec3 neighbour_delta(GridVertex self, ivec2 offset, uint columns, uint rows)
+{
+    if (!in_grid(ivec2(self.column, self.row) + offset, columns, rows))
+        return vec3(0);
+    return VOILE_NORMAL_POSITIONS[neighbour(self, offset, columns)].xyz - VOILE_NORMAL_POSITIONS[self.index].xyz;
+}
+
+// The sum of the cross products of consecutive neighbours around the vertex, E x N + N x W + W x S + S x E, is the one
+// product (E - W) x (N - S): the area-weighted normal of the four quadrants. Up for a flat grid seen from above.
+vec3 grid_across(GridVertex self, uint columns, uint rows)
+{
+    const vec3 along_row = neighbour_delta(self, ivec2(1, 0), columns, rows) -
+                           neighbour_delta(self, ivec2(-1, 0), columns, rows);
+    const vec3 along_column = neighbour_delta(self, ivec2(0, 1), columns, rows) -
+                              neighbour_delta(self, ivec2(0, -1), columns, rows);
+    return cross(along_column, along_row);
+}
+
+// The area-weighted normal of the triangles around the vertex.
+vec3 mesh_across(uint cloth, uint local)
+{
+    const uint first_vertex = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    const vec3 x = VOILE_NORMAL_POSITIONS[first_vertex + local].xyz;
+    vec3 across = vec3(0);
+    for (uint c = 0; c < vertex.corners; ++c)
+    {
+        const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
+        across += cross(VOILE_NORMAL_POSITIONS[first_vertex + corner.b].xyz - x,
+                        VOILE_NORMAL_POSITIONS[first_vertex + corner.c].xyz - x);
+    }
+    return across;
+}
+
+vec3 vertex_normal(uint cloth, uint local)
+{
+    const uint first = cloths[cloth].first_vertex;
+    const uint columns = cloths[cloth].columns;
+    const vec3 n = columns > 0 ? grid_across(grid_vertex(first, columns, local), columns, cloths[cloth].rows)
+                               : mesh_across(cloth, local);
+    const float length_squared = dot(n, n);
+    return length_squared > 1e-30 ? n * inversesqrt(length_squared) : vec3(0, 1, 0);
+}
+
+#endif
