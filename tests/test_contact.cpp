@@ -97,8 +97,8 @@ Comparison compare(ClothHarness& harness, const cloth::Grid& grid, float h, cons
             ++result.contacts;
             reference::respond(*contact, static_cast<double>(k_thickness),
                                static_cast<double>(tests::raw(grid).static_friction),
-                               static_cast<double>(tests::raw(grid).kinetic_friction), static_cast<double>(h), before.x[i],
-                               expected_x, expected_v);
+                               static_cast<double>(tests::raw(grid).kinetic_friction), static_cast<double>(h),
+                               before.x[i], expected_x, expected_v);
         }
         CHECK((v[i].w > 0) == contact.has_value());
         result.position_error = std::max(result.position_error, glm::distance(glm::dvec3(x[i]), expected_x));

@@ -15,7 +15,7 @@
 #define VOILE_CLOTH_VERLET 1u       // velocity Verlet; else RK4
 #define VOILE_CLOTH_ISOMETRIC 2u    // bends by the isometric model; its bend springs are slack
 #define VOILE_CLOTH_ALIKE 4u        // a mesh whose springs all have the class's constants, whatever their weight
-// Set in MeshSpring.neighbour: the spring crosses an edge, between the vertices opposite to it.
+// Set in MeshSpring.neighbour: no edge joins the two; a spring between them crosses one.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
 #define VOILE_COLLIDER_PLANE 0
@@ -65,10 +65,10 @@ struct ClothRecord
     float omega_squared;   // 1/s^2, of the fastest mode at rest, bending included
     float bending_omega_squared; // 1/s^2, what isometric bending has of it
     float decay;           // 1/s, of the fastest decay
-    float damping_time;    // s, the largest damping / stiffness of a spring
     float strain_limit;    // largest l / L - 1; 0: none
     float padding_0;
     float padding_1;
+    float padding_2;
     vec3 bending;          // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
     float bending_time;    // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
@@ -89,7 +89,7 @@ struct MeshSpring
 {
     uint neighbour;    // counted within the cloth; VOILE_OPPOSITE_BIT
     float rest_length; // m
-    float weight;      // times the class's stiffness and damping. Edge: none; opposite: 1/m^2
+    float weight;      // times the class's stiffness and damping. Edge: none; opposite: 1/m^2. 0: no spring
     float bending;     // of the isometric model, 1/m^2: force = -B * bending * (x_neighbour - x)
 };
 

@@ -167,11 +167,13 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
-        const float weight = alike ? 1 : entry.weight;
+        const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
         const vec3 delta = stage_positions[other].xyz - g.x;
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-        add_spring(g, shares.stiffness * weight * spring.stiffness, shares.damping * weight * spring.damping,
-                   entry.rest_length, delta, relative_velocity);
+        const float stiffness = shares.stiffness * weight * spring.stiffness;
+        const float damping = shares.damping * weight * spring.damping;
+        if (stiffness + damping > 0)
+            add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
         g.bending -= entry.bending * (delta + cloths[cloth].bending_time * relative_velocity);
     }
     g.bending *= cloths[cloth].bending.x;
@@ -186,12 +188,12 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
     }
 }
 
-// Air must not turn the motion round within a step, however light the vertex and however strong the wind: what it takes
-// from the velocity relative to it is kept below the whole.
+// Air must not turn the motion round within a step, however light the vertex and however strong the wind: it takes at most
+// a fifth of the velocity relative to it.
 vec3 bounded_air(vec3 air, float inverse_mass, vec3 relative_velocity)
 {
     const float rate = inverse_mass * length(air) / max(length(relative_velocity), 1e-20); // 1/s
-    return air * min(1, 1 / max(rate * push.step, 1e-30));
+    return air * min(1, 0.2 / max(rate * push.step, 1e-30));
 }
 
 // The acceleration of a vertex, m/s^2. `share`: what the step bears of the inner forces' part; found where MEASURE is set,
@@ -216,7 +218,9 @@ vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, in
         // u_j))^2 <= sum 2 k ((d . u_i)^2 + (d . u_j)^2).
         const float springs = 2 * inverse_mass * largest_eigenvalue(g.stiffness);
         const float bending = shares.stiffness * cloths[cloth].bending_omega_squared;
-        const float decay = shares.damping / shares.stiffness * cloths[cloth].damping_time * springs;
+        // Damping is along the same directions: it grows as stiffness does.
+        const float growth = (springs + bending) / max(shares.stiffness * cloths[cloth].omega_squared, 1e-30);
+        const float decay = shares.damping * cloths[cloth].decay * growth;
         share = stable_acceleration(cloths[cloth].flags, springs + bending, decay, push.step);
     }
     const vec3 drag = shares.damping * cloths[cloth].linear_drag * (g.wind - v);

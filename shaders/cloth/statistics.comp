@@ -6,8 +6,6 @@
 // under the surface of a collider. Reads: cloths, chunks, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
-#include "grid.glsl"
-#include "mesh.glsl"
 
 layout(local_size_x_id = 0) in;
 
@@ -25,6 +23,8 @@ layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring me
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "contact_query.glsl"
+#include "grid.glsl"
+#include "mesh.glsl"
 #include "statistics_merge.glsl"
 
 bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }

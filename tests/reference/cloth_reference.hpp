@@ -196,8 +196,8 @@ private:
                 const glm::dvec3 u = environment.wind - s.v[i];
                 const double u_n = glm::dot(u, n);
                 const glm::dvec3 u_t = u - u_n * n;
-                force +=
-                    0.5 * environment.air_density * area * (c_n * std::abs(u_n) * u_n * n + c_t * glm::length(u_t) * u_t);
+                force += 0.5 * environment.air_density * area *
+                         (c_n * std::abs(u_n) * u_n * n + c_t * glm::length(u_t) * u_t);
             }
         return force;
     }

@@ -12,10 +12,16 @@ namespace cloth
 namespace
 {
 
-// A grid's springs, as two rows and columns from either end and the middle see them: any other vertex is like one of these.
+// A grid's springs, as two rows and columns from either end and the middle see them: any other vertex is like one of
+// these.
 std::vector<int> representatives(uint32_t count)
 {
-    std::vector<int> result{0, 1, 2, static_cast<int>(count) / 2, static_cast<int>(count) - 3, static_cast<int>(count) - 2,
+    std::vector<int> result{0,
+                            1,
+                            2,
+                            static_cast<int>(count) / 2,
+                            static_cast<int>(count) - 3,
+                            static_cast<int>(count) - 2,
                             static_cast<int>(count) - 1};
     std::erase_if(result, [&](int i) { return i < 0 || i >= static_cast<int>(count); });
     return result;
@@ -26,7 +32,8 @@ struct GridOffset
     int column;
     int row;
 };
-constexpr GridOffset k_offsets[VOILE_SPRING_CLASSES] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 2}, {2, -2}};
+constexpr GridOffset k_offsets[VOILE_SPRING_CLASSES] = {{1, 0}, {0, 1}, {1, 1}, {1, -1},
+                                                        {2, 0}, {0, 2}, {2, 2}, {2, -2}};
 
 struct Rates
 {
@@ -87,8 +94,9 @@ shared::SpringClass spring_class(const Spring& spring, double rest_length)
     return {spring.stiffness, spring.damping, static_cast<float>(rest_length), 0};
 }
 
-// The coefficients of the isometric model on a grid: B b / a^3 for second differences along a row, B a / b^3 along a column,
-// 2 B / (a b) for the twist of a cell. Its fastest mode alternates along rows and columns: 16, 16 and 16 times these.
+// The coefficients of the isometric model on a grid: B b / a^3 for second differences along a row, B a / b^3 along a
+// column, 2 B / (a b) for the twist of a cell. Its fastest mode alternates along rows and columns: 16, 16 and 16 times
+// these.
 glm::vec3 grid_bending(double stiffness, const glm::vec2& spacing)
 {
     const auto a = static_cast<double>(spacing.x);
@@ -145,12 +153,13 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
     const double bend = isometric ? 0 : bending;
     record.springs[VOILE_CLASS_OPPOSITE] = {static_cast<float>(bend), static_cast<float>(bend * time), 0, 0};
     record.bending = glm::vec3(isometric ? f.bending_stiffness : 0, 0, 0);
-    const double bending_time = bending_omega_squared > 0 ? 2 * static_cast<double>(f.damping_ratio) / std::sqrt(bending_omega_squared) : 0;
+    const double bending_time =
+        bending_omega_squared > 0 ? 2 * static_cast<double>(f.damping_ratio) / std::sqrt(bending_omega_squared) : 0;
     record.bending_time = static_cast<float>(bending_time);
     record.bending_omega_squared = static_cast<float>(bending_omega_squared);
     record.omega_squared = static_cast<float>(edge_omega_squared + opposite_omega_squared + bending_omega_squared);
-    record.decay = static_cast<float>(time * (edge_omega_squared + opposite_omega_squared) +
-                                      bending_time * bending_omega_squared);
+    record.decay =
+        static_cast<float>(time * (edge_omega_squared + opposite_omega_squared) + bending_time * bending_omega_squared);
 }
 
 void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::ClothRecord& record)
@@ -161,25 +170,16 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
     record.springs[VOILE_CLASS_OPPOSITE] = spring_class(m.springs.bend_warp, 0);
     record.bending = glm::vec3(m.bending_stiffness, 0, 0);
     const double bending = static_cast<double>(m.bending_stiffness) * mesh.alike.bending / mass;
-    const auto rate = [&](float edge, float opposite)
-    {
-        return (static_cast<double>(edge) * mesh.alike.edge + static_cast<double>(opposite) * mesh.alike.opposite) / mass;
+    const auto rate = [&](float edge, float opposite) {
+        return (static_cast<double>(edge) * mesh.alike.edge + static_cast<double>(opposite) * mesh.alike.opposite) /
+               mass;
     };
     record.bending_omega_squared = static_cast<float>(bending);
-    record.omega_squared = static_cast<float>(
-        rate(m.springs.structural_warp.stiffness, m.springs.bend_warp.stiffness) + bending);
+    record.omega_squared =
+        static_cast<float>(rate(m.springs.structural_warp.stiffness, m.springs.bend_warp.stiffness) + bending);
     record.decay =
         static_cast<float>(rate(m.springs.structural_warp.damping, m.springs.bend_warp.damping) +
                            static_cast<double>(m.linear_drag) / mass + static_cast<double>(m.bending_time) * bending);
-}
-
-float largest_damping_time(const shared::ClothRecord& record)
-{
-    float time = 0;
-    for (const shared::SpringClass& spring : record.springs)
-        if (spring.stiffness > 0)
-            time = std::max(time, spring.damping / spring.stiffness);
-    return time;
 }
 
 // What both kinds of material give alike.
@@ -196,6 +196,13 @@ void apply_surface(const M& m, shared::ClothRecord& record)
 
 } // namespace
 
+bool bends_isometrically(const ClothMaterial& material)
+{
+    if (const auto* fabric = std::get_if<Fabric>(&material))
+        return fabric->bending_model == BendingModel::isometric && fabric->bending_stiffness > 0;
+    return std::get<Material>(material).bending_stiffness > 0;
+}
+
 void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
 {
     const auto* fabric = std::get_if<Fabric>(&cloth.material);
@@ -211,14 +218,13 @@ void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
     }
     else
     {
-        const Material material = fabric ? make_material(*fabric, cloth.spacing.x, cloth.spacing.y)
-                                         : std::get<Material>(cloth.material);
+        const Material material =
+            fabric ? make_material(*fabric, cloth.spacing.x, cloth.spacing.y) : std::get<Material>(cloth.material);
         record.bending_time = material.bending_time;
         set_grid_rates(cloth.spacing, apply_grid(cloth.spacing, material, record), record);
     }
-    if (record.bending != glm::vec3(0))
+    if (bends_isometrically(cloth.material))
         record.flags |= VOILE_CLOTH_ISOMETRIC;
-    record.damping_time = largest_damping_time(record);
     if (cloth.own_inverse_mass > 0)
     {
         // The lightest vertex against what the material gives it.
@@ -234,14 +240,15 @@ void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
 namespace
 {
 
-// What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex for
-// masses given outright.
+// What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
+// for masses given outright.
 double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
 {
     const bool fabric = std::holds_alternative<Fabric>(cloth.material);
     if (cloth.mesh)
         return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
-    const double share = border_share(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
+    const double share =
+        border_share(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
     return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
 }
 

@@ -40,10 +40,10 @@ struct DeviceState
     std::array<VkDescriptorSet, 4> stages{};
     VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
     // Velocity Verlet goes from the state to stage B, with predictions in stage A's and the sums' velocities.
-    VkDescriptorSet verlet_first{}; // state to stage B: the velocities are those of the positions' time
-    VkDescriptorSet verlet_forth{}; // state to stage B
-    VkDescriptorSet verlet_back{};  // stage B to state, where no contact pass does that
-    VkDescriptorSet verlet_last{};  // velocities of the state alone
+    VkDescriptorSet verlet_first{};     // state to stage B: the velocities are those of the positions' time
+    VkDescriptorSet verlet_forth{};     // state to stage B
+    VkDescriptorSet verlet_back{};      // stage B to state, where no contact pass does that
+    VkDescriptorSet verlet_last{};      // velocities of the state alone
     VkDescriptorSet verlet_last_back{}; // stage B to state
     VkDescriptorSet contact{};
     VkDescriptorSet normals_set{};

@@ -38,9 +38,9 @@ Result<void> check(const char* what, const Range& range)
 
 constexpr float k_least_thickness = 1e-5f; // m
 constexpr float k_most_friction = 100;
-constexpr float k_most_spring = 1e7f;    // N/m
-constexpr float k_most_damping = 1e6f;   // N s/m
-constexpr float k_most_bending = 1e3f;   // N m
+constexpr float k_most_spring = 1e7f;  // N/m
+constexpr float k_most_damping = 1e6f; // N s/m
+constexpr float k_most_bending = 1e3f; // N m
 constexpr float k_least_strain = 1e-3f;
 constexpr float k_most_strain = 10;
 
@@ -93,9 +93,9 @@ Material make_material(const Fabric& fabric, float spacing_along_row, float spac
     {
         material.bending_stiffness = fabric.bending_stiffness;
         // The mode that alternates along rows and columns: 16 B (b / a^3 + a / b^3 + 2 / (a b)) / m.
-        const double omega =
-            4 * (b / a + a / b) *
-            std::sqrt(static_cast<double>(fabric.bending_stiffness) / (a * b * static_cast<double>(material.vertex_mass)));
+        const double omega = 4 * (b / a + a / b) *
+                             std::sqrt(static_cast<double>(fabric.bending_stiffness) /
+                                       (a * b * static_cast<double>(material.vertex_mass)));
         material.bending_time = static_cast<float>(2 * static_cast<double>(fabric.damping_ratio) / omega);
     }
     material.strain_limit = fabric.strain_limit;

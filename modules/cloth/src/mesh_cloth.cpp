@@ -77,8 +77,8 @@ Result<ClothId> Model::add(const MeshCloth& description)
 {
     if (auto valid = validate_shape(description); !valid)
         return valid.error();
-    const ClothInput input{description.name, description.transform, description.velocity,
-                           description.material, description.held, description.inverse_masses};
+    const ClothInput input{description.name,     description.transform, description.velocity,
+                           description.material, description.held,      description.inverse_masses};
     const size_t first = positions.size();
     const size_t count = description.positions.size();
     if (auto valid = validate(input, count); !valid)
@@ -93,7 +93,7 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.name = description.name;
     cloth.material = description.material;
     cloth.integrator = description.integrator;
-    cloth.mesh = make_mesh_topology(world, description.triangles);
+    cloth.mesh = make_mesh_topology(world, description.triangles, bends_isometrically(description.material));
     if (cloth.mesh->springs.empty())
         return invalid("cloth", description.name,
                        "none of its " + std::to_string(description.triangles.size()) + " triangles has an area");

@@ -26,9 +26,9 @@ double triangle_area(std::span<const glm::vec3> x, const glm::uvec3& t)
 // A triangle is degenerate where float cannot tell its height from 0.
 bool degenerate(std::span<const glm::vec3> x, const glm::uvec3& t)
 {
-    const double longest =
-        std::max({glm::distance(glm::dvec3(x[t.x]), glm::dvec3(x[t.y])), glm::distance(glm::dvec3(x[t.y]), glm::dvec3(x[t.z])),
-                  glm::distance(glm::dvec3(x[t.z]), glm::dvec3(x[t.x]))});
+    const double longest = std::max({glm::distance(glm::dvec3(x[t.x]), glm::dvec3(x[t.y])),
+                                     glm::distance(glm::dvec3(x[t.y]), glm::dvec3(x[t.z])),
+                                     glm::distance(glm::dvec3(x[t.z]), glm::dvec3(x[t.x]))});
     return triangle_area(x, t) <= 1e-6 * longest * longest;
 }
 
@@ -38,18 +38,19 @@ struct Side
     uint32_t a; // a < b, the edge
     uint32_t b;
     uint32_t opposite;
+    uint32_t triangle;
     double area; // m^2
 
     [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
 };
 
-// A spring between two vertices, either way round, or the isometric model's coefficient of the pair, or both.
+// What a pair of vertices has: a spring along an edge or across one, the isometric model's coefficient, or both.
 struct Pair
 {
     uint32_t a;
     uint32_t b;
-    bool opposite;
-    double weight;
+    double edge;     // weight of the spring along the edge between them; 0: none
+    double opposite; // weight of the spring across an edge; 0: none
     double bending;
 };
 
@@ -59,41 +60,85 @@ double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
     return glm::dot(p - at, q - at) / glm::length(glm::cross(p - at, q - at));
 }
 
-// The isometric model's matrix of one hinge, the edge (0, 1) between the triangles of 2 and 3: Q = K K^T / (A0 + A1) with
-// K = (c03 + c04, c01 + c02, -c01 - c03, -c02 - c04), cotangents of the angles between the edges (Bergou et al. 2006,
-// section 3). Their factor is 3 / (A0 + A1), a third of which belongs here: where a sheet is rolled up, the whole of its
-// curvature is in a third of its hinges, those along the axis; the energy is then 1/2 B kappa^2 an area.
-void add_hinge(std::span<const glm::vec3> positions, const Side& first, const Side& second, std::vector<Pair>& pairs)
+// How far a hinge is folded: sum of factor * x over its corners is the angle times the edge's length, along the normal
+// (Bergou et al. 2006, section 3: cotangents of the angles between the edge and its neighbours).
+struct Hinge
 {
-    const uint32_t corner[4] = {first.a, first.b, first.opposite, second.opposite};
+    uint32_t corner[4]; // the edge's ends, the vertices opposite to it
+    double factor[4];
+};
+
+Hinge make_hinge(std::span<const glm::vec3> positions, const Side& first, const Side& second)
+{
+    Hinge hinge{{first.a, first.b, first.opposite, second.opposite}, {}};
     glm::dvec3 x[4];
     for (int i = 0; i < 4; ++i)
-        x[i] = glm::dvec3(positions[corner[i]]);
+        x[i] = glm::dvec3(positions[hinge.corner[i]]);
     const double c01 = cotangent(x[0], x[1], x[2]);
     const double c02 = cotangent(x[0], x[1], x[3]);
     const double c03 = cotangent(x[1], x[0], x[2]);
     const double c04 = cotangent(x[1], x[0], x[3]);
-    const double k[4] = {c03 + c04, c01 + c02, -c01 - c03, -c02 - c04};
-    const double scale = 1 / (first.area + second.area);
-    for (int i = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j)
-            pairs.push_back({corner[i], corner[j], i == 2 && j == 3, 0, scale * k[i] * k[j]});
-    // One bend spring for three edges a vertex, where a grid has two directions: two thirds of its B / area.
-    pairs.back().weight = 2.0 / 3 * scale;
+    hinge.factor[0] = c03 + c04;
+    hinge.factor[1] = c01 + c02;
+    hinge.factor[2] = -c01 - c03;
+    hinge.factor[3] = -c02 - c04;
+    return hinge;
+}
+
+// The hinges at the sides of one triangle, with the unit normals of these sides in its plane.
+struct TriangleHinges
+{
+    std::vector<std::pair<Hinge, glm::dvec3>> hinges;
+    double area = 0; // m^2
+};
+
+// The isometric model of one triangle. Its curvature is S = sum over its hinges of (fold / 2A) m m^T, m the side's
+// normal in the plane (Grinspun et al. 2006, "Computing discrete shape operators on general meshes", equation 2 with
+// the angle shared by both triangles), its energy 1/2 B A |S|^2: a quadratic form with constant coefficients, as in
+// Bergou et al. 2006. Their own sum over hinges alone resists a bend across the strip less where the strip is bent
+// along (a Poisson ratio of -1/3, which lets a narrow cantilever hang 12 % too low); this one is exact for every state
+// of constant curvature.
+void add_bending(const TriangleHinges& triangle, std::vector<Pair>& pairs)
+{
+    for (const auto& [hinge, normal] : triangle.hinges)
+        for (const auto& [other, other_normal] : triangle.hinges)
+        {
+            const double cosine = glm::dot(normal, other_normal);
+            const double scale = cosine * cosine / (4 * triangle.area);
+            for (int i = 0; i < 4; ++i)
+                for (int j = 0; j < 4; ++j)
+                    if (hinge.corner[i] != other.corner[j]) // each pair comes twice, once either way round
+                        pairs.push_back(
+                            {hinge.corner[i], other.corner[j], 0, 0, 0.5 * scale * hinge.factor[i] * other.factor[j]});
+        }
 }
 
 // The sides of the triangles that share an edge, and what the edge contributes.
-void add_edge(std::span<const glm::vec3> positions, std::span<const Side> sides, std::vector<Pair>& pairs, MeshReport& report)
+void add_edge(std::span<const glm::vec3> positions, std::span<const Side> sides, std::vector<TriangleHinges>& hinges,
+              std::vector<Pair>& pairs, MeshReport& report)
 {
-    const double length = glm::distance(glm::dvec3(positions[sides[0].a]), glm::dvec3(positions[sides[0].b]));
+    const glm::dvec3 along = glm::dvec3(positions[sides[0].b]) - glm::dvec3(positions[sides[0].a]);
+    const double length = glm::length(along);
     double area = 0;
     for (const Side& side : sides)
         area += side.area;
-    pairs.push_back({sides[0].a, sides[0].b, false, area / (length * length), 0});
+    pairs.push_back({sides[0].a, sides[0].b, area / (length * length), 0, 0});
     for (size_t i = 0; i < sides.size(); ++i)
         for (size_t j = i + 1; j < sides.size(); ++j)
-            if (sides[i].opposite != sides[j].opposite) // two triangles back to back
-                add_hinge(positions, sides[i], sides[j], pairs);
+        {
+            if (sides[i].opposite == sides[j].opposite) // two triangles back to back
+                continue;
+            // One bend spring for three edges a vertex, where a grid has two directions: two thirds of its B / area.
+            pairs.push_back({sides[i].opposite, sides[j].opposite, 0, 2.0 / 3 / (sides[i].area + sides[j].area), 0});
+            for (const Side& side : {sides[i], sides[j]})
+            {
+                const glm::dvec3 to_opposite = glm::dvec3(positions[side.opposite]) - glm::dvec3(positions[side.a]);
+                const glm::dvec3 normal =
+                    glm::normalize(to_opposite - glm::dot(to_opposite, along) / (length * length) * along);
+                hinges[side.triangle].hinges.emplace_back(make_hinge(positions, sides[i], sides[j]), normal);
+                hinges[side.triangle].area = side.area;
+            }
+        }
     report.boundary_edges += sides.size() == 1 ? 1 : 0;
     report.non_manifold_edges += sides.size() > 2 ? 1 : 0;
     report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
@@ -103,14 +148,15 @@ std::vector<Side> sides_of(std::span<const glm::vec3> positions, std::span<const
 {
     std::vector<Side> sides;
     sides.reserve(3 * triangles.size());
-    for (const glm::uvec3& t : triangles)
+    for (uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
     {
+        const glm::uvec3& t = triangles[triangle];
         const double area = triangle_area(positions, t);
         for (int corner = 0; corner < 3; ++corner)
         {
             const uint32_t a = t[corner];
             const uint32_t b = t[(corner + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], area});
+            sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], triangle, area});
         }
     }
     std::stable_sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.key() < r.key(); });
@@ -123,22 +169,33 @@ std::vector<Pair> merged(std::vector<Pair> pairs)
     for (Pair& pair : pairs)
         if (pair.a > pair.b)
             std::swap(pair.a, pair.b);
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& l, const Pair& r)
-                     { return l.a != r.a ? l.a < r.a : l.b != r.b ? l.b < r.b : l.opposite < r.opposite; });
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& l, const Pair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
     std::vector<Pair> result;
     for (const Pair& pair : pairs)
     {
-        // An edge and an opposite pair of the same vertices stay apart: their springs are of different classes.
-        if (!result.empty() && result.back().a == pair.a && result.back().b == pair.b &&
-            result.back().opposite == pair.opposite)
+        if (!result.empty() && result.back().a == pair.a && result.back().b == pair.b)
         {
-            result.back().weight += pair.weight;
+            result.back().edge += pair.edge;
+            result.back().opposite += pair.opposite;
             result.back().bending += pair.bending;
         }
         else
             result.push_back(pair);
     }
     return result;
+}
+
+// The entries of a pair at the list of `other`: one, or two where an edge's ends are opposite to another edge as well.
+std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, float rest_length)
+{
+    std::vector<shared::MeshSpring> entries;
+    if (pair.edge > 0)
+        entries.push_back({other, rest_length, static_cast<float>(pair.edge), static_cast<float>(pair.bending)});
+    if (pair.opposite > 0 || pair.edge == 0)
+        entries.push_back({other | VOILE_OPPOSITE_BIT, rest_length, static_cast<float>(pair.opposite),
+                           pair.edge > 0 ? 0 : static_cast<float>(pair.bending)});
+    return entries;
 }
 
 uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
@@ -167,30 +224,13 @@ uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles
 void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                 std::span<const Pair> pairs)
 {
-    for (const Pair& pair : pairs)
-    {
-        ++mesh.vertices[pair.a].springs;
-        ++mesh.vertices[pair.b].springs;
-    }
-    for (const glm::uvec3& t : triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            ++mesh.vertices[t[corner]].corners;
-    uint32_t springs = 0;
-    uint32_t corners = 0;
-    for (shared::MeshVertex& vertex : mesh.vertices)
-    {
-        vertex.first_spring = std::exchange(springs, springs + vertex.springs);
-        vertex.first_corner = std::exchange(corners, corners + vertex.corners);
-        vertex.springs = vertex.corners = 0; // counted again while filling
-    }
-    mesh.springs.resize(springs);
-    mesh.corners.resize(corners);
+    std::vector<std::vector<shared::MeshSpring>> springs(mesh.vertices.size());
+    std::vector<std::vector<shared::MeshCorner>> corners(mesh.vertices.size());
     const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
     {
-        shared::MeshVertex& v = mesh.vertices[vertex];
-        mesh.springs[v.first_spring + v.springs++] = {other | (pair.opposite ? VOILE_OPPOSITE_BIT : 0),
-                                                      glm::distance(positions[pair.a], positions[pair.b]),
-                                                      static_cast<float>(pair.weight), static_cast<float>(pair.bending)};
+        for (const shared::MeshSpring& entry :
+             entries_of(pair, other, glm::distance(positions[pair.a], positions[pair.b])))
+            springs[vertex].push_back(entry);
     };
     for (const Pair& pair : pairs) // sorted by a, then b: a vertex meets its smaller neighbours first
         put(pair.b, pair.a, pair);
@@ -198,10 +238,14 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::s
         put(pair.a, pair.b, pair);
     for (const glm::uvec3& t : triangles)
         for (int corner = 0; corner < 3; ++corner)
-        {
-            shared::MeshVertex& v = mesh.vertices[t[corner]];
-            mesh.corners[v.first_corner + v.corners++] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
-        }
+            corners[t[corner]].push_back({t[(corner + 1) % 3], t[(corner + 2) % 3]});
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    {
+        mesh.vertices[i] = {static_cast<uint32_t>(mesh.springs.size()), static_cast<uint32_t>(springs[i].size()),
+                            static_cast<uint32_t>(mesh.corners.size()), static_cast<uint32_t>(corners[i].size())};
+        mesh.springs.insert(mesh.springs.end(), springs[i].begin(), springs[i].end());
+        mesh.corners.insert(mesh.corners.end(), corners[i].begin(), corners[i].end());
+    }
 }
 
 // The blocks of a vertex's springs at rest, sum of weight * d d^T, and the row sum of its bending.
@@ -223,7 +267,8 @@ void find_bounds(MeshTopology& mesh, std::span<const glm::vec3> positions)
                 glm::dvec3(positions[spring.neighbour & ~VOILE_OPPOSITE_BIT]) - glm::dvec3(positions[i]);
             const glm::dmat3 block = glm::outerProduct(delta, delta) / std::max(glm::dot(delta, delta), 1e-30);
             weighted[kind] += static_cast<double>(spring.weight) * block;
-            alike[kind] += block;
+            if (spring.weight > 0)
+                alike[kind] += block;
             bending += std::abs(static_cast<double>(spring.bending));
         }
         const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
@@ -238,7 +283,8 @@ void find_bounds(MeshTopology& mesh, std::span<const glm::vec3> positions)
 
 } // namespace
 
-MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                                bool isometric)
 {
     std::vector<glm::uvec3> solid;
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
@@ -264,19 +310,23 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
 
     const std::vector<Side> sides = sides_of(positions, solid);
     std::vector<Pair> pairs;
+    std::vector<TriangleHinges> hinges(solid.size());
     size_t edges = 0;
     for (size_t first = 0; first < sides.size();)
     {
         size_t last = first + 1;
         while (last < sides.size() && sides[last].key() == sides[first].key())
             ++last;
-        add_edge(positions, std::span(sides).subspan(first, last - first), pairs, mesh.report);
+        add_edge(positions, std::span(sides).subspan(first, last - first), hinges, pairs, mesh.report);
         ++edges;
         first = last;
     }
+    if (isometric)
+        for (const TriangleHinges& triangle : hinges)
+            add_bending(triangle, pairs);
     pairs = merged(std::move(pairs));
     for (const Pair& pair : pairs)
-        mesh.mean_weight += pair.opposite ? 0 : pair.weight / static_cast<double>(edges);
+        mesh.mean_weight += pair.edge / static_cast<double>(edges);
     fill_lists(mesh, positions, solid, pairs);
     find_bounds(mesh, positions);
     return mesh;

@@ -11,8 +11,8 @@
 namespace cloth
 {
 
-// Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbours, and corners
-// likewise, in the order of the triangles.
+// Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbours, and
+// corners likewise, in the order of the triangles.
 struct MeshTopology
 {
     std::vector<shared::MeshVertex> vertices;
@@ -34,7 +34,9 @@ struct MeshTopology
     double mean_weight = 0; // of the edges
 };
 
-// `positions`: the shape at rest. Indices must be within it.
-MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+// `positions`: the shape at rest. Indices must be within it. `isometric`: with the coefficients of isometric bending,
+// which reaches half as many vertices again as springs do.
+MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                                bool isometric);
 
 } // namespace cloth

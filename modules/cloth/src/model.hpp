@@ -22,8 +22,8 @@ struct ClothModel
     Integrator integrator = Integrator::rk4;
     std::optional<MeshTopology> mesh; // none: a grid
     glm::vec2 spacing{0.f};           // m, of a grid along a row and along a column
-    // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's area
-    // (fabric) or share (material). 0: all are the material's.
+    // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
+    // area (fabric) or share (material). 0: all are the material's.
     double own_inverse_mass = 0;
     std::vector<glm::uvec3> triangles;          // of a mesh, as they were given
     std::vector<glm::vec2> texture_coordinates; // of a mesh
@@ -32,9 +32,9 @@ struct ClothModel
 struct Model
 {
     std::vector<ClothModel> cloths;
-    std::vector<shared::ClothRecord> records; // one a cloth
-    std::vector<glm::vec4> positions;         // at the start; w: inverse mass
-    std::vector<glm::vec4> velocities;        // at the start
+    std::vector<shared::ClothRecord> records;      // one a cloth
+    std::vector<glm::vec4> positions;              // at the start; w: inverse mass
+    std::vector<glm::vec4> velocities;             // at the start
     std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
     std::vector<shared::MeshSpring> mesh_springs;
     std::vector<shared::MeshCorner> mesh_corners;
@@ -69,6 +69,9 @@ struct ClothInput
 };
 Result<void> validate(const ClothInput& cloth, uint64_t vertices);
 
+// Whether a material bends by the isometric model.
+bool bends_isometrically(const ClothMaterial& material);
+
 // The record that follows from a material; places (first_vertex, first_list) and sizes of `record` are kept.
 void apply_material(const ClothModel& cloth, shared::ClothRecord& record);
 
@@ -78,8 +81,8 @@ double vertex_mass(const ClothModel& cloth, const shared::ClothRecord& record, u
 // Appends the start of a cloth whose record is complete: masses from the material unless they are given.
 void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index);
 
-// The chunks that cover all cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those of cloths
-// that use RK4 come first.
+// The chunks that cover all cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those of
+// cloths that use RK4 come first.
 struct Chunks
 {
     std::vector<shared::Chunk> chunks;

@@ -29,8 +29,8 @@ void end_scope(gpu::Recorder& recorder)
                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
-// The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence") and
-// changes as it goes, a short wave faster than a long one.
+// The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence")
+// and changes as it goes, a short wave faster than a long one.
 glm::vec4 gust_phases(const Step& step, double time)
 {
     using glm::vec3;

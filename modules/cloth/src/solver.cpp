@@ -197,7 +197,8 @@ std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
     result.reserve(record.vertices);
     for (uint32_t row = 0; row < record.rows; ++row)
         for (uint32_t column = 0; column < record.columns; ++column)
-            result.emplace_back(static_cast<float>(column) * model.spacing.x, static_cast<float>(row) * model.spacing.y);
+            result.emplace_back(static_cast<float>(column) * model.spacing.x,
+                                static_cast<float>(row) * model.spacing.y);
     return result;
 }
 

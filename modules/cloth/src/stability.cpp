@@ -28,12 +28,13 @@ StableShares stable_shares(const shared::ClothRecord& record, double substep)
     const auto decay = static_cast<double>(record.decay);
     if (uses_verlet(record))
     {
-        const double load = 0.25 * omega_squared * substep * substep + 0.5 * decay * substep;
+        const double load = 0.25 * omega_squared * substep * substep + decay * substep;
         const double share = std::min(1.0, k_margin * k_margin / std::max(load, 1e-30));
         return {share, share};
     }
     const double reach = k_margin * k_rk4_reach / substep;
-    return {std::min(1.0, reach * reach / std::max(omega_squared, 1e-30)), std::min(1.0, reach / std::max(decay, 1e-30))};
+    return {std::min(1.0, reach * reach / std::max(omega_squared, 1e-30)),
+            std::min(1.0, reach / std::max(decay, 1e-30))};
 }
 
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
@@ -44,8 +45,8 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     double fastest = 0; // 1/s
     if (uses_verlet(record))
     {
-        // (omega h / 2)^2 + decay h / 2 = margin^2, solved for 1 / h.
-        const double half = 0.25 * decay;
+        // (omega h / 2)^2 + decay h = margin^2, solved for 1 / h.
+        const double half = 0.5 * decay;
         longest = k_margin * k_margin;
         fastest = half + std::sqrt(half * half + 0.25 * omega * omega * longest);
     }

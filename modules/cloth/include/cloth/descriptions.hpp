@@ -14,8 +14,8 @@
 namespace cloth
 {
 
-// How a cloth is advanced. RK4 evaluates the forces four times a substep and takes substeps 1.3 times as long; it is the
-// one to take where accuracy counts. Velocity Verlet evaluates them once: the faster one for stiff cloth.
+// How a cloth is advanced. RK4 evaluates the forces four times a substep and takes substeps 1.3 times as long; it is
+// the one to take where accuracy counts. Velocity Verlet evaluates them once: the faster one for stiff cloth.
 enum class Integrator
 {
     rk4,
@@ -39,18 +39,18 @@ struct Grid
     std::vector<float> inverse_masses{}; // 1/kg, one a vertex, in place of the material's; 0 holds. Empty: none given
 };
 
-// A cloth of any triangles: open or closed, in one piece or several, vertices and their order kept. Triangles without area
-// have no springs; vertices without a triangle are held; across an edge of three or more triangles each pair of them
-// bends. mesh_report tells of all of these.
+// A cloth of any triangles: open or closed, in one piece or several, vertices and their order kept. Triangles without
+// area have no springs; vertices without a triangle are held; across an edge of three or more triangles each pair of
+// them bends. mesh_report tells of all of these.
 struct MeshCloth
 {
     std::string name = "cloth";
     std::span<const glm::vec3> positions{};           // m, in the mesh's space
     std::span<const glm::uvec3> triangles{};          // indices into positions, counter-clockwise seen from outside
-    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the axis
-                                                      // of its smallest extent
-    glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
-    glm::vec3 velocity{0.f};                          // m/s, of every vertex at the start
+    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the
+                                                      // axis of its smallest extent
+    glm::mat4 transform{1.f}; // world from mesh; affine. The shape at rest is what it makes
+    glm::vec3 velocity{0.f};  // m/s, of every vertex at the start
     ClothMaterial material{};
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};

@@ -38,8 +38,8 @@ enum class BendingModel
 };
 
 // Everything that moves a vertex, with masses and spring constants given outright. The reference scene is given so; for
-// a cloth that behaves the same at every resolution give a Fabric. On a mesh, the edges are structural_warp springs, those
-// between the vertices opposite to an edge bend_warp springs, all alike; the other families are a grid's.
+// a cloth that behaves the same at every resolution give a Fabric. On a mesh, the edges are structural_warp springs,
+// those between the vertices opposite to an edge bend_warp springs, all alike; the other families are a grid's.
 struct Material
 {
     float vertex_mass = 0.01f; // kg, 1e-9..1e6; of a vertex inside the grid
@@ -89,9 +89,9 @@ using ClothMaterial = std::variant<Fabric, Material>;
 //   spring's shortening as its measure: it has no stiffness near flat);
 // - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring;
 // - the isometric model has no bend springs, and its fastest mode the same share of critical damping.
-// Meshes: k = E A / L^2 for an edge of length L between triangles of total area A, E the mean of warp and weft (Van Gelder
-// 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"); shear follows from it, 3/8 of E on
-// equilateral triangles. A vertex has a third of the mass of each triangle around it.
+// Meshes: k = E A / L^2 for an edge of length L between triangles of total area A, E the mean of warp and weft (Van
+// Gelder 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"); shear follows from it, 3/8
+// of E on equilateral triangles. A vertex has a third of the mass of each triangle around it.
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
 // The constants of the reference scene: 0.15 kg a vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag

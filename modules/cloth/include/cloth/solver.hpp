@@ -81,10 +81,10 @@ struct Step
 // What the substeps of a step mean for a cloth.
 struct Stability
 {
-    uint32_t needed = 0;        // substeps that bear all of its stiffness and damping
-    uint32_t used = 0;          // substeps that the step takes
-    float stiffness_share = 1;  // of its stiffness that it has in this step, 0..1
-    float damping_share = 1;    // likewise
+    uint32_t needed = 0;       // substeps that bear all of its stiffness and damping
+    uint32_t used = 0;         // substeps that the step takes
+    float stiffness_share = 1; // of its stiffness that it has in this step, 0..1
+    float damping_share = 1;   // likewise
 };
 
 // Staging memory and the buffers that an upload replaced. Destroy it once the command buffer has completed.
@@ -123,8 +123,8 @@ public:
     Solver& operator=(Solver&&) noexcept;
 
     // Copy and validate; nothing changes on the GPU before record_upload. Errors name the input and the value: a grid
-    // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a held vertex that does not exist, a
-    // coordinate that is not finite, an index beyond the positions, more than the device's buffers hold.
+    // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a held vertex that does not
+    // exist, a coordinate that is not finite, an index beyond the positions, more than the device's buffers hold.
     Result<ClothId> add_cloth(const Grid& grid);
     Result<ClothId> add_cloth(const MeshCloth& mesh);
     Result<ColliderId> add_collider(const MeshCollider& collider);
@@ -151,15 +151,15 @@ public:
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
     // The substeps with which every cloth is stable at its full stiffness, with a margin of 10 %; at most max_substeps.
-    // From the blocks of M^-1 K and M^-1 C at rest (stability.hpp): RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2,
-    // less with damping. A cloth that turns out stiffer on its way, crumpled or torn, is held by stable_acceleration in
-    // shaders/cloth/stability.glsl; Statistics::limited_vertices counts where.
+    // From the blocks of M^-1 K and M^-1 C at rest (stability.hpp): RK4 takes omega h <= 2.6, velocity Verlet omega h
+    // <= 2, less with damping. A cloth that turns out stiffer on its way, crumpled or torn, is held by
+    // stable_acceleration in shaders/cloth/stability.glsl; Statistics::limited_vertices counts where.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;
-    // Triangles of a cloth as the normals see them, indices within the cloth; a grid's counter-clockwise seen from +y when
-    // flat, a mesh's as they were given.
+    // Triangles of a cloth as the normals see them, indices within the cloth; a grid's counter-clockwise seen from +y
+    // when flat, a mesh's as they were given.
     [[nodiscard]] std::vector<glm::uvec3> triangles(ClothId cloth) const;
     // One a vertex, metres of fabric: a grid's from its first vertex, a mesh's as they were given.
     [[nodiscard]] std::vector<glm::vec2> texture_coordinates(ClothId cloth) const;
