@@ -124,7 +124,7 @@ void check_finite(const Case& item, const cloth::Statistics& state, const char* 
 }
 
 // Runs the case up to where it is measured; the vertices that touch a collider there.
-uint32_t advance(TimedQueue& queue, const cloth::Solver& solver, const Case& item)
+uint32_t advance(TimedQueue& queue, cloth::Solver& solver, const Case& item)
 {
     for (uint32_t i = 0; i < item.frames_before; ++i)
         queue.run([&](VkCommandBuffer cmd) { solver.record(cmd, {.duration = k_frame}); });
@@ -135,7 +135,7 @@ uint32_t advance(TimedQueue& queue, const cloth::Solver& solver, const Case& ite
     return state.contacts;
 }
 
-void time_gpu(TimedQueue& queue, const cloth::Solver& solver, const Snapshot& start, uint32_t repetitions,
+void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Snapshot& start, uint32_t repetitions,
               Measurement& result)
 {
     const cloth::Step step{.duration =
@@ -151,7 +151,7 @@ void time_gpu(TimedQueue& queue, const cloth::Solver& solver, const Snapshot& st
     result.gpu_p95 = quantile(times, 0.95);
 }
 
-void time_recording(TimedQueue& queue, const cloth::Solver& solver, uint32_t repetitions, Measurement& result)
+void time_recording(TimedQueue& queue, cloth::Solver& solver, uint32_t repetitions, Measurement& result)
 {
     using Clock = std::chrono::steady_clock;
     const cloth::Step step{.duration = k_frame, .substeps = result.substeps};

@@ -50,3 +50,5 @@ add_test(NAME "consumer: find_package"
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
+voile_add_test(test_holds SOURCES test_holds.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_edits SOURCES test_edits.cpp test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)

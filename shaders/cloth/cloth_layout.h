@@ -66,9 +66,9 @@ struct ClothRecord
     float bending_omega_squared; // 1/s^2, what isometric bending has of it
     float decay;           // 1/s, of the fastest decay
     float strain_limit;    // largest l / L - 1; 0: none
+    float inverse_density; // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
+    float strain_relaxation; // of a correction of the strain limit
     float padding_0;
-    float padding_1;
-    float padding_2;
     vec3 bending;          // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
     float bending_time;    // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
@@ -107,6 +107,48 @@ struct Chunk
     uint first; // counted within the cloth
 };
 
+// A frame that holds follow, before and after the step.
+struct AnchorRecord
+{
+    mat4 from;   // world from anchor
+    mat4 to;
+    mat4 motion; // to * inverse(from)
+};
+
+// Flags of a hold.
+#define VOILE_HOLD_PLACED 1u   // its place is given; else a pin goes on from where its vertex is
+#define VOILE_HOLD_BACKSTOP 2u
+
+// A vertex that is held. Pins come first, then the others.
+struct HoldRecord
+{
+    vec3 place;         // m, in the anchor's space
+    uint vertex;        // in the solver's buffers
+    vec3 normal;        // of the backstop, in the anchor's space
+    uint anchor;
+    float stiffness;    // N/m
+    float damping;      // N s/m
+    float max_distance; // m; infinite: none
+    float backstop;     // m behind the place
+    uint flags;
+    uint cloth;
+    uint padding_0;
+    uint padding_1;
+};
+
+#define VOILE_TETHERS 4
+
+// The tethers of one vertex.
+struct TetherRecord
+{
+    uint vertex; // in the solver's buffers, like the pins
+    uint count;  // 1..VOILE_TETHERS
+    uint cloth;
+    uint padding;
+    uint pins[VOILE_TETHERS];
+    float lengths[VOILE_TETHERS]; // m
+};
+
 struct ColliderRecord
 {
     uint kind;
@@ -140,6 +182,38 @@ struct ContactPush
 {
     float step; // s
     uint colliders;
+};
+
+// Push constants of the passes over pins, holds and tethers.
+struct HoldPush
+{
+    uint first;     // of the records
+    uint count;
+    float step;     // s; pins: of the whole step
+    float progress; // 0..1, of the step at the substep's end
+    float progress_a_substep;
+};
+
+#define VOILE_EDIT_MASSES 0    // inverse masses from areas and density
+#define VOILE_EDIT_RESET 1     // back to the start
+#define VOILE_EDIT_TRANSFORM 2 // places by the matrix, velocities by its turning
+#define VOILE_EDIT_VELOCITY 3  // all velocities alike
+
+// Push constants of an edit of one cloth.
+struct EditPush
+{
+    mat4 transform;
+    vec3 velocity; // m/s
+    uint kind;
+    uint cloth;
+};
+
+// Push constants of one pass of the strain limit.
+struct StrainPush
+{
+    uint spacing; // of the level, in grid lines
+    uint between; // 1: vertices between the lines of the level before take over what their neighbours were moved by
+    float acceleration; // of the passes of a level (Chebyshev); 1: none
 };
 
 // Push constants of the statistics passes.

@@ -182,6 +182,10 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
                            static_cast<double>(m.linear_drag) / mass + static_cast<double>(m.bending_time) * bending);
 }
 
+// Of a correction by the strain limit: along one direction of a grid up to four springs act at once, two in line and
+// their diagonals, and more than half of each correction would overshoot.
+constexpr float k_strain_relaxation = 0.5f;
+
 // What both kinds of material give alike.
 template <typename M>
 void apply_surface(const M& m, shared::ClothRecord& record)
@@ -192,9 +196,17 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.drag_normal = m.air_drag_normal;
     record.drag_tangential = m.air_drag_tangential;
     record.strain_limit = m.strain_limit;
+    record.strain_relaxation = k_strain_relaxation;
 }
 
 } // namespace
+
+double density(const ClothMaterial& material)
+{
+    if (const auto* fabric = std::get_if<Fabric>(&material))
+        return static_cast<double>(fabric->areal_density);
+    return static_cast<double>(std::get<Material>(material).vertex_mass);
+}
 
 bool bends_isometrically(const ClothMaterial& material)
 {
@@ -223,14 +235,16 @@ void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
         record.bending_time = material.bending_time;
         set_grid_rates(cloth.spacing, apply_grid(cloth.spacing, material, record), record);
     }
+    // A mesh's vertex may have many more: what all of them make together stays below twice the correction.
+    if (cloth.mesh)
+        record.strain_relaxation = std::min(k_strain_relaxation, static_cast<float>(3.6 / cloth.mesh->alike.edge));
+    record.inverse_density = cloth.own_inverse_mass > 0 ? 1 : static_cast<float>(1 / density(cloth.material));
     if (bends_isometrically(cloth.material))
         record.flags |= VOILE_CLOTH_ISOMETRIC;
     if (cloth.own_inverse_mass > 0)
     {
         // The lightest vertex against what the material gives it.
-        const double density = fabric ? static_cast<double>(fabric->areal_density)
-                                      : static_cast<double>(std::get<Material>(cloth.material).vertex_mass);
-        const auto lighter = static_cast<float>(std::max(cloth.own_inverse_mass * density, 1e-6));
+        const auto lighter = static_cast<float>(std::max(cloth.own_inverse_mass * density(cloth.material), 1e-6));
         record.omega_squared *= lighter;
         record.bending_omega_squared *= lighter;
         record.decay *= lighter;
@@ -253,14 +267,6 @@ double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, 
 }
 
 } // namespace
-
-double vertex_mass(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
-{
-    const auto* fabric = std::get_if<Fabric>(&cloth.material);
-    const double density = fabric ? static_cast<double>(fabric->areal_density)
-                                  : static_cast<double>(std::get<Material>(cloth.material).vertex_mass);
-    return density * mass_measure(cloth, record, vertex);
-}
 
 Result<void> validate(const ClothInput& cloth, uint64_t vertices)
 {
@@ -290,24 +296,52 @@ void append_state(Model& model, const ClothInput& cloth, std::span<const glm::ve
     shared::ClothRecord& record = model.records[index];
     for (uint32_t i = 0; i < places.size(); ++i)
     {
-        const double mass = vertex_mass(kept, record, i);
-        float inverse = mass > 0 ? static_cast<float>(1 / mass) : 0;
+        const double measure = mass_measure(kept, record, i);
+        double inverse = measure > 0 ? 1 / measure : 0;
         if (!cloth.inverse_masses.empty())
         {
-            inverse = mass > 0 ? cloth.inverse_masses[i] : 0;
-            kept.own_inverse_mass =
-                std::max(kept.own_inverse_mass, static_cast<double>(inverse) * mass_measure(kept, record, i));
+            inverse = measure > 0 ? static_cast<double>(cloth.inverse_masses[i]) : 0;
+            kept.own_inverse_mass = std::max(kept.own_inverse_mass, inverse * measure);
         }
-        model.positions.emplace_back(places[i], inverse);
-        model.velocities.emplace_back(inverse > 0 ? cloth.velocity : glm::vec3(0), 0);
-    }
-    for (const uint32_t held : cloth.held)
-    {
-        model.positions[record.first_vertex + held].w = 0;
-        model.velocities[record.first_vertex + held] = glm::vec4(0);
+        model.start.emplace_back(places[i], static_cast<float>(inverse));
     }
     if (kept.own_inverse_mass > 0)
         apply_material(kept, record);
+    kept.velocity = cloth.velocity;
+    for (uint32_t i = 0; i < places.size(); ++i)
+    {
+        const float inverse_mass = model.start[record.first_vertex + i].w * record.inverse_density;
+        model.positions.emplace_back(places[i], inverse_mass);
+        model.velocities.emplace_back(inverse_mass > 0 ? cloth.velocity : glm::vec3(0), 0);
+    }
+    std::vector<bool> pinned(places.size());
+    for (const uint32_t held : cloth.held)
+    {
+        if (pinned[held])
+            continue;
+        pinned[held] = true;
+        model.positions[record.first_vertex + held].w = 0;
+        model.velocities[record.first_vertex + held] = glm::vec4(0);
+        kept.holds.push_back({.vertex = held});
+    }
+}
+
+std::vector<glm::uvec3> cloth_triangles(const Model& model, uint32_t cloth)
+{
+    if (model.cloths[cloth].mesh)
+        return model.cloths[cloth].triangles;
+    const shared::ClothRecord& record = model.records[cloth];
+    std::vector<glm::uvec3> result;
+    result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
+    for (uint32_t row = 0; row + 1 < record.rows; ++row)
+        for (uint32_t column = 0; column + 1 < record.columns; ++column)
+        {
+            const uint32_t corner = row * record.columns + column;
+            const uint32_t below = corner + record.columns;
+            result.emplace_back(corner, below, corner + 1);
+            result.emplace_back(corner + 1, below, below + 1);
+        }
+    return result;
 }
 
 Chunks make_chunks(const Model& model, uint32_t workgroup_size)

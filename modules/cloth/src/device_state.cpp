@@ -31,6 +31,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
         {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
         {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
+        {&state.start, "cloth start", per_vertex},
+        {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
+        {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
+        {&state.tethers, "cloth tethers", data.tethers * sizeof(shared::TetherRecord)},
         {&state.state.positions, "cloth positions", per_vertex},
         {&state.state.velocities, "cloth velocities", per_vertex},
         {&state.stage_a.positions, "cloth stage a positions", per_vertex},
@@ -68,6 +72,32 @@ struct Binder
             status = result.error();
     }
 };
+
+// What acts on the state a substep proposes, and what acts on the state between steps.
+void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
+{
+    const VkBuffer positions = s.stage_b.positions.handle();
+    const VkBuffer velocities = s.stage_b.velocities.handle();
+    const VkBuffer predicted = s.sums.velocities.handle();
+    binder.bind(s.pins, kernels.pins,
+                {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+    binder.bind(s.proposed_holds, kernels.holds,
+                {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), positions, velocities, predicted});
+    binder.bind(s.proposed_tethers, kernels.tethers,
+                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted});
+    binder.bind(s.edit, kernels.edit,
+                {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+    const auto bind_strain = [&](VkDescriptorSet& set, const StateBuffers& input, const StateBuffers& output)
+    {
+        binder.bind(set, kernels.limit_strain,
+                    {s.cloths.handle(), s.chunks.handle(), input.positions.handle(), input.velocities.handle(),
+                     output.positions.handle(), output.velocities.handle(), s.mesh_vertices.handle(),
+                     s.mesh_springs.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+    };
+    bind_strain(s.strain_first, s.state, s.stage_b);
+    bind_strain(s.strain_back, s.stage_b, s.stage_a);
+    bind_strain(s.strain_forth, s.stage_a, s.stage_b);
+}
 
 gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
 {
@@ -110,6 +140,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
     // The last kick leaves positions alone; what it would write of them goes where nobody looks.
     bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.sums.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
+    bind_holds(s, kernels, binder);
     binder.bind(s.contact, kernels.contact,
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
                  s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
@@ -135,10 +166,13 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.vertices = static_cast<uint32_t>(model.positions.size());
     state.chunk_count = static_cast<uint32_t>(data.chunks.chunks.size());
     state.rk4_chunks = data.chunks.rk4;
+    state.anchor_capacity = data.anchors;
+    state.hold_capacity = data.holds;
+    state.tether_capacity = data.tethers;
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 14;
+    constexpr uint32_t k_sets = 21;
     constexpr uint32_t k_most_bindings = 13;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)

@@ -28,6 +28,10 @@ struct DeviceState
     gpu::Buffer colliders;
     gpu::Buffer nodes;
     gpu::Buffer triangles;
+    gpu::Buffer start; // places at the start, and what density multiplies
+    gpu::Buffer anchors;
+    gpu::Buffer holds;
+    gpu::Buffer tethers;
     StateBuffers state;   // what the cloth is between steps
     StateBuffers stage_a; // written by stages 1 and 3
     StateBuffers stage_b; // written by stages 2 and 4
@@ -45,6 +49,13 @@ struct DeviceState
     VkDescriptorSet verlet_back{};      // stage B to state, where no contact pass does that
     VkDescriptorSet verlet_last{};      // velocities of the state alone
     VkDescriptorSet verlet_last_back{}; // stage B to state
+    VkDescriptorSet pins{};
+    VkDescriptorSet proposed_holds{};
+    VkDescriptorSet proposed_tethers{};
+    VkDescriptorSet strain_first{}; // state to stage B
+    VkDescriptorSet strain_back{};  // stage B to stage A
+    VkDescriptorSet strain_forth{}; // stage A to stage B
+    VkDescriptorSet edit{};
     VkDescriptorSet contact{};
     VkDescriptorSet normals_set{};
     VkDescriptorSet statistics{};
@@ -54,6 +65,9 @@ struct DeviceState
     uint32_t chunk_count = 0;
     uint32_t rk4_chunks = 0; // the first ones
     uint32_t collider_count = 0;
+    uint32_t anchor_capacity = 0;
+    uint32_t hold_capacity = 0;
+    uint32_t tether_capacity = 0;
 };
 
 // What an upload puts into the buffers beside the model's own arrays.
@@ -61,6 +75,9 @@ struct UploadData
 {
     Chunks chunks;
     MeshLists lists;
+    uint32_t anchors = 0; // room for as many
+    uint32_t holds = 0;
+    uint32_t tethers = 0;
 };
 
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,

@@ -28,9 +28,16 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     const auto method = static_cast<uint32_t>(options.contact_method);
     Kernels kernels;
     const auto layout = static_cast<uint32_t>(options.mesh_layout);
+    constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
         {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 4, sizeof(shared::HoldPush), {group}}},
+        {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 6, sizeof(shared::HoldPush), {group}}},
+        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 5, sizeof(shared::HoldPush), {group}}},
+        {&kernels.limit_strain,
+         {"cloth strain limit", shaders::k_limit_strain_comp, 10, sizeof(shared::StrainPush), {group, 0, layout}}},
+        {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 4, k_edit_bytes, {group}}},
         {&kernels.contact,
          {"cloth contact", shaders::k_contact_comp, 13, sizeof(shared::ContactPush), {group, method, layout}}},
         {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},

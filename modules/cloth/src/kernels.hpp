@@ -14,6 +14,11 @@ struct Kernels
 {
     std::array<gpu::Kernel, 4> stages; // the four stages of RK4
     gpu::Kernel verlet;
+    gpu::Kernel pins;
+    gpu::Kernel holds;
+    gpu::Kernel tethers;
+    gpu::Kernel limit_strain;
+    gpu::Kernel edit;
     gpu::Kernel contact;
     gpu::Kernel normals;
     gpu::Kernel statistics;

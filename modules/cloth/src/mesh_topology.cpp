@@ -290,6 +290,7 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
                  [&](const glm::uvec3& t) { return !degenerate(positions, t); });
     MeshTopology mesh;
+    mesh.isometric = isometric;
     mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
     mesh.report.components = count_components(positions.size(), solid);
     mesh.report.shortest_edge = std::numeric_limits<float>::max();

@@ -20,6 +20,7 @@ struct MeshTopology
     std::vector<shared::MeshCorner> corners;
     std::vector<double> areas; // m^2, a third of the triangles around each vertex; 0 for isolated ones
     MeshReport report;
+    bool isometric = false; // it has the coefficients of isometric bending
 
     // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike.
     struct Bounds

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloth/descriptions.hpp"
+#include "cloth/holds.hpp"
 
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -25,6 +26,10 @@ struct ClothModel
     // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
     // area (fabric) or share (material). 0: all are the material's.
     double own_inverse_mass = 0;
+    glm::vec3 velocity{0.f}; // m/s, at the start
+    std::vector<Hold> holds; // pins and others, in the order given
+    std::optional<Tethers> tether_options;
+    std::vector<shared::TetherRecord> tethers;
     std::vector<glm::uvec3> triangles;          // of a mesh, as they were given
     std::vector<glm::vec2> texture_coordinates; // of a mesh
 };
@@ -32,12 +37,14 @@ struct ClothModel
 struct Model
 {
     std::vector<ClothModel> cloths;
-    std::vector<shared::ClothRecord> records;      // one a cloth
-    std::vector<glm::vec4> positions;              // at the start; w: inverse mass
-    std::vector<glm::vec4> velocities;             // at the start
+    std::vector<shared::ClothRecord> records; // one a cloth
+    std::vector<glm::vec4> start;             // places; w: inverse of the area or share that the density multiplies
+    std::vector<glm::vec4> positions;         // at the start; w: inverse mass, 0 if held
+    std::vector<glm::vec4> velocities;        // at the start
     std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
     std::vector<shared::MeshSpring> mesh_springs;
     std::vector<shared::MeshCorner> mesh_corners;
+    std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
     std::vector<shared::ColliderRecord> colliders;
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
@@ -69,17 +76,35 @@ struct ClothInput
 };
 Result<void> validate(const ClothInput& cloth, uint64_t vertices);
 
+// Areal density of a fabric, kg/m^2, or the mass of a vertex, kg.
+double density(const ClothMaterial& material);
+
 // Whether a material bends by the isometric model.
 bool bends_isometrically(const ClothMaterial& material);
 
 // The record that follows from a material; places (first_vertex, first_list) and sizes of `record` are kept.
 void apply_material(const ClothModel& cloth, shared::ClothRecord& record);
 
-// Mass of a vertex by the material, kg.
-double vertex_mass(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex);
-
 // Appends the start of a cloth whose record is complete: masses from the material unless they are given.
 void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index);
+
+// The holds of all cloths as records, pins first, and the tethers.
+struct HoldLists
+{
+    std::vector<shared::HoldRecord> holds;
+    uint32_t pins = 0; // the first ones
+    std::vector<shared::TetherRecord> tethers;
+};
+HoldLists make_hold_lists(const Model& model);
+
+// Errors: a vertex that does not exist or is held twice, an anchor that does not exist, values out of range.
+Result<void> validate_holds(const Model& model, uint32_t cloth, std::span<const Hold> holds);
+
+// The tethers of a cloth by its present pins. Errors: no pin, a value out of range, no vertex that could be tethered.
+Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint32_t cloth, const Tethers& tethers);
+
+// Triangles of a cloth, a grid's cut as Solver::triangles says.
+std::vector<glm::uvec3> cloth_triangles(const Model& model, uint32_t cloth);
 
 // The chunks that cover all cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those of
 // cloths that use RK4 come first.

@@ -1,8 +1,8 @@
 // The recording of a step: the list of passes, as ARCHITECTURE.md shows it.
 #include "solver_state.hpp"
+#include "substeps.hpp"
 
-#include <cmath>
-#include <numbers>
+#include <bit>
 
 namespace cloth
 {
@@ -29,127 +29,23 @@ void end_scope(gpu::Recorder& recorder)
                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
-// The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence")
-// and changes as it goes, a short wave faster than a long one.
-glm::vec4 gust_phases(const Step& step, double time)
-{
-    using glm::vec3;
-    constexpr vec3 k_waves[4] = {VOILE_GUST_WAVES};
-    constexpr double k_change = 0.3; // of the wave's own speed to the wind's
-    const double two_pi = 2 * std::numbers::pi;
-    const double wavenumber = two_pi / static_cast<double>(step.gust_length);
-    const auto speed = static_cast<double>(glm::length(step.wind));
-    glm::vec4 phases;
-    for (int i = 0; i < 4; ++i)
-    {
-        const glm::dvec3 wave(k_waves[i]);
-        const double rate = wavenumber * (glm::dot(wave, glm::dvec3(step.wind)) + k_change * glm::length(wave) * speed);
-        phases[i] = static_cast<float>(std::fmod(rate * time, two_pi));
-    }
-    return phases;
-}
-
-// Records the substeps of one step.
-class SubstepRecorder
-{
-public:
-    SubstepRecorder(gpu::Recorder& recorder, const Kernels& kernels, const DeviceState& device, uint32_t group,
-                    const Step& step, uint32_t substeps)
-        : recorder_(recorder), kernels_(kernels), device_(device), group_(group), step_(step), substeps_(substeps),
-          h_(step.duration / static_cast<float>(substeps)), contact_(device.collider_count > 0)
-    {
-    }
-
-    void record()
-    {
-        for (uint32_t substep = 0; substep < substeps_; ++substep)
-        {
-            const shared::StagePush push = make_push(substep);
-            record_rk4(push);
-            record_verlet(push, substep);
-            if (contact_)
-                recorder_.dispatch(kernels_.contact, device_.contact, device_.chunk_count * group_, group_,
-                                   shared::ContactPush{h_, device_.collider_count});
-        }
-        finish_verlet(make_push(substeps_));
-    }
-
-private:
-    [[nodiscard]] shared::StagePush make_push(uint32_t substep) const
-    {
-        shared::StagePush push{};
-        push.gravity = step_.gravity;
-        push.step = h_;
-        push.wind = step_.wind;
-        push.air_density = step_.air_density;
-        push.gust_speed = step_.gust * glm::length(step_.wind);
-        if (push.gust_speed > 0)
-        {
-            push.gust_phases = gust_phases(step_, step_.time + static_cast<double>(h_) * substep);
-            push.gust_wavenumber = 2 * std::numbers::pi_v<float> / step_.gust_length;
-        }
-        return push;
-    }
-
-    void record_rk4(const shared::StagePush& push)
-    {
-        const uint32_t threads = device_.rk4_chunks * group_;
-        for (size_t stage = 0; stage < 3; ++stage)
-            recorder_.dispatch(kernels_.stages[stage], device_.stages[stage], threads, group_, push);
-        recorder_.dispatch(kernels_.stages[3], contact_ ? device_.stages[3] : device_.last_stage_alone, threads, group_,
-                           push);
-    }
-
-    // Where no contact pass leads from stage B to the state, every second substep does.
-    [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !contact_ && substep % 2 == 1; }
-
-    void record_verlet(shared::StagePush push, uint32_t substep)
-    {
-        push.first_chunk = device_.rk4_chunks;
-        push.kick = substep == 0 ? 0.5f * h_ : h_;
-        push.drift = h_;
-        VkDescriptorSet set = in_stage_b(substep) ? device_.verlet_back : device_.verlet_forth;
-        if (substep == 0)
-            set = device_.verlet_first;
-        recorder_.dispatch(kernels_.verlet, set, verlet_threads(), group_, push);
-    }
-
-    void finish_verlet(shared::StagePush push)
-    {
-        push.first_chunk = device_.rk4_chunks;
-        push.kick = 0.5f * h_;
-        recorder_.dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.verlet_last_back : device_.verlet_last,
-                           verlet_threads(), group_, push);
-    }
-
-    [[nodiscard]] uint32_t verlet_threads() const { return (device_.chunk_count - device_.rk4_chunks) * group_; }
-
-    gpu::Recorder& recorder_;
-    const Kernels& kernels_;
-    const DeviceState& device_;
-    uint32_t group_;
-    const Step& step_;
-    uint32_t substeps_;
-    float h_; // s
-    bool contact_;
-};
-
 } // namespace
 
-void Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps) const
+void Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
 {
     gpu::Recorder recorder(state_->context, cmd, timestamps);
     record(recorder, step);
 }
 
-void Solver::record(gpu::Recorder& recorder, const Step& step) const
+void Solver::record(gpu::Recorder& recorder, const Step& step)
 {
     if (!state_->device || state_->device->chunk_count == 0)
         return;
     const DeviceState& device = *state_->device;
     const uint32_t group = state_->options.workgroup_size;
     begin_scope(recorder);
-    SubstepRecorder(recorder, state_->kernels, device, group, step, State::substeps(*this, step)).record();
+    record_edits(recorder, *state_, step);
+    SubstepRecorder(recorder, *state_, step, State::substeps(*this, step)).record();
     recorder.dispatch(state_->kernels.normals, device.normals_set, device.chunk_count * group, group,
                       std::span<const std::byte>{});
     end_scope(recorder);
@@ -179,8 +75,16 @@ uint32_t Solver::dispatches(const Step& step) const
     const DeviceState& device = *state_->device;
     const bool rk4 = device.rk4_chunks > 0;
     const bool verlet = device.rk4_chunks < device.chunk_count;
-    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (device.collider_count > 0 ? 1 : 0);
-    return State::substeps(*this, step) * a_substep + (verlet ? 1 : 0) + 1;
+    const Passes& passes = state_->passes;
+    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) + (passes.holds > 0 ? 1 : 0) +
+                               (passes.tethers > 0 ? 1 : 0);
+    uint32_t strain = 0;
+    if (passes.strain_spacing > 0)
+    {
+        const auto levels = static_cast<uint32_t>(std::bit_width(passes.strain_spacing));
+        strain = 1 + ((levels * (k_strain_passes + 1) - 1) | 1u);
+    }
+    return State::substeps(*this, step) * a_substep + (verlet ? 1 : 0) + strain + 1;
 }
 
 } // namespace cloth

@@ -70,7 +70,8 @@ Result<ClothId> Solver::add_cloth(const Grid& grid)
         !size)
         return size.error();
     auto result = state_->model.add(grid);
-    state_->dirty |= result.ok();
+    if (result)
+        state_->added();
     return result;
 }
 
@@ -83,7 +84,8 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
         !size)
         return size.error();
     auto result = state_->model.add(mesh);
-    state_->dirty |= result.ok();
+    if (result)
+        state_->added();
     return result;
 }
 
@@ -170,21 +172,7 @@ VertexStreams Solver::vertices(ClothId cloth) const
 
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
-    const ClothModel& model = state_->model.cloths[cloth.index];
-    if (model.mesh)
-        return model.triangles;
-    const shared::ClothRecord& record = state_->model.records[cloth.index];
-    std::vector<glm::uvec3> result;
-    result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
-    for (uint32_t row = 0; row + 1 < record.rows; ++row)
-        for (uint32_t column = 0; column + 1 < record.columns; ++column)
-        {
-            const uint32_t corner = row * record.columns + column;
-            const uint32_t below = corner + record.columns;
-            result.emplace_back(corner, below, corner + 1);
-            result.emplace_back(corner + 1, below, below + 1);
-        }
-    return result;
+    return cloth_triangles(state_->model, cloth.index);
 }
 
 std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const

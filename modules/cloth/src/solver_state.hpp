@@ -10,12 +10,49 @@
 namespace cloth
 {
 
+// What the host asked for since the last record; recorded at the beginning of the next one.
+struct Edits
+{
+    std::vector<uint32_t> records;        // cloths whose record changed
+    std::vector<shared::EditPush> places; // in order
+    bool holds = false;
+    bool tethers = false;
+    bool pins = false; // they must be set again
+
+    [[nodiscard]] bool any() const { return !records.empty() || !places.empty() || holds || tethers || pins; }
+};
+
+// Which of the optional passes a step has, by what there is.
+struct Passes
+{
+    uint32_t pins = 0;
+    uint32_t holds = 0; // others than pins
+    uint32_t tethers = 0;
+    uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
+    bool commit = false;         // the contact pass
+};
+
+struct Anchor
+{
+    glm::mat4 from{1.f}; // world from anchor, at the end of the last step
+    glm::mat4 to{1.f};   // at the end of the next one
+};
+
+// Of the strain limit, on each level.
+constexpr uint32_t k_strain_passes = 16;
+constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
+
 struct Solver::State
 {
     gpu::Context context;
     SolverOptions options;
     Kernels kernels;
     Model model;
+    std::vector<Anchor> anchors{Anchor{}}; // the first is the world
+    bool anchors_moved = false;            // in the last step
+    HoldLists hold_lists;
+    Edits edits;
+    Passes passes;
     std::optional<DeviceState> device; // none before the first upload
     bool dirty = false;
 
@@ -24,7 +61,22 @@ struct Solver::State
     {
         return step.substeps > 0 ? step.substeps : solver.stable_substeps(step.duration, step.max_substeps);
     }
+
+    // After holds, tethers or materials changed, or an upload.
+    void update_passes();
+    void update_holds();
+    // After a cloth was added.
+    void added()
+    {
+        dirty = true;
+        update_holds();
+    }
+    // What the next upload must have room for.
+    [[nodiscard]] bool fits() const;
 };
+
+// Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
+void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);
 
 struct Upload::Contents
 {

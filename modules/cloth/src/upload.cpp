@@ -2,6 +2,7 @@
 #include "solver_state.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace cloth
 {
@@ -82,6 +83,11 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     data.lists = s.options.mesh_layout == MeshLayout::interleaved
                      ? interleave(s.model, s.options.workgroup_size)
                      : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners};
+    static constexpr uint32_t k_room = 16; // for holds and anchors that come later
+    const auto room = [](size_t count) { return std::bit_ceil(std::max(static_cast<uint32_t>(count), k_room)); };
+    data.anchors = room(s.anchors.size());
+    data.holds = room(s.hold_lists.holds.size());
+    data.tethers = room(s.hold_lists.tethers.size());
     auto created = create_device_state(s.context, s.kernels, s.model, data, s.options.statistics_slots);
     if (!created)
         return created.error();
@@ -107,6 +113,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.colliders, 0, bytes_of(s.model.colliders)},
         {next.nodes, 0, bytes_of(s.model.nodes)},
         {next.triangles, 0, bytes_of(s.model.triangles)},
+        {next.start, 0, bytes_of(s.model.start)},
+        {next.holds, 0, bytes_of(s.hold_lists.holds)},
+        {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
         {next.normals, kept_bytes, bytes_of(up)},
@@ -127,6 +136,10 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;
+    s.edits.records.clear();
+    s.edits.holds = s.edits.tethers = false;
+    s.edits.pins |= s.hold_lists.pins > 0; // anchors are not uploaded: the next step sets them
+    s.update_passes();
     return upload;
 }
 

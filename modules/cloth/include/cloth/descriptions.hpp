@@ -49,8 +49,8 @@ struct MeshCloth
     std::span<const glm::uvec3> triangles{};          // indices into positions, counter-clockwise seen from outside
     std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the
                                                       // axis of its smallest extent
-    glm::mat4 transform{1.f}; // world from mesh; affine. The shape at rest is what it makes
-    glm::vec3 velocity{0.f};  // m/s, of every vertex at the start
+    glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
+    glm::vec3 velocity{0.f};                          // m/s, of every vertex at the start
     ClothMaterial material{};
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};

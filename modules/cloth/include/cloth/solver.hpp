@@ -12,23 +12,31 @@
 //   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, contact, normals, statistics,
 //                                            Verlet                 drawing
 //   velocities        vec4, w: touches       the same               stage 1, Verlet, statistics
-//   stage A, stage B  vec4 x and v each      stages 1-4, Verlet     stages 2-4, contact, Verlet
+//   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
+//                                            holds, strain limit
 //   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
 //   mesh lists        MeshVertex, -Spring,   upload                 stages, Verlet, contact, normals, statistics
 //                     -Corner
 //   normals           vec4                   normals                drawing
-//   cloths, chunks    ClothRecord, Chunk     upload                 all
+//   start             vec4 x y z, 1/measure  upload                 edits
+//   anchors, holds,   AnchorRecord,          upload, edits          pins, holds, tethers
+//   tethers           HoldRecord, TetherRecord
+//   cloths, chunks    ClothRecord, Chunk     upload, edits          all
 //   colliders, nodes, triangles              upload                 contact, statistics
 //   partials, result  StatisticsRecord       statistics             the host (result)
 #pragma once
 
 #include "cloth/descriptions.hpp"
+#include "cloth/holds.hpp"
 #include "cloth/statistics.hpp"
 
 #include "gpu/context.hpp"
 #include "gpu/recorder.hpp"
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace cloth
@@ -102,6 +110,27 @@ private:
     std::unique_ptr<Contents> contents_;
 };
 
+// The state of all cloths at one time: positions, velocities, normals. Copied on the GPU by record_save and
+// record_restore, in memory that the host sees, so that it can be kept in a file.
+class Snapshot
+{
+public:
+    ~Snapshot();
+    Snapshot(Snapshot&&) noexcept;
+    Snapshot& operator=(Snapshot&&) noexcept;
+
+    // What record_save copied, once its command buffer has completed.
+    [[nodiscard]] std::span<const std::byte> bytes() const;
+    // Takes what bytes() of another one gave. Errors: another number of bytes.
+    Result<void> assign(std::span<const std::byte> bytes);
+
+private:
+    friend class Solver;
+    struct Contents;
+    explicit Snapshot(std::unique_ptr<Contents> contents);
+    std::unique_ptr<Contents> contents_;
+};
+
 // Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload that follows an addition.
 struct VertexStreams
 {
@@ -131,6 +160,40 @@ public:
     Result<ColliderId> add_collider(const PlaneCollider& collider);
     Result<ColliderId> add_collider(const SphereCollider& collider);
 
+    // Changes of a cloth that is there already. They take effect with the next record (or, where an upload is due, with
+    // the next record after it), without new buffers. Errors leave everything as it was.
+
+    // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
+    // isometric bending of a mesh that was added without.
+    Result<void> set_material(ClothId cloth, const ClothMaterial& material);
+    [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
+
+    // In place of all earlier holds, the vertices held from the start among them; what is no longer held is free.
+    // Tethers follow. Errors: a vertex that does not exist or is held twice, a value out of range, an anchor that does
+    // not exist, tethers that are left without a pin. More holds than ever before need an upload (needs_upload).
+    Result<void> set_holds(ClothId cloth, std::span<const Hold> holds);
+    [[nodiscard]] const std::vector<Hold>& holds(ClothId cloth) const;
+    // A hold for each vertex of the cloth that starts within `distance` (m) of the collider's surface, on the nearest
+    // place of that surface. Errors: no vertex is that near.
+    [[nodiscard]] Result<std::vector<Hold>> holds_on_surface(ClothId cloth, ColliderId collider, float distance) const;
+
+    // Tethers from the present pins; none: takes them away. Errors: no pin, a stretch out of range. More than ever
+    // before need an upload.
+    Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
+
+    // A frame for holds. Errors: a transform that is not finite or has no inverse.
+    Result<AnchorId> add_anchor(const glm::mat4& world_from_anchor);
+    // Where the anchor is at the end of the next step; its holds go there along straight lines.
+    Result<void> move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor);
+
+    // Back to the start: places, velocities, masses. Holds stay as they are.
+    void reset(ClothId cloth);
+    // Moves a cloth at once: places by the transform, velocities by its turning. Pins that have a place go back to it.
+    // Errors: a transform that is not finite.
+    Result<void> transform(ClothId cloth, const glm::mat4& transform);
+    // m/s, of every vertex. Errors: not finite.
+    Result<void> set_velocity(ClothId cloth, const glm::vec3& velocity);
+
     // True if something was added since the last upload.
     [[nodiscard]] bool needs_upload() const;
 
@@ -143,8 +206,14 @@ public:
     // Begins: earlier reads of the vertex streams by vertex input, and transfers, are waited for here; earlier uploads
     // too. Ends: writes are visible to vertex input, compute and transfer reads that follow. Nothing is recorded before
     // the first record_upload, or without cloths.
-    void record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr) const;
-    void record(gpu::Recorder& recorder, const Step& step) const;
+    void record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
+    void record(gpu::Recorder& recorder, const Step& step);
+
+    // The state of all cloths, saved and brought back to the bit. Materials, holds and anchors are the host's and are
+    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices.
+    [[nodiscard]] Result<Snapshot> create_snapshot() const;
+    Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
+    Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
 
     // Records the reduction of the statistics into `slot`, to be read once the submission has completed.
     void record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
@@ -170,10 +239,11 @@ public:
     [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;               // of all cloths
     [[nodiscard]] uint32_t triangle_count() const;             // of all cloths
-    [[nodiscard]] uint32_t dispatches(const Step& step) const; // that record makes
+    [[nodiscard]] uint32_t dispatches(const Step& step) const; // that record makes, without edits
+
+    struct State; // of the implementation
 
 private:
-    struct State;
     explicit Solver(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

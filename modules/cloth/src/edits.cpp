@@ -1,0 +1,129 @@
+// Edits: what the host changes between steps, recorded at the beginning of the next one.
+#include "solver_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace cloth
+{
+
+namespace
+{
+
+constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+constexpr VkAccessFlags2KHR k_storage =
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
+
+// vkCmdUpdateBuffer takes at most 64 KiB at a time; sizes here are multiples of 4 bytes.
+void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
+{
+    constexpr size_t k_most = 65536;
+    while (!bytes.empty())
+    {
+        const auto piece = bytes.first(std::min(bytes.size(), k_most));
+        recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), buffer.handle(), offset, piece.size(), piece.data());
+        offset += piece.size();
+        bytes = bytes.subspan(piece.size());
+    }
+}
+
+template <typename T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values)
+{
+    return std::as_bytes(std::span(values));
+}
+
+// The anchors as the GPU sees them, one at a time: recording allocates nothing.
+void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    for (size_t i = 0; i < solver.anchors.size(); ++i)
+    {
+        const Anchor& anchor = solver.anchors[i];
+        const glm::mat4 motion = anchor.to == anchor.from ? glm::mat4(1) : anchor.to * glm::inverse(anchor.from);
+        const shared::AnchorRecord record{anchor.from, anchor.to, motion};
+        update(recorder, solver.device->anchors, i * sizeof(record), std::as_bytes(std::span(&record, 1)));
+    }
+}
+
+void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, bool anchors)
+{
+    const DeviceState& device = *solver.device;
+    for (const uint32_t cloth : solver.edits.records)
+        update(recorder, device.cloths, cloth * sizeof(shared::ClothRecord),
+               std::as_bytes(std::span(&solver.model.records[cloth], 1)));
+    if (solver.edits.holds)
+        update(recorder, device.holds, 0, bytes_of(solver.hold_lists.holds));
+    if (solver.edits.tethers)
+        update(recorder, device.tethers, 0, bytes_of(solver.hold_lists.tethers));
+    if (anchors)
+        update_anchors(recorder, solver);
+}
+
+} // namespace
+
+bool Solver::State::fits() const
+{
+    return device && anchors.size() <= device->anchor_capacity && hold_lists.holds.size() <= device->hold_capacity &&
+           hold_lists.tethers.size() <= device->tether_capacity;
+}
+
+void Solver::State::update_holds()
+{
+    hold_lists = make_hold_lists(model);
+    edits.holds = edits.tethers = edits.pins = true;
+    if (!fits())
+        dirty = true;
+    update_passes();
+}
+
+void Solver::State::update_passes()
+{
+    if (dirty)
+        return; // the next upload does it: until then the buffers are those of before
+    passes.pins = hold_lists.pins;
+    passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
+    passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
+    passes.strain_spacing = 0;
+    for (const shared::ClothRecord& record : model.records)
+    {
+        if (record.strain_limit == 0)
+            continue;
+        // Half of the longer side and less; a mesh has as many passes as a grid of its size.
+        const uint32_t side = record.columns > 0
+                                  ? std::max(record.columns, record.rows)
+                                  : static_cast<uint32_t>(std::sqrt(static_cast<double>(record.vertices)));
+        passes.strain_spacing = std::max(passes.strain_spacing, std::bit_floor(std::max(side / 2, 1u)));
+    }
+    passes.commit = !model.colliders.empty() || passes.holds > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
+}
+
+void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
+{
+    if (solver.dirty)
+        return;
+    const DeviceState& device = *solver.device;
+    const uint32_t group = solver.options.workgroup_size;
+    const bool moves = std::any_of(solver.anchors.begin(), solver.anchors.end(),
+                                   [](const Anchor& anchor) { return anchor.from != anchor.to; });
+    // Anchors that came to rest leave their pins with the velocity of the last step.
+    const bool anchors = moves || solver.anchors_moved || solver.edits.holds || solver.edits.pins;
+    if (!anchors && !solver.edits.any())
+        return;
+    recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    update_buffers(recorder, solver, anchors);
+    recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                     k_storage);
+    for (const shared::EditPush& edit : solver.edits.places)
+        recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
+    if (anchors || !solver.edits.places.empty())
+        recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
+                          shared::HoldPush{0, solver.passes.pins, step.duration, 0, 0});
+    solver.anchors_moved = moves;
+    for (Anchor& anchor : solver.anchors)
+        anchor.from = anchor.to;
+    solver.edits = {};
+}
+
+} // namespace cloth

@@ -1,0 +1,117 @@
+// Snapshot: the state of all cloths, kept to go back to.
+#include "solver_state.hpp"
+
+#include <algorithm>
+
+namespace cloth
+{
+
+struct Snapshot::Contents
+{
+    gpu::Buffer buffer; // positions, then velocities, then normals
+    VkDeviceSize bytes_a_stream = 0;
+};
+
+Snapshot::Snapshot(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+Snapshot::~Snapshot() = default;
+Snapshot::Snapshot(Snapshot&&) noexcept = default;
+Snapshot& Snapshot::operator=(Snapshot&&) noexcept = default;
+
+std::span<const std::byte> Snapshot::bytes() const
+{
+    contents_->buffer.invalidate();
+    return contents_->buffer.mapped();
+}
+
+Result<void> Snapshot::assign(std::span<const std::byte> bytes)
+{
+    const std::span<std::byte> mapped = contents_->buffer.mapped();
+    if (bytes.size() != mapped.size())
+        return Error{"snapshot: " + std::to_string(bytes.size()) + " bytes, this solver's state has " +
+                     std::to_string(mapped.size())};
+    std::copy(bytes.begin(), bytes.end(), mapped.begin());
+    contents_->buffer.flush();
+    return {};
+}
+
+namespace
+{
+
+constexpr uint32_t k_streams = 3;
+
+struct Streams
+{
+    VkBuffer buffers[k_streams];
+};
+
+Streams streams_of(const DeviceState& device)
+{
+    return {{device.state.positions.handle(), device.state.velocities.handle(), device.normals.handle()}};
+}
+
+// Copies wait for compute, vertex input and earlier copies; what follows waits for them.
+void barrier(const gpu::Context& context, VkCommandBuffer cmd, bool before)
+{
+    constexpr VkPipelineStageFlags2KHR k_users =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR |
+        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | VK_PIPELINE_STAGE_2_HOST_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_COPY_BIT_KHR;
+    constexpr VkAccessFlags2KHR k_copies = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
+    gpu::Recorder recorder(context, cmd);
+    if (before)
+        recorder.barrier(k_users, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR, k_copy, k_copies);
+    else
+        recorder.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_users,
+                         VK_ACCESS_2_MEMORY_READ_BIT_KHR | VK_ACCESS_2_MEMORY_WRITE_BIT_KHR);
+}
+
+} // namespace
+
+Result<Snapshot> Solver::create_snapshot() const
+{
+    if (!state_->device || state_->device->vertices == 0)
+        return Error{"snapshot: nothing has been uploaded yet"};
+    auto contents = std::make_unique<Snapshot::Contents>();
+    contents->bytes_a_stream = state_->device->vertices * sizeof(glm::vec4);
+    auto buffer =
+        gpu::create_buffer(state_->context, "cloth snapshot", k_streams * contents->bytes_a_stream,
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);
+    if (!buffer)
+        return buffer.error();
+    contents->buffer = std::move(buffer.value());
+    return Snapshot(std::move(contents));
+}
+
+Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const
+{
+    const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
+    if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
+        return Error{"snapshot: it was made for another number of vertices"};
+    barrier(state_->context, cmd, true);
+    const Streams streams = streams_of(*state_->device);
+    for (uint32_t i = 0; i < k_streams; ++i)
+    {
+        const VkBufferCopy region{0, i * bytes, bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, streams.buffers[i], snapshot.contents_->buffer.handle(), 1, &region);
+    }
+    barrier(state_->context, cmd, false);
+    return {};
+}
+
+Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapshot)
+{
+    const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
+    if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
+        return Error{"snapshot: it was made for another number of vertices"};
+    barrier(state_->context, cmd, true);
+    const Streams streams = streams_of(*state_->device);
+    for (uint32_t i = 0; i < k_streams; ++i)
+    {
+        const VkBufferCopy region{i * bytes, 0, bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), streams.buffers[i], 1, &region);
+    }
+    barrier(state_->context, cmd, false);
+    return {};
+}
+
+} // namespace cloth

@@ -1,0 +1,208 @@
+// Changes of cloths that are there already. Each is validated here and recorded by edits.cpp.
+#include "bvh_query.hpp"
+#include "solver_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace cloth
+{
+
+namespace
+{
+
+// The same kind of masses as before: what a vertex's density multiplies is fixed when the cloth is added.
+Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
+{
+    if (cloth.material.index() != material.index())
+        return invalid("cloth", cloth.name,
+                       cloth.material.index() == 0 ? "it was added with a Fabric and stays one"
+                                                   : "it was added with a Material and keeps masses of its own");
+    if (cloth.mesh && bends_isometrically(material) && !cloth.mesh->isometric)
+        return invalid("cloth", cloth.name, "isometric bending of a mesh must be there when the mesh is added");
+    if (auto valid = std::visit([](const auto& m) { return validate(m); }, material); !valid)
+        return invalid("cloth", cloth.name, valid.error().message);
+    return {};
+}
+
+// The hierarchy of one mesh collider.
+Bvh bvh_of(const Model& model, uint32_t collider)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    size_t last_node = model.nodes.size();
+    size_t last_triangle = model.triangles.size();
+    for (const shared::ColliderRecord& other : model.colliders)
+        if (other.kind == VOILE_COLLIDER_MESH && other.first_node > record.first_node && other.first_node < last_node)
+        {
+            last_node = other.first_node;
+            last_triangle = other.first_triangle;
+        }
+    const auto slice = [](const auto& values, size_t from, size_t to)
+    { return std::vector(values.begin() + static_cast<ptrdiff_t>(from), values.begin() + static_cast<ptrdiff_t>(to)); };
+    Bvh bvh;
+    bvh.nodes = slice(model.nodes, record.first_node, last_node);
+    bvh.triangles = slice(model.triangles, record.first_triangle, last_triangle);
+    return bvh;
+}
+
+// The nearest place of a collider's surface within `distance`.
+using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
+
+FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    const glm::dvec3 shape(record.shape);
+    const auto size = static_cast<double>(record.shape.w);
+    const auto near = [distance](const glm::dvec3& x, const glm::dvec3& place)
+    { return glm::distance(x, place) <= distance ? std::optional(place) : std::nullopt; };
+    if (record.kind == VOILE_COLLIDER_PLANE)
+        return [=](const glm::dvec3& x) { return near(x, x - (glm::dot(shape, x) - size) * shape); };
+    if (record.kind == VOILE_COLLIDER_SPHERE)
+        return [=](const glm::dvec3& x) { return near(x, shape + size * glm::normalize(x - shape)); };
+    return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
+    {
+        const auto nearest = nearest_point(bvh, x, distance);
+        return nearest ? std::optional(nearest->point) : std::nullopt;
+    };
+}
+
+void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
+{
+    edits.places.push_back({transform, velocity, kind, cloth.index});
+}
+
+} // namespace
+
+Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
+{
+    State& s = *state_;
+    ClothModel& model = s.model.cloths[cloth.index];
+    if (auto valid = check_kind(model, material); !valid)
+        return valid;
+    const bool heavier = density(material) != density(model.material);
+    model.material = material;
+    apply_material(model, s.model.records[cloth.index]);
+    s.edits.records.push_back(cloth.index);
+    if (heavier)
+        add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));
+    s.update_passes();
+    return {};
+}
+
+const ClothMaterial& Solver::material(ClothId cloth) const
+{
+    return state_->model.cloths[cloth.index].material;
+}
+
+Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
+{
+    State& s = *state_;
+    if (auto valid = validate_holds(s.model, cloth.index, holds); !valid)
+        return valid;
+    ClothModel& model = s.model.cloths[cloth.index];
+    std::vector<Hold> before = std::exchange(model.holds, std::vector<Hold>(holds.begin(), holds.end()));
+    if (model.tether_options)
+    {
+        auto tethers = make_tethers(s.model, cloth.index, *model.tether_options);
+        if (!tethers)
+        {
+            model.holds = std::move(before);
+            return tethers.error();
+        }
+        model.tethers = std::move(tethers.value());
+    }
+    add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer held
+    s.update_holds();
+    return {};
+}
+
+const std::vector<Hold>& Solver::holds(ClothId cloth) const
+{
+    return state_->model.cloths[cloth.index].holds;
+}
+
+Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance) const
+{
+    const Model& model = state_->model;
+    if (collider.index >= model.colliders.size())
+        return Error{"collider " + std::to_string(collider.index) + " does not exist"};
+    if (!(distance >= 0) || !std::isfinite(distance))
+        return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
+    const FindSurface find = surface_finder(model, collider.index, static_cast<double>(distance));
+    const shared::ClothRecord& record = model.records[cloth.index];
+    std::vector<Hold> holds;
+    for (uint32_t i = 0; i < record.vertices; ++i)
+        if (const auto place = find(glm::dvec3(model.start[record.first_vertex + i])))
+            holds.push_back({.vertex = i, .place = glm::vec3(*place)});
+    if (holds.empty())
+        return invalid("cloth", name(cloth),
+                       "no vertex starts within " + std::to_string(distance) + " m of the collider");
+    return holds;
+}
+
+Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)
+{
+    State& s = *state_;
+    ClothModel& model = s.model.cloths[cloth.index];
+    std::vector<shared::TetherRecord> records;
+    if (tethers)
+    {
+        auto made = make_tethers(s.model, cloth.index, *tethers);
+        if (!made)
+            return made.error();
+        records = std::move(made.value());
+    }
+    model.tether_options = tethers;
+    model.tethers = std::move(records);
+    s.update_holds();
+    return {};
+}
+
+Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
+{
+    State& s = *state_;
+    if (!finite(world_from_anchor) || !finite(glm::inverse(world_from_anchor)))
+        return Error{"anchor: its transform is not finite or has no inverse"};
+    s.model.anchors.push_back(world_from_anchor);
+    s.anchors.push_back({world_from_anchor, world_from_anchor});
+    if (!s.fits())
+        s.dirty = true;
+    s.edits.pins = true;
+    return AnchorId{static_cast<uint32_t>(s.anchors.size() - 1)};
+}
+
+Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor)
+{
+    State& s = *state_;
+    if (anchor.index == 0 || anchor.index >= s.anchors.size())
+        return Error{"anchor " + std::to_string(anchor.index) + " does not exist"};
+    if (!finite(world_from_anchor) || !finite(glm::inverse(world_from_anchor)))
+        return Error{"anchor " + std::to_string(anchor.index) + ": its transform is not finite or has no inverse"};
+    s.anchors[anchor.index].to = world_from_anchor;
+    return {};
+}
+
+void Solver::reset(ClothId cloth)
+{
+    add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->model.cloths[cloth.index].velocity);
+}
+
+Result<void> Solver::transform(ClothId cloth, const glm::mat4& transform)
+{
+    if (!finite(transform))
+        return invalid("cloth", name(cloth), "the transform is not finite");
+    add_place(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
+    return {};
+}
+
+Result<void> Solver::set_velocity(ClothId cloth, const glm::vec3& velocity)
+{
+    if (!finite(velocity))
+        return invalid("cloth", name(cloth), "the velocity is not finite");
+    add_place(state_->edits, cloth, VOILE_EDIT_VELOCITY, glm::mat4(1), velocity);
+    return {};
+}
+
+} // namespace cloth

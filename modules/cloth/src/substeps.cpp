@@ -1,0 +1,157 @@
+// The passes of one step, as ARCHITECTURE.md lists them.
+#include "substeps.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace cloth
+{
+
+namespace
+{
+
+// The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence")
+// and changes as it goes, a short wave faster than a long one.
+glm::vec4 gust_phases(const Step& step, double time)
+{
+    using glm::vec3;
+    constexpr vec3 k_waves[4] = {VOILE_GUST_WAVES};
+    constexpr double k_change = 0.3; // of the wave's own speed to the wind's
+    const double two_pi = 2 * std::numbers::pi;
+    const double wavenumber = two_pi / static_cast<double>(step.gust_length);
+    const auto speed = static_cast<double>(glm::length(step.wind));
+    glm::vec4 phases;
+    for (int i = 0; i < 4; ++i)
+    {
+        const glm::dvec3 wave(k_waves[i]);
+        const double rate = wavenumber * (glm::dot(wave, glm::dvec3(step.wind)) + k_change * glm::length(wave) * speed);
+        phases[i] = static_cast<float>(std::fmod(rate * time, two_pi));
+    }
+    return phases;
+}
+
+} // namespace
+
+SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step,
+                                 uint32_t substeps)
+    : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
+      group_(solver.options.workgroup_size), substeps_(substeps), h_(step.duration / static_cast<float>(substeps)),
+      commits_(solver.passes.commit)
+{
+}
+
+void SubstepRecorder::record()
+{
+    for (uint32_t substep = 0; substep < substeps_; ++substep)
+    {
+        const shared::StagePush push = make_push(substep);
+        record_rk4(push);
+        record_verlet(push, substep);
+        record_holds(substep);
+        if (commits_)
+            record_contact();
+    }
+    finish_verlet(make_push(substeps_));
+    if (solver_.passes.strain_spacing > 0)
+        record_strain_limit();
+}
+
+shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
+{
+    shared::StagePush push{};
+    push.gravity = step_.gravity;
+    push.step = h_;
+    push.wind = step_.wind;
+    push.air_density = step_.air_density;
+    push.gust_speed = step_.gust * glm::length(step_.wind);
+    if (push.gust_speed > 0)
+    {
+        push.gust_phases = gust_phases(step_, step_.time + static_cast<double>(h_) * substep);
+        push.gust_wavenumber = 2 * std::numbers::pi_v<float> / step_.gust_length;
+    }
+    return push;
+}
+
+void SubstepRecorder::record_rk4(const shared::StagePush& push)
+{
+    const uint32_t threads = device_.rk4_chunks * group_;
+    for (size_t stage = 0; stage < 3; ++stage)
+        recorder_.dispatch(kernels_.stages[stage], device_.stages[stage], threads, group_, push);
+    recorder_.dispatch(kernels_.stages[3], commits_ ? device_.stages[3] : device_.last_stage_alone, threads, group_,
+                       push);
+}
+
+uint32_t SubstepRecorder::verlet_threads() const
+{
+    return (device_.chunk_count - device_.rk4_chunks) * group_;
+}
+
+void SubstepRecorder::record_verlet(shared::StagePush push, uint32_t substep)
+{
+    push.first_chunk = device_.rk4_chunks;
+    push.kick = substep == 0 ? 0.5f * h_ : h_;
+    push.drift = h_;
+    VkDescriptorSet set = in_stage_b(substep) ? device_.verlet_back : device_.verlet_forth;
+    if (substep == 0)
+        set = device_.verlet_first;
+    recorder_.dispatch(kernels_.verlet, set, verlet_threads(), group_, push);
+}
+
+void SubstepRecorder::finish_verlet(shared::StagePush push)
+{
+    push.first_chunk = device_.rk4_chunks;
+    push.kick = 0.5f * h_;
+    recorder_.dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.verlet_last_back : device_.verlet_last,
+                       verlet_threads(), group_, push);
+}
+
+void SubstepRecorder::record_holds(uint32_t substep)
+{
+    const auto a_substep = 1 / static_cast<float>(substeps_);
+    shared::HoldPush push{solver_.passes.pins, solver_.passes.holds, h_, static_cast<float>(substep + 1) * a_substep,
+                          a_substep};
+    recorder_.dispatch(kernels_.holds, device_.proposed_holds, push.count, group_, push);
+    push.first = 0;
+    push.count = solver_.passes.tethers;
+    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers, push.count, group_, push);
+}
+
+void SubstepRecorder::record_contact()
+{
+    recorder_.dispatch(kernels_.contact, device_.contact, device_.chunk_count * group_, group_,
+                       shared::ContactPush{h_, device_.collider_count});
+}
+
+// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
+void SubstepRecorder::record_strain_limit()
+{
+    uint32_t pass = 0;
+    const auto record_pass = [&](const shared::StrainPush& push)
+    {
+        const VkDescriptorSet set = pass == 0       ? device_.strain_first
+                                    : pass % 2 == 1 ? device_.strain_back
+                                                    : device_.strain_forth;
+        recorder_.dispatch(kernels_.limit_strain, set, device_.chunk_count * group_, group_, push);
+        ++pass;
+    };
+    for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
+    {
+        if (spacing < solver_.passes.strain_spacing)
+            record_pass({spacing, 1, 1});
+        float acceleration = 1;
+        for (uint32_t i = 0; i < k_strain_passes; ++i)
+        {
+            record_pass({spacing, 0, acceleration});
+            // Golub and Varga 1961, after Wang 2015, "A Chebyshev semi-iterative approach for accelerating projective
+            // and position-based dynamics".
+            if (i > 0)
+                acceleration = i == 1 ? 2 / (2 - k_strain_radius * k_strain_radius)
+                                      : 4 / (4 - k_strain_radius * k_strain_radius * acceleration);
+        }
+    }
+    if (pass % 2 == 0)
+        record_pass({1, 0, 1});
+    record_contact();
+}
+
+} // namespace cloth

@@ -1,0 +1,40 @@
+// SubstepRecorder: the passes of one step, substep by substep.
+#pragma once
+
+#include "solver_state.hpp"
+
+namespace cloth
+{
+
+class SubstepRecorder
+{
+public:
+    SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps);
+
+    // Integration, holds, tethers and contact of each substep, and the strain limit at the end.
+    void record();
+
+private:
+    [[nodiscard]] shared::StagePush make_push(uint32_t substep) const;
+    void record_rk4(const shared::StagePush& push);
+    void record_verlet(shared::StagePush push, uint32_t substep);
+    void finish_verlet(shared::StagePush push);
+    void record_holds(uint32_t substep);
+    void record_contact();
+    void record_strain_limit();
+    // Where nothing commits what a substep proposes, Verlet goes back and forth between the state and stage B.
+    [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !commits_ && substep % 2 == 1; }
+    [[nodiscard]] uint32_t verlet_threads() const;
+
+    gpu::Recorder& recorder_;
+    const Solver::State& solver_;
+    const Kernels& kernels_;
+    const DeviceState& device_;
+    const Step& step_;
+    uint32_t group_;
+    uint32_t substeps_;
+    float h_;      // s
+    bool commits_; // the contact pass runs, which takes what is proposed in stage B into the state
+};
+
+} // namespace cloth

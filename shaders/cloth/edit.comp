@@ -1,0 +1,38 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the host does to a whole cloth between two steps: masses by a new density, reset, teleport, a velocity. One thread a
+// vertex of that cloth.
+// Reads: cloths, start. Writes: state.
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Start { vec4 start[]; }; // w: inverse of what density multiplies
+layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
+
+layout(push_constant, std430) uniform Push { EditPush push; };
+
+void main()
+{
+    const uint local = gl_GlobalInvocationID.x;
+    if (local >= cloths[push.cloth].vertices)
+        return;
+    const uint i = cloths[push.cloth].first_vertex + local;
+    const float inverse_mass = start[i].w * cloths[push.cloth].inverse_density;
+    if (push.kind == VOILE_EDIT_MASSES)
+        positions[i].w = inverse_mass;
+    else if (push.kind == VOILE_EDIT_RESET)
+    {
+        positions[i] = vec4(start[i].xyz, inverse_mass);
+        velocities[i] = vec4(push.velocity, 0);
+    }
+    else if (push.kind == VOILE_EDIT_TRANSFORM)
+    {
+        positions[i].xyz = (push.transform * vec4(positions[i].xyz, 1)).xyz;
+        velocities[i] = vec4(mat3(push.transform) * velocities[i].xyz, 0);
+    }
+    else
+        velocities[i] = vec4(push.velocity, 0);
+}

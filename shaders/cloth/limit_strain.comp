@@ -1,0 +1,179 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One pass of the strain limit, after a step's last substep: where a spring is longer than its limit, both ends are moved
+// towards each other, each by its share of the masses, and the velocity that lengthens it on is taken from both alike. All
+// springs at once (Jacobi): what one end gets the other gets in return, so that momentum is kept.
+//
+// A pass over neighbours carries a correction one spring far. On a grid, passes therefore go from coarse to fine: a level
+// moves only the vertices whose row and column are multiples of its spacing, and after it the vertices between take the mean
+// of what their neighbours were moved by (after Müller 2008, "Hierarchical position based dynamics"). A bound for the way
+// between far vertices follows from those for the springs between them, so that nothing is limited that the limit would not.
+// A coarse vertex has the mass of what moves with it, which keeps the momentum of the whole. A mesh compares the ends of its
+// edges in every pass.
+// A thread moves one vertex. Reads: cloths, chunks, mesh lists, places at the step's end, state before. Writes: state after.
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) buffer NextPositions { vec4 next_positions[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(set = 0, binding = 6, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 7, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+
+layout(set = 0, binding = 8, std430) readonly buffer StepPositions { vec4 step_positions[]; };
+layout(set = 0, binding = 9, std430) readonly buffer StepVelocities { vec4 step_velocities[]; };
+
+layout(push_constant, std430) uniform Push { StrainPush push; };
+
+#include "grid.glsl"
+#include "mesh.glsl"
+
+struct Correction
+{
+    vec3 x; // m
+    vec3 v; // m/s
+};
+
+// Springs this near below their limit have their lengthening stopped too, or they would swing about it.
+const float k_taut = 0.995;
+
+// `own`, `theirs`: inverse masses, or what stands for them on a coarse level.
+void add_limit(inout Correction correction, vec3 x, vec3 v, float own, uint other, float theirs, float longest)
+{
+    const vec3 delta = positions[other].xyz - x;
+    const float distance = length(delta);
+    if (distance < k_taut * longest || own == 0)
+        return;
+    const vec3 n = delta / distance;
+    const float share = own / (own + theirs);
+    correction.x += share * max(distance - longest, 0) * n;
+    correction.v += share * max(dot(velocities[other].xyz - v, n), 0) * n;
+}
+
+// How many lines of a grid move with a coarse line: the sum of the weights (1 - distance / spacing) of the lines around it,
+// and of all lines beyond the last coarse one; lines on the border count as their share of the mass.
+float lines_with(int line, int lines, int spacing, float border_share)
+{
+    const int last = (lines - 1) / spacing * spacing;
+    const float beside = 0.5 * float(spacing - 1);
+    const float before = line == 0 ? 0 : beside;
+    const float after = line < last ? beside : line == lines - 1 ? 0 : float(lines - 2 - last) + border_share;
+    const float self = line == 0 || line == lines - 1 ? border_share : 1;
+    return before + self + after;
+}
+
+bool on_level(ivec2 place, int spacing) { return all(equal(place % spacing, ivec2(0))); }
+
+float coarse_inverse_mass(uint cloth, ivec2 place, uint index, int spacing)
+{
+    const float inverse_mass = positions[index].w;
+    if (spacing == 1 || inverse_mass == 0)
+        return inverse_mass;
+    const float share = cloths[cloth].border_share;
+    return 1 / (lines_with(place.x, int(cloths[cloth].columns), spacing, share) *
+                lines_with(place.y, int(cloths[cloth].rows), spacing, share));
+}
+
+Correction limit_grid(uint cloth, GridVertex self, vec3 x, vec3 v)
+{
+    Correction correction = Correction(vec3(0), vec3(0));
+    const uint columns = cloths[cloth].columns;
+    const int spacing = int(push.spacing);
+    const ivec2 place = ivec2(self.column, self.row);
+    if (!on_level(place, spacing))
+        return correction;
+    const float own = coarse_inverse_mass(cloth, place, self.index, spacing);
+    for (int c = 0; c < 4; ++c) // structural and shear
+        for (int side = 0; side < 2; ++side)
+        {
+            const SpringClass spring = cloths[cloth].springs[c];
+            const ivec2 offset = (side == 0 ? 1 : -1) * spacing * k_spring_offsets[c];
+            if (spring.stiffness == 0 || !in_grid(place + offset, columns, cloths[cloth].rows))
+                continue;
+            const uint other = neighbour(self, offset, columns);
+            add_limit(correction, x, v, own, other, coarse_inverse_mass(cloth, place + offset, other, spacing),
+                      (1 + cloths[cloth].strain_limit) * float(spacing) * spring.rest_length);
+        }
+    return correction;
+}
+
+// What a vertex between the lines of the level before takes over from its neighbours on them.
+Correction between(uint cloth, GridVertex self)
+{
+    Correction sum = Correction(vec3(0), vec3(0));
+    const int spacing = int(push.spacing);
+    const ivec2 place = ivec2(self.column, self.row);
+    if (!on_level(place, spacing) || on_level(place, 2 * spacing))
+        return sum;
+    const ivec2 off = (place / spacing) % 2; // 1 where it lies between
+    float count = 0;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+        const ivec2 side = ivec2(corner % 2, corner / 2);
+        if (any(greaterThan(side, off)))
+            continue; // not between: one neighbour, itself
+        const ivec2 offset = spacing * off * (1 - 2 * side);
+        if (!in_grid(place + offset, cloths[cloth].columns, cloths[cloth].rows))
+            continue;
+        const uint other = neighbour(self, offset, cloths[cloth].columns);
+        sum.x += positions[other].xyz - step_positions[other].xyz;
+        sum.v += velocities[other].xyz - step_velocities[other].xyz;
+        count += 1;
+    }
+    return Correction(sum.x / count, sum.v / count);
+}
+
+Correction limit_mesh(uint cloth, uint local, vec3 x, vec3 v, float inverse_mass)
+{
+    Correction correction = Correction(vec3(0), vec3(0));
+    const uint first = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        const uint other = first + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
+        if ((entry.neighbour & VOILE_OPPOSITE_BIT) == 0)
+            add_limit(correction, x, v, inverse_mass, other, positions[other].w,
+                      (1 + cloths[cloth].strain_limit) * entry.rest_length);
+    }
+    return correction;
+}
+
+void main()
+{
+    const Chunk chunk = chunks[gl_WorkGroupID.x];
+    const uint cloth = chunk.cloth;
+    const uint local = chunk.first + gl_LocalInvocationID.x;
+    if (local >= cloths[cloth].vertices)
+        return;
+    const uint i = cloths[cloth].first_vertex + local;
+    const vec4 x = positions[i];
+    const vec4 v = velocities[i];
+    const bool grid = cloths[cloth].columns > 0;
+    Correction correction = Correction(vec3(0), vec3(0));
+    if (cloths[cloth].strain_limit > 0 && x.w > 0)
+    {
+        float relaxation = cloths[cloth].strain_relaxation;
+        if (!grid)
+            correction = limit_mesh(cloth, local, x.xyz, v.xyz, x.w);
+        else if (push.between == 1)
+        {
+            correction = between(cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local));
+            relaxation = 1;
+        }
+        else
+            correction =
+                limit_grid(cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local), x.xyz, v.xyz);
+        correction.x *= relaxation;
+        correction.v *= relaxation;
+    }
+    vec3 next_x = x.xyz + correction.x;
+    if (push.acceleration != 1) // what this pass overwrites is the result of the last but one
+        next_x = mix(next_positions[i].xyz, next_x, push.acceleration);
+    next_positions[i] = vec4(next_x, x.w);
+    next_velocities[i] = vec4(v.xyz + correction.v, v.w);
+}

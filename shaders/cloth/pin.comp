@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Pins, once a step before its first substep: sets each on its place and gives it the velocity that takes it to where it is
+// at the step's end, along a straight line. One thread a pin.
+// Reads: holds, anchors. Writes: state.
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Holds { HoldRecord holds[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
+layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Velocities { vec4 velocities[]; };
+
+layout(push_constant, std430) uniform Push { HoldPush push; };
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= push.count)
+        return;
+    const HoldRecord hold = holds[push.first + gl_GlobalInvocationID.x];
+    const AnchorRecord anchor = anchors[hold.anchor];
+    const bool placed = (hold.flags & VOILE_HOLD_PLACED) != 0;
+    const vec3 from = placed ? (anchor.from * vec4(hold.place, 1)).xyz : positions[hold.vertex].xyz;
+    const vec3 to = placed ? (anchor.to * vec4(hold.place, 1)).xyz : (anchor.motion * vec4(from, 1)).xyz;
+    positions[hold.vertex] = vec4(from, 0);
+    velocities[hold.vertex] = vec4((to - from) / push.step, 0);
+}

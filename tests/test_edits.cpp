@@ -1,0 +1,175 @@
+// What changes while a cloth is there: materials, reset, teleport, velocity, and snapshots to the bit.
+#include "cloth_harness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+cloth::Fabric stretchy(float stiffness)
+{
+    cloth::Fabric fabric;
+    fabric.areal_density = 0.2f;
+    fabric.stretch_stiffness = {stiffness, stiffness};
+    fabric.shear_stiffness = 0;
+    fabric.bending_stiffness = 0;
+    fabric.damping_ratio = 0.5f;
+    fabric.air_drag_normal = fabric.air_drag_tangential = 5;
+    return fabric;
+}
+
+// Hangs by its first row.
+cloth::Grid hanging(const cloth::ClothMaterial& material)
+{
+    cloth::Grid grid;
+    grid.columns = grid.rows = 9;
+    grid.transform[1] = {0, 0, 1, 0};
+    grid.transform[2] = {0, -1, 0, 0};
+    grid.transform[3] = {0, -0.5f, 0, 1};
+    grid.material = material;
+    for (uint32_t column = 0; column < 9; ++column)
+        grid.held.push_back(column);
+    return grid;
+}
+
+double lengthening(const std::vector<glm::vec4>& x)
+{
+    return -static_cast<double>(x[8 * 9 + 4].y) - 1;
+}
+
+bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("a material changes while the cloth hangs, in the same buffers")
+{
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(hanging(stretchy(50))));
+    harness.upload();
+    const VkBuffer buffer = harness.solver.vertices(id).positions;
+    const auto settled = [&]
+    {
+        harness.step({.air_density = 5}, 150);
+        return lengthening(harness.positions(id));
+    };
+    const double weight = 0.2 * 9.81; // a square metre
+    CHECK(settled() == doctest::Approx(weight / (2 * 50)).epsilon(0.01));
+    engine::take(harness.solver.set_material(id, stretchy(100)));
+    CHECK_FALSE(harness.solver.needs_upload());
+    CHECK(settled() == doctest::Approx(weight / (2 * 100)).epsilon(0.01));
+    cloth::Fabric heavy = stretchy(100);
+    heavy.areal_density = 0.6f;
+    engine::take(harness.solver.set_material(id, heavy));
+    CHECK(settled() == doctest::Approx(3 * weight / (2 * 100)).epsilon(0.01));
+    CHECK(1 / harness.positions(id)[40].w == doctest::Approx(0.6f / 64));
+    CHECK(harness.positions(id)[0].w == 0); // still held
+    CHECK(harness.solver.vertices(id).positions == buffer);
+}
+
+TEST_CASE("a material that does not fit the cloth is refused, and the old one stays")
+{
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(hanging(stretchy(50))));
+    const auto reason = [&](const cloth::ClothMaterial& material)
+    {
+        const auto result = harness.solver.set_material(id, material);
+        CHECK(std::get<cloth::Fabric>(harness.solver.material(id)).stretch_stiffness[0] == 50);
+        return result ? std::string() : result.error().message;
+    };
+    CHECK(reason(cloth::reference_material()) == "cloth \"cloth\": it was added with a Fabric and stays one");
+    cloth::Fabric slippery = stretchy(70);
+    slippery.kinetic_friction = 0.9f;
+    slippery.static_friction = 0.1f;
+    CHECK(reason(slippery) ==
+          "cloth \"cloth\": fabric: static_friction is 0.1, must be at least kinetic_friction, 0.9");
+    cloth::Fabric negative = stretchy(70);
+    negative.areal_density = -1;
+    CHECK(reason(negative) == "cloth \"cloth\": fabric: areal_density is -1 kg/m^2, must be 0.001 to 1000");
+    cloth::Fabric limit = stretchy(70);
+    limit.strain_limit = 1e-6f;
+    CHECK(reason(limit) == "cloth \"cloth\": fabric: strain_limit is 1e-06, must be 0.001 to 10, or 0 for none");
+}
+
+TEST_CASE("a cloth is put back to its start, moved at once and given a velocity")
+{
+    ClothHarness harness;
+    cloth::Grid grid = hanging(stretchy(50));
+    grid.held = {};
+    grid.velocity = {1, 0, 0};
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    const cloth::ClothId other = engine::take(harness.solver.add_cloth(hanging(stretchy(80))));
+    harness.upload();
+    const auto start = harness.positions(id);
+    harness.step({}, 20);
+    const auto first = harness.positions(id);
+    const auto untouched = harness.positions(other);
+    harness.solver.reset(id);
+    harness.step({}, 20);
+    CHECK(same_bits(harness.positions(id), first)); // the same fall once more
+    CHECK_FALSE(same_bits(harness.positions(other), untouched));
+
+    // Nothing but the edit and one tiny step without gravity.
+    const cloth::Step still{.duration = 1e-6f, .gravity = {0, 0, 0}};
+    harness.solver.reset(id);
+    engine::take(harness.solver.set_velocity(id, {0, 0, 0}));
+    glm::mat4 turn(1.f);
+    turn[0] = {0, 0, -1, 0};
+    turn[2] = {1, 0, 0, 0};
+    turn[3] = {5, 6, 7, 1};
+    engine::take(harness.solver.transform(id, turn));
+    harness.step(still);
+    const auto moved = harness.positions(id);
+    for (size_t i = 0; i < start.size(); ++i)
+        CHECK(glm::distance(glm::vec3(moved[i]), glm::vec3(turn * glm::vec4(glm::vec3(start[i]), 1))) < 2e-6f);
+    engine::take(harness.solver.set_velocity(id, {0, 3, 0}));
+    engine::take(harness.solver.transform(id, glm::mat4(1.f)));
+    harness.step(still);
+    for (const glm::vec4& v : harness.velocities(id))
+        CHECK(v.y == doctest::Approx(3).epsilon(1e-3));
+    CHECK_FALSE(harness.solver.transform(id, glm::mat4(NAN)).ok());
+    CHECK_FALSE(harness.solver.set_velocity(id, glm::vec3(INFINITY)).ok());
+}
+
+TEST_CASE("a snapshot brings the state back to the bit, also by way of the host")
+{
+    for (const cloth::Integrator integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    {
+        ClothHarness harness;
+        cloth::Grid grid = hanging(stretchy(50));
+        grid.integrator = integrator;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        (void)engine::take(
+            harness.solver.add_collider(cloth::SphereCollider{.center = {0, -0.8f, 0.1f}, .radius = 0.2f}));
+        CHECK_FALSE(harness.solver.create_snapshot().ok()); // nothing uploaded yet
+        harness.upload();
+        const cloth::Step step{.wind = {0, 0, 3}, .gust = 0.5f};
+        harness.step(step, 25);
+        const cloth::Snapshot snapshot = engine::take(harness.solver.create_snapshot());
+        harness.run([&](VkCommandBuffer cmd) { engine::take(harness.solver.record_save(cmd, snapshot)); });
+        const std::vector<std::byte> kept(snapshot.bytes().begin(), snapshot.bytes().end());
+        const auto saved = harness.positions(id);
+        harness.step(step, 25);
+        const auto x = harness.positions(id);
+        const auto v = harness.velocities(id);
+        for (const bool by_host : {false, true})
+        {
+            cloth::Snapshot other = engine::take(harness.solver.create_snapshot());
+            if (by_host)
+                engine::take(other.assign(kept));
+            harness.run([&](VkCommandBuffer cmd)
+                        { engine::take(harness.solver.record_restore(cmd, by_host ? other : snapshot)); });
+            CHECK(same_bits(harness.positions(id), saved));
+            harness.step(step, 25);
+            CHECK(same_bits(harness.positions(id), x));
+            CHECK(same_bits(harness.velocities(id), v));
+            CHECK_FALSE(other.assign(std::span(kept).first(16)).ok());
+        }
+    }
+}

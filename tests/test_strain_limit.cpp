@@ -1,0 +1,131 @@
+// The strain limit: kept at the end of each step, without jitter, and without a change of momentum.
+#include "cloth_harness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+constexpr float k_limit = 0.05f;
+// What material.hpp states: the largest stretch is at most 1.2 times the limit.
+constexpr double k_most = 1.2 * 0.05;
+
+cloth::Fabric soft()
+{
+    cloth::Fabric fabric;
+    fabric.areal_density = 0.2f;
+    fabric.stretch_stiffness = {10, 10}; // stretches by rho g L / k = 20 % at the top, twice that in its swing
+    fabric.shear_stiffness = 3;
+    fabric.damping_ratio = 0.05f;
+    fabric.air_drag_normal = fabric.air_drag_tangential = 0.5f;
+    fabric.strain_limit = k_limit;
+    return fabric;
+}
+
+// Starts level, held by its first row.
+cloth::Grid sheet(uint32_t side, cloth::Integrator integrator)
+{
+    cloth::Grid grid;
+    grid.columns = grid.rows = side;
+    grid.material = soft();
+    grid.integrator = integrator;
+    for (uint32_t column = 0; column < side; ++column)
+        grid.held.push_back(column);
+    return grid;
+}
+
+struct Moments
+{
+    glm::dvec3 centre{0.0};   // kg m
+    glm::dvec3 momentum{0.0}; // kg m/s
+    double size = 0;          // kg m/s, sum of |m v|
+};
+
+Moments moments(ClothHarness& harness, cloth::ClothId id)
+{
+    const auto x = harness.positions(id);
+    const auto v = harness.velocities(id);
+    Moments result;
+    for (size_t i = 0; i < x.size(); ++i)
+    {
+        const double mass = 1 / static_cast<double>(x[i].w);
+        result.centre += mass * glm::dvec3(x[i]);
+        result.momentum += mass * glm::dvec3(v[i]);
+        result.size += mass * glm::length(glm::dvec3(v[i]));
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("a soft sheet that swings down keeps its strain limit at the end of every step")
+{
+    for (const uint32_t side : {16u, 64u})
+        for (const cloth::Integrator integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+        {
+            CAPTURE(side);
+            CAPTURE(int(integrator));
+            ClothHarness harness;
+            (void)engine::take(harness.solver.add_cloth(sheet(side, integrator)));
+            harness.upload();
+            double worst = 0;
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                harness.step({});
+                worst = std::max(worst, static_cast<double>(harness.statistics().max_stretch));
+            }
+            CHECK(worst < k_most);
+            CHECK(worst > 0.9 * static_cast<double>(k_limit)); // it was at its limit
+        }
+}
+
+TEST_CASE("a cloth at its strain limit hangs still")
+{
+    ClothHarness harness;
+    cloth::Grid grid = sheet(24, cloth::Integrator::rk4);
+    std::get<cloth::Fabric>(grid.material).damping_ratio = 0.5f; // its own slow swinging is not what is looked for
+    grid.transform[1] = {0, 0, 1, 0};                            // hangs from the start
+    grid.transform[2] = {0, -1, 0, 0};
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    const cloth::Step step{.air_density = 20}; // takes away the swinging, not what a step adds anew
+    harness.step(step, 150);
+    CHECK(static_cast<double>(harness.statistics().max_stretch) > 0.9 * static_cast<double>(k_limit));
+    const auto before = harness.positions(id);
+    double moved = 0;
+    for (int frame = 0; frame < 20; ++frame)
+    {
+        harness.step(step);
+        const auto after = harness.positions(id);
+        for (size_t i = 0; i < before.size(); ++i)
+            moved = std::max(moved, static_cast<double>(glm::distance(glm::vec3(before[i]), glm::vec3(after[i]))));
+    }
+    CHECK(moved < 2e-4); // m; a step without the limit would add g t^2 / 2 = 1.4e-3 m to the lowest springs
+}
+
+TEST_CASE("the strain limit keeps momentum and centre of mass of a free cloth")
+{
+    for (const uint32_t columns : {17u, 30u}) // lines that end a level, and lines beyond the last of one
+    {
+        CAPTURE(columns);
+        cloth::Grid grid = sheet(16, cloth::Integrator::rk4);
+        grid.columns = columns;
+        grid.held = {};
+        grid.transform[0] *= 1.3f; // stretched far beyond the limit
+        grid.velocity = {1, 0.5f, -0.3f};
+        ClothHarness harness;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        harness.upload();
+        const Moments before = moments(harness, id);
+        harness.step({.duration = 1e-4f, .gravity = {0, 0, 0}, .air_density = 0});
+        const Moments after = moments(harness, id);
+        CHECK(static_cast<double>(harness.statistics().max_stretch) < 0.2); // from 0.3, in one step
+        // Each of about 70 passes rounds each value once, at random: sqrt(70) ulp of each vertex, far fewer of the sum.
+        const double rounding = 10 * std::exp2(-24);
+        CHECK(glm::length(after.momentum - before.momentum) < rounding * before.size);
+        CHECK(glm::length(after.centre - before.centre - 1e-4 * before.momentum) < rounding * 0.2);
+    }
+}
