@@ -5,6 +5,9 @@
 
 #include "engine/gpu/device.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
 #include <string>
 
 namespace bench
@@ -72,36 +75,104 @@ Cloths add_hundred_cloths(cloth::Solver& solver)
     return cloths;
 }
 
-// The drape scene's sheet: 2.4 m square, no air.
 template <uint32_t side>
 Cloths add_drape_sheet(cloth::Solver& solver)
 {
-    constexpr float k_size = 2.4f;
-    cloth::Fabric fabric;
-    fabric.areal_density = 0.3f;
-    fabric.stretch_stiffness = {1000, 1000};
-    fabric.shear_stiffness = 333;
-    fabric.bending_stiffness = 2e-5f;
-    fabric.thickness = 0.005f;
-    fabric.static_friction = 0.4f;
-    fabric.kinetic_friction = 0.4f;
-    fabric.air_drag_normal = 0;
-    fabric.air_drag_tangential = 0;
+    return {engine::take(solver.add_cloth(drape_grid(side)))};
+}
 
-    cloth::Grid grid;
-    grid.columns = side;
-    grid.rows = side;
-    grid.width = k_size;
-    grid.depth = k_size;
-    grid.transform[3] = {0, 0.85f, 0, 1};
-    grid.material = fabric;
+Cloths add_verlet_sheet(cloth::Solver& solver)
+{
+    cloth::Grid grid = drape_grid(128);
+    grid.integrator = cloth::Integrator::verlet;
     return {engine::take(solver.add_cloth(grid))};
+}
+
+// The sheet as a mesh of triangles, cut as the solver cuts a grid.
+cloth::ClothId add_mesh_sheet(cloth::Solver& solver, bool shuffled, cloth::BendingModel bending)
+{
+    constexpr uint32_t k_side = 128;
+    const cloth::Grid grid = drape_grid(k_side);
+    std::vector<uint32_t> place(size_t{k_side} * k_side);
+    std::iota(place.begin(), place.end(), 0u);
+    if (shuffled) // as a file may have its vertices in any order
+        std::shuffle(place.begin(), place.end(), std::mt19937(1));
+    std::vector<glm::vec3> positions(place.size());
+    std::vector<glm::uvec3> triangles;
+    for (uint32_t row = 0; row < k_side; ++row)
+        for (uint32_t column = 0; column < k_side; ++column)
+        {
+            const uint32_t corner = row * k_side + column;
+            const auto along = [&](uint32_t i) { return grid.width * (static_cast<float>(i) / (k_side - 1) - 0.5f); };
+            positions[place[corner]] = {along(column), 0.85f, along(row)};
+            if (row + 1 == k_side || column + 1 == k_side)
+                continue;
+            triangles.emplace_back(place[corner], place[corner + k_side], place[corner + 1]);
+            triangles.emplace_back(place[corner + 1], place[corner + k_side], place[corner + k_side + 1]);
+        }
+    cloth::MeshCloth mesh;
+    mesh.positions = positions;
+    mesh.triangles = triangles;
+    cloth::Fabric fabric = std::get<cloth::Fabric>(grid.material);
+    fabric.bending_model = bending;
+    mesh.material = fabric;
+    return engine::take(solver.add_cloth(mesh));
+}
+
+template <bool shuffled, bool isometric>
+Cloths add_mesh_sheet(cloth::Solver& solver)
+{
+    return {
+        add_mesh_sheet(solver, shuffled, isometric ? cloth::BendingModel::isometric : cloth::BendingModel::springs)};
+}
+
+// The sheet of 128 x 128 with one thing more, to see what that costs.
+template <void (*change)(cloth::Fabric&)>
+Cloths add_changed_sheet(cloth::Solver& solver)
+{
+    cloth::Grid grid = drape_grid(128);
+    change(std::get<cloth::Fabric>(grid.material));
+    return {engine::take(solver.add_cloth(grid))};
+}
+
+void bend_isometrically(cloth::Fabric& fabric)
+{
+    fabric.bending_model = cloth::BendingModel::isometric;
+}
+
+void feel_air(cloth::Fabric& fabric)
+{
+    fabric.air_drag_normal = 1.28f;
+    fabric.air_drag_tangential = 0.05f;
+}
+
+void limit_strain(cloth::Fabric& fabric)
+{
+    fabric.strain_limit = 0.05f;
+}
+
+// Held by its first row, which moves; all other vertices tethered to it, or on a leash.
+template <bool tethers>
+Cloths add_held_sheet(cloth::Solver& solver)
+{
+    const cloth::ClothId id = engine::take(solver.add_cloth(drape_grid(128)));
+    std::vector<cloth::Hold> holds;
+    for (uint32_t i = 0; i < 128 * 128; ++i)
+        if (i < 128)
+            holds.push_back({.vertex = i});
+        else if (!tethers)
+            holds.push_back({.vertex = i, .stiffness = 0, .max_distance = 10});
+    engine::take(solver.set_holds(id, holds));
+    if (tethers)
+        engine::take(solver.set_tethers(id, cloth::Tethers{}));
+    return {id};
 }
 
 constexpr uint32_t k_contact_frames = 42; // 0.7 s: the cloth lies on the heart, its rim still falls
 constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart or the ground
 
 constexpr auto k_nearest = cloth::ContactMethod::nearest_point;
+constexpr auto k_interleaved = cloth::MeshLayout::interleaved;
 constexpr auto k_ray = cloth::ContactMethod::normal_ray;
 
 constexpr Case k_cases[] = {
@@ -116,11 +187,47 @@ constexpr Case k_cases[] = {
     {"grid-256", "256 x 256", add_drape_sheet<256>},
     {"grid-512", "512 x 512", add_drape_sheet<512>},
     {"grid-1024", "1024 x 1024", add_drape_sheet<1024>},
+    {"grid-128", "128 x 128; the following have one thing more", add_drape_sheet<128>},
+    {"verlet-128", "velocity Verlet in place of RK4", add_verlet_sheet},
+    {"isometric-128", "bending by the isometric model in place of springs", add_changed_sheet<bend_isometrically>},
+    {"air-128", "air drag", add_changed_sheet<feel_air>},
+    {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,
+     0.3f},
+    {"strain-limit-128", "a strain limit of 5 %, once a frame", add_changed_sheet<limit_strain>},
+    {"tethers-128", "a row of pins, and a tether to it for every other vertex", add_held_sheet<true>},
+    {"leashes-128", "a row of pins, and a leash for every other vertex", add_held_sheet<false>},
+    {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>},
+    {"mesh-128-compact", "its lists one after the other", add_mesh_sheet<false, false>, k_nearest, 0, false,
+     cloth::MeshLayout::compact},
+    {"mesh-128-shuffled", "its vertices in random order", add_mesh_sheet<true, false>},
+    {"mesh-128-isometric", "bending by the isometric model", add_mesh_sheet<false, true>},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };
 
 } // namespace
+
+cloth::Grid drape_grid(uint32_t side)
+{
+    cloth::Fabric fabric;
+    fabric.areal_density = 0.3f;
+    fabric.stretch_stiffness = {1000, 1000};
+    fabric.shear_stiffness = 333;
+    fabric.bending_stiffness = 2e-5f;
+    fabric.thickness = 0.005f;
+    fabric.static_friction = 0.4f;
+    fabric.kinetic_friction = 0.4f;
+    fabric.air_drag_normal = 0;
+    fabric.air_drag_tangential = 0;
+    cloth::Grid grid;
+    grid.columns = side;
+    grid.rows = side;
+    grid.width = 2.4f;
+    grid.depth = 2.4f;
+    grid.transform[3] = {0, 0.85f, 0, 1};
+    grid.material = fabric;
+    return grid;
+}
 
 std::span<const Case> cases()
 {

@@ -19,9 +19,15 @@ struct Case
     cloth::ContactMethod method = cloth::ContactMethod::nearest_point;
     uint32_t frames_before = 0; // of 1/60 s, simulated before anything is measured
     bool in_contact = false;    // vertices must touch a collider then, or the case measures something else
+    cloth::MeshLayout layout = cloth::MeshLayout::interleaved;
+    float wind = 0; // m/s along x
+    float gust = 0; // of the wind
 };
 
 std::span<const Case> cases();
+
+// The drape scene's cloth (samples/scenes/drape.json): 2.4 m square, side x side vertices, no air.
+cloth::Grid drape_grid(uint32_t side);
 
 // Null if there is none of that name.
 const Case* find_case(std::string_view name);

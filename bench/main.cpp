@@ -46,25 +46,41 @@ void declare(CLI::App& app, Options& options)
         ->type_name("N");
 }
 
-std::vector<const bench::Case*> chosen_cases(const std::vector<std::string>& names)
+struct Chosen
 {
-    std::vector<const bench::Case*> result;
+    std::vector<const bench::Case*> cases;
+    std::vector<const bench::DrapeCase*> drapes;
+};
+
+// All that are named; without a name all, the drape scene only on a GPU: a CPU device would take hours over it.
+Chosen choose(const std::vector<std::string>& names, bool cpu)
+{
+    Chosen chosen;
     for (const std::string& name : names)
     {
-        result.push_back(bench::find_case(name));
-        if (result.back() == nullptr)
+        if (const bench::Case* item = bench::find_case(name))
+            chosen.cases.push_back(item);
+        else if (const bench::DrapeCase* drape = bench::find_drape_case(name))
+            chosen.drapes.push_back(drape);
+        else
             throw engine::StartupError("--case " + name + ": there is no such case; --list shows them");
     }
-    if (names.empty())
-        for (const bench::Case& item : bench::cases())
-            result.push_back(&item);
-    return result;
+    if (!names.empty())
+        return chosen;
+    for (const bench::Case& item : bench::cases())
+        chosen.cases.push_back(&item);
+    if (!cpu)
+        for (const bench::DrapeCase& item : bench::drape_cases())
+            chosen.drapes.push_back(&item);
+    return chosen;
 }
 
 void list_cases()
 {
     for (const bench::Case& item : bench::cases())
         std::printf("%-28s %s\n", item.name, item.purpose);
+    for (const bench::DrapeCase& item : bench::drape_cases())
+        std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
 }
 
 void list_devices()
@@ -77,7 +93,7 @@ void list_devices()
 
 void run(const Options& options)
 {
-    const std::vector<const bench::Case*> chosen = chosen_cases(options.names);
+    (void)choose(options.names, false); // an unknown name is told before a device is opened
     std::optional<bench::CsvFile> csv;
     if (!options.csv.empty())
         csv = engine::take(bench::CsvFile::open(options.csv));
@@ -89,13 +105,24 @@ void run(const Options& options)
     const bench::DeviceProbe probe = bench::probe_device(queue);
     const uint32_t repetitions = options.repetitions > 0 ? options.repetitions : device.is_cpu() ? 20 : 100;
     bench::print_device(device.info(), probe);
-    bench::print_header();
-    for (const bench::Case* item : chosen)
+    const Chosen chosen = choose(options.names, device.is_cpu());
+    if (!chosen.cases.empty())
+        bench::print_header();
+    for (const bench::Case* item : chosen.cases)
     {
         const bench::Measurement measurement = bench::measure(queue, *item, repetitions, options.workgroup);
         bench::print_row(*item, measurement, probe);
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
+    }
+    if (!chosen.drapes.empty())
+        bench::print_drape_header();
+    for (const bench::DrapeCase* item : chosen.drapes)
+    {
+        const bench::DrapeMeasurement measurement = bench::measure_drape(queue, *item, options.workgroup);
+        bench::print_drape_row(*item, measurement);
+        if (csv)
+            engine::take(csv->append(device.info(), probe, *item, measurement));
     }
 }
 

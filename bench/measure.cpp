@@ -135,12 +135,14 @@ uint32_t advance(TimedQueue& queue, cloth::Solver& solver, const Case& item)
     return state.contacts;
 }
 
-void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Snapshot& start, uint32_t repetitions,
+void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Case& item, const Snapshot& start, uint32_t repetitions,
               Measurement& result)
 {
     const cloth::Step step{.duration =
                                k_frame * static_cast<float>(result.measured) / static_cast<float>(result.substeps),
-                           .substeps = result.measured};
+                           .substeps = result.measured,
+                           .wind = {item.wind, 0, 0},
+                           .gust = item.gust};
     const auto record = [&](VkCommandBuffer cmd) { solver.record(cmd, step); };
     const auto restore = [&](VkCommandBuffer cmd) { start.record_restore(cmd); };
     std::vector<double> times;
@@ -179,6 +181,7 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, u
     cloth::SolverOptions options;
     options.contact_method = item.method;
     options.workgroup_size = workgroup_size;
+    options.mesh_layout = item.layout;
     cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
     const std::vector<cloth::ClothId> cloths = item.build(solver);
     {
@@ -196,7 +199,7 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, u
     result.contacts = advance(queue, solver, item);
 
     const Snapshot start(queue, solver, cloths);
-    time_gpu(queue, solver, start, repetitions, result);
+    time_gpu(queue, solver, item, start, repetitions, result);
     check_finite(item, statistics(queue, solver), "after the measurement");
     time_recording(queue, solver, repetitions, result);
     return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device_probe.hpp"
+#include "drape.hpp"
 #include "measure.hpp"
 
 #include <string>
@@ -12,6 +13,9 @@ namespace bench
 void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe);
 void print_header();
 void print_row(const Case& item, const Measurement& measurement, const DeviceProbe& probe);
+
+void print_drape_header();
+void print_drape_row(const DrapeCase& item, const DrapeMeasurement& measurement);
 
 // Share of the copy bandwidth that a case reaches.
 double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe);
@@ -25,9 +29,13 @@ public:
 
     gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
                              const Measurement& measurement, uint32_t repetitions) const;
+    // A substep's part of a whole frame. Bytes and recording are not measured there and stay empty.
+    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const DrapeCase& item,
+                             const DrapeMeasurement& measurement) const;
 
 private:
     explicit CsvFile(std::string path) : path_(std::move(path)) {}
+    gpu::Result<void> append(const std::string& row) const;
     std::string path_;
 };
 

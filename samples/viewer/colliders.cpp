@@ -27,6 +27,20 @@ engine::Bounds transformed(const engine::Bounds& box, const glm::mat4& transform
     return result;
 }
 
+// The box around a cloth at the start. Of a mesh that cannot be read, which is told later, a point.
+engine::Bounds cloth_bounds(const ClothEntry& cloth)
+{
+    engine::Bounds box;
+    if (const auto* grid = std::get_if<GridEntry>(&cloth.form))
+    {
+        const glm::vec3 half(0.5f * grid->size.x, 0, 0.5f * grid->size.y);
+        box = {-half, half};
+    }
+    else if (const auto mesh = engine::load_mesh(std::get<std::filesystem::path>(cloth.form)))
+        box = engine::bounds(mesh.value());
+    return transformed(box, matrix(cloth.transform));
+}
+
 gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
 {
     const auto unsupported = [&](const char* what)
@@ -85,7 +99,7 @@ engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& so
     }
     std::optional<engine::Bounds> cloths;
     for (const ClothEntry& cloth : scene.cloths)
-        cloths = merge(cloths, grid_bounds(cloth));
+        cloths = merge(cloths, cloth_bounds(cloth));
     const glm::vec3 size = cloths->max - cloths->min;
     const float side = 0.5f * std::max({size.x, size.y, size.z});
     const glm::vec3 middle = 0.5f * (cloths->min + cloths->max);
@@ -141,13 +155,6 @@ std::optional<engine::Bounds> Solid::bounds() const
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b)
 {
     return a ? engine::Bounds{glm::min(a->min, b.min), glm::max(a->max, b.max)} : b;
-}
-
-engine::Bounds grid_bounds(const ClothEntry& cloth)
-{
-    const auto* grid = std::get_if<GridEntry>(&cloth.form);
-    const glm::vec3 half = grid != nullptr ? glm::vec3(0.5f * grid->size.x, 0, 0.5f * grid->size.y) : glm::vec3(0);
-    return transformed({-half, half}, matrix(cloth.transform));
 }
 
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)

@@ -27,9 +27,6 @@ struct Solid
 // without such a mesh the box lies below the cloths. Errors name the file.
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
-// The box around a cloth's grid at the start.
-engine::Bounds grid_bounds(const ClothEntry& cloth);
-
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b);
 
 } // namespace viewer

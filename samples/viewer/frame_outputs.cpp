@@ -74,7 +74,7 @@ gpu::Result<void> FrameOutputs::create_caches(engine::App& app, const Stage& sta
     const std::vector<std::filesystem::path> paths = export_paths(*options.export_file, names);
     for (size_t i = 0; i < paths.size(); ++i)
     {
-        auto writer = PointCacheWriter::create(paths[i], stage.cloths[i].grid.columns * stage.cloths[i].grid.rows);
+        auto writer = PointCacheWriter::create(paths[i], static_cast<uint32_t>(stage.cloths[i].start.size()));
         if (!writer)
             return writer.error();
         caches_.push_back({std::move(writer.value()), paths[i], stage.cloths[i].id});

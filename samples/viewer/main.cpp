@@ -71,7 +71,7 @@ engine::AppOptions app_options(const Options& options, const SceneFile& scene)
 bool run_frame(engine::App& app, Stage& stage, uint64_t index, engine::Capture* capture, const Options& options)
 {
     const double time = static_cast<double>(index) * static_cast<double>(app.time_step());
-    stage.world->step.wind = wind_at(stage.wind, time);
+    advance(stage, time, static_cast<double>(app.time_step()));
     const bool capturing = capture != nullptr && options.capture == index;
     if (capturing)
         capture->begin();

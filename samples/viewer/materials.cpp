@@ -69,13 +69,14 @@ void apply(const MaterialEntry& entry, cloth::Fabric& fabric)
     override_with(entry.shear_stiffness, fabric.shear_stiffness);
     override_with(entry.bending_stiffness, fabric.bending_stiffness);
     override_with(entry.damping_ratio, fabric.damping_ratio);
-    override_with(entry.strain_limit, fabric.strain_limit);
     if (entry.bending_model)
         fabric.bending_model = *entry.bending_model == BendingModel::isometric ? cloth::BendingModel::isometric
-                                                                                : cloth::BendingModel::springs;
+                                                                               : cloth::BendingModel::springs;
 }
 
-void apply(const MaterialEntry& entry, cloth::Material& material)
+// What fabrics and materials have alike.
+template <typename M>
+void apply_surface(const MaterialEntry& entry, M& material)
 {
     override_with(entry.thickness, material.thickness);
     override_with(entry.kinetic_friction, material.kinetic_friction);
@@ -87,6 +88,11 @@ void apply(const MaterialEntry& entry, cloth::Material& material)
         material.kinetic_friction = std::min(material.static_friction, material.kinetic_friction);
     override_with(entry.air_drag_normal, material.air_drag_normal);
     override_with(entry.air_drag_tangential, material.air_drag_tangential);
+    override_with(entry.strain_limit, material.strain_limit);
+}
+
+void apply_raw(const MaterialEntry& entry, cloth::Material& material)
+{
     override_with(entry.vertex_mass, material.vertex_mass);
     override_with(entry.linear_drag, material.linear_drag);
     cloth::SpringSet& s = material.springs;
@@ -101,23 +107,30 @@ void apply(const MaterialEntry& entry, cloth::Material& material)
 bool has_fabric_values(const MaterialEntry& entry)
 {
     return entry.areal_density || entry.stretch_stiffness || entry.shear_stiffness || entry.bending_stiffness ||
-           entry.damping_ratio;
+           entry.damping_ratio || entry.bending_model;
+}
+
+bool has_raw_values(const MaterialEntry& entry)
+{
+    return entry.vertex_mass || entry.spring_stiffness || entry.spring_damping || entry.linear_drag;
 }
 
 } // namespace
 
-gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const MaterialEntry& entry,
-                                                const glm::vec2& spacing)
+gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                      const std::optional<glm::vec2>& spacing)
 {
     const auto bad = [&](const std::string& reason)
     { return gpu::Error{place(scene, entry.line) + ": material: " + reason}; };
-    cloth::Material material;
+    cloth::ClothMaterial result;
     if (entry.preset == "reference")
     {
         if (has_fabric_values(entry))
             return bad("the preset \"reference\" gives masses and springs outright; it takes vertex_mass, "
                        "spring_stiffness and spring_damping, not a fabric's values");
-        material = cloth::reference_material();
+        cloth::Material material = cloth::reference_material();
+        apply_raw(entry, material);
+        result = material;
     }
     else
     {
@@ -128,12 +141,21 @@ gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const Ma
         apply(entry, *fabric);
         if (const auto valid = cloth::validate(*fabric); !valid)
             return bad(valid.error().message);
-        material = cloth::make_material(*fabric, spacing.x, spacing.y);
+        result = *fabric;
+        if (has_raw_values(entry))
+        {
+            if (!spacing)
+                return bad("vertex_mass, spring_stiffness, spring_damping and linear_drag on a mesh need the preset "
+                           "\"reference\"");
+            cloth::Material material = cloth::make_material(*fabric, spacing->x, spacing->y);
+            apply_raw(entry, material);
+            result = material;
+        }
     }
-    apply(entry, material);
-    if (const auto valid = cloth::validate(material); !valid)
+    std::visit([&](auto& m) { apply_surface(entry, m); }, result);
+    if (const auto valid = std::visit([](const auto& m) { return cloth::validate(m); }, result); !valid)
         return bad(valid.error().message);
-    return material;
+    return result;
 }
 
 } // namespace viewer

@@ -5,14 +5,16 @@
 
 #include "cloth/material.hpp"
 
+#include <optional>
+
 namespace viewer
 {
 
-// The material of a grid with the given spacing (m, along rows and along columns). A fabric's values give springs that
-// behave alike at every resolution; raw values (vertex_mass, spring_stiffness ...) then replace what they name. Errors
-// name the place in the file: an unknown preset, values that do not go together or are out of range, a feature that the
-// module does not have.
-gpu::Result<cloth::Material> make_grid_material(const SceneFile& scene, const MaterialEntry& entry,
-                                                const glm::vec2& spacing);
+// What a cloth is made of; `spacing` (m, along rows and along columns) is a grid's, a mesh has none. A fabric's values
+// behave alike at every resolution; raw values (vertex_mass, spring_stiffness ...) of a grid replace what they name in
+// the springs that follow from it. Errors name the place in the file: an unknown preset, values that do not go together
+// or are out of range.
+gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                      const std::optional<glm::vec2>& spacing);
 
 } // namespace viewer

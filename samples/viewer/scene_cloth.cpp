@@ -205,11 +205,14 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     PinEntry pin;
     pin.line = field.line();
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
-    if (is_object && (field.node->find("at") != nullptr || field.node->find("motion") != nullptr))
+    if (is_object && field.node->find("box") == nullptr)
     {
-        if (!reader.object(field, {"at", "motion"}))
+        if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_place(reader, reader.required(field, "at"), grid, pin);
+        reader.read(SceneReader::child(field, "stiffness"), k_not_negative, pin.stiffness);
+        reader.read(SceneReader::child(field, "damping"), k_not_negative, pin.damping);
+        reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
         if (const Field motion = SceneReader::child(field, "motion"))
             pin.motion = parse_motion(reader, motion);
         return pin;
@@ -225,8 +228,8 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     SceneReader& reader = context.reader;
     ClothEntry cloth;
     cloth.line = field.line();
-    if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "velocity", "integrator",
-                               "self_collision"}))
+    if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
+                               "integrator", "self_collision"}))
         return cloth;
     cloth.name = "cloth_" + std::to_string(index);
     const Field name = SceneReader::child(field, "name");
@@ -249,6 +252,11 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     {
         for (size_t i = 0; i < pins.node->items.size(); ++i)
             cloth.pins.push_back(parse_pin(reader, SceneReader::item(pins, i), std::get_if<GridEntry>(&cloth.form)));
+    }
+    if (const Field tethers = SceneReader::child(field, "tethers"); reader.object(tethers, {"stretch"}))
+    {
+        cloth.tethers = 0.f;
+        reader.read(SceneReader::child(tethers, "stretch"), Range{0, 10}, cloth.tethers);
     }
     reader.read(SceneReader::child(field, "velocity"), k_any, cloth.velocity);
     if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))

@@ -148,6 +148,12 @@ MotionEntry read_motion(SceneReader& reader, const Field& field)
     reader.read(SceneReader::child(field, "velocity"), k_any, motion.velocity);
     reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
     reader.read(SceneReader::child(field, "pivot"), k_any, motion.pivot);
+    if (const Field sway = SceneReader::child(field, "sway"); reader.object(sway, {"amplitude", "period"}))
+    {
+        motion.sway.emplace();
+        reader.read(reader.required(sway, "amplitude"), k_any, motion.sway->amplitude);
+        reader.read(reader.required(sway, "period"), k_positive, motion.sway->period);
+    }
     return motion;
 }
 
@@ -166,7 +172,7 @@ TransformEntry parse_transform(SceneReader& reader, const Field& field)
 
 MotionEntry parse_motion(SceneReader& reader, const Field& field)
 {
-    if (!reader.object(field, {"velocity", "spin", "pivot"}))
+    if (!reader.object(field, {"velocity", "spin", "pivot", "sway"}))
         return {};
     return read_motion(reader, field);
 }
@@ -193,7 +199,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");
-    if (reader.object(motion, {"velocity", "spin", "pivot", "frames", "rate"}))
+    if (reader.object(motion, {"velocity", "spin", "pivot", "sway", "frames", "rate"}))
     {
         parse_frames(context, motion, collider);
         collider.motion = read_motion(reader, motion);

@@ -6,8 +6,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 #include <set>
 
 namespace viewer
@@ -176,10 +178,12 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
     if (reader.object(root, {"gravity", "wind", "step", "cloths", "colliders", "camera"}))
     {
         reader.read(SceneReader::child(root, "gravity"), k_any, scene.gravity);
-        if (const Field wind = SceneReader::child(root, "wind"); reader.object(wind, {"velocity", "gust"}))
+        if (const Field wind = SceneReader::child(root, "wind");
+            reader.object(wind, {"velocity", "gust", "gust_length"}))
         {
             reader.read(SceneReader::child(wind, "velocity"), k_any, scene.wind.velocity);
-            reader.read(SceneReader::child(wind, "gust"), k_not_negative, scene.wind.gust);
+            reader.read(SceneReader::child(wind, "gust"), Range{0, 10}, scene.wind.gust);
+            reader.read(SceneReader::child(wind, "gust_length"), k_positive, scene.wind.gust_length);
         }
         parse_step(reader, SceneReader::child(root, "step"), scene.step);
         parse_cloths(context, root, scene.cloths);
@@ -235,7 +239,13 @@ glm::mat4 matrix(const MotionEntry& motion, double seconds)
 {
     const auto time = static_cast<float>(seconds);
     const glm::mat4 back = glm::translate(glm::mat4(1.f), -motion.pivot);
-    return glm::translate(glm::mat4(1.f), motion.pivot + motion.velocity * time) * rotation(motion.spin * time) * back;
+    glm::vec3 moved = motion.velocity * time;
+    if (motion.sway)
+    {
+        const double phase = 2 * std::numbers::pi * seconds / static_cast<double>(motion.sway->period);
+        moved += motion.sway->amplitude * static_cast<float>(std::sin(phase));
+    }
+    return glm::translate(glm::mat4(1.f), motion.pivot + moved) * rotation(motion.spin * time) * back;
 }
 
 } // namespace viewer

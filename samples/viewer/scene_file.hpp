@@ -30,12 +30,20 @@ struct TransformEntry
     float scale = 1.f;        // > 0
 };
 
-// Rigid motion from the placed state on: a turn about `pivot`, which itself moves with `velocity`.
+// To and fro: amplitude * sin(2 pi t / period).
+struct SwayEntry
+{
+    glm::vec3 amplitude{0.f}; // m
+    float period = 1.f;       // s, > 0
+};
+
+// Rigid motion from the placed state on: a turn about `pivot`, which itself moves with `velocity` and sways.
 struct MotionEntry
 {
     glm::vec3 velocity{0.f}; // m/s
     glm::vec3 spin{0.f};     // degrees/s about x, then y, then z
     glm::vec3 pivot{0.f};    // m, in the scene
+    std::optional<SwayEntry> sway{};
 };
 
 // Meshes of one topology, one a time step of 1/rate s.
@@ -48,7 +56,8 @@ struct FrameSequence
 struct WindEntry
 {
     glm::vec3 velocity{0.f}; // m/s
-    float gust = 0.f;        // gusts' strength as a share of the velocity, >= 0
+    float gust = 0.f;        // root mean square of the gusts as a share of the speed, 0..10
+    float gust_length = 4.f; // m, wavelength of the longest gusts, > 0
 };
 
 struct StepEntry
@@ -129,6 +138,9 @@ struct PinEntry
 {
     std::variant<CornerPin, EdgePin, VertexPin, BoxPin> at; // corners and edges on grids only
     std::optional<MotionEntry> motion;                      // absent: it stays where it is
+    std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
+    float damping = 0.f;                                    // N·s/m, >= 0, of that spring
+    std::optional<float> max_distance;                      // m, >= 0, from the place
     uint32_t line = 0;
 };
 
@@ -139,7 +151,8 @@ struct ClothEntry
     TransformEntry transform;
     MaterialEntry material;
     std::vector<PinEntry> pins;
-    glm::vec3 velocity{0.f}; // m/s at the start
+    std::optional<float> tethers; // how far they let the cloth stretch, 0..10; absent: none
+    glm::vec3 velocity{0.f};      // m/s at the start
     Integrator integrator = Integrator::rk4;
     bool self_collision = true;
     uint32_t line = 0;

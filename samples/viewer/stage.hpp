@@ -1,6 +1,7 @@
 // Stage: a scene file made into entities of the engine.
 #pragma once
 
+#include "samples/viewer/cloths.hpp"
 #include "samples/viewer/colliders.hpp"
 
 #include "component/cloth_component.hpp"
@@ -13,24 +14,21 @@ struct StageCloth
 {
     std::string name;
     cloth::ClothId id;
-    cloth::Grid grid; // as it was added
+    std::vector<glm::vec3> start; // m, where its vertices are before the first step
 };
 
 struct Stage
 {
     cloth::component::ClothWorld* world = nullptr; // owned by the scene
     std::vector<StageCloth> cloths;
-    WindEntry wind;
+    std::vector<MovingPin> moving_pins;
 };
 
 // Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the place in it.
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                              const Options& options);
 
-// Where a vertex of a grid is before the first step, m.
-glm::vec3 grid_point(const cloth::Grid& grid, uint32_t row, uint32_t column);
-
-// The wind at a time (s): its velocity with gusts that swell and fade, always the same at the same time.
-glm::vec3 wind_at(const WindEntry& wind, double time);
+// Moves pins to where they are at the end of the frame that begins at `time` (s).
+void advance(Stage& stage, double time, double duration);
 
 } // namespace viewer

@@ -65,9 +65,7 @@ gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& s
     {
         for (size_t v = 0; v < state[i].positions.size(); ++v)
         {
-            const cloth::Grid& grid = stage.cloths[i].grid;
-            const auto vertex = static_cast<uint32_t>(v);
-            const glm::dvec3 start = grid_point(grid, vertex / grid.columns, vertex % grid.columns);
+            const glm::dvec3 start(stage.cloths[i].start[v]);
             double deepest = 0;
             for (const Depth& depth : depths)
                 deepest = std::max(deepest, depth(state[i].positions[v], start));

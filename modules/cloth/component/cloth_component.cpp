@@ -23,6 +23,7 @@ void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& fr
     if (solver_.needs_upload())
         uploads_[frame.slot] = engine::take(solver_.record_upload(cmd));
     step.duration = frame.time_step;
+    step.time = frame.time;
     {
         const gpu::LabelScope scope(solver_.context(), cmd, "cloth", frame.timestamps);
         solver_.record(cmd, step, frame.timestamps);

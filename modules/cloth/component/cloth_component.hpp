@@ -23,7 +23,7 @@ public:
 
     [[nodiscard]] Solver& solver() { return solver_; }
 
-    // Gravity, wind and substeps of every step; the duration is the frame's. May be changed at any time.
+    // Gravity, wind and substeps of every step; duration and time are the frame's. May be changed at any time.
     Step step;
     bool collect_statistics = false; // reduce statistics each frame, into the frame's slot
 

@@ -1,0 +1,131 @@
+// The drape scene: timed frame by frame, its conditions checked on the host.
+#include "drape.hpp"
+
+#include "cases.hpp"
+#include "heart.hpp"
+
+#include "cloth/mesh_checks.hpp"
+#include "engine/gpu/download.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bench
+{
+
+namespace
+{
+
+constexpr uint32_t k_frames = 90;
+constexpr uint32_t k_first_timed = 30;
+constexpr float k_frame = 1.f / 60; // s
+
+constexpr auto k_rk4 = cloth::Integrator::rk4;
+constexpr auto k_verlet = cloth::Integrator::verlet;
+constexpr DrapeCase k_cases[] = {
+    {"drape-128-rk4", 128, k_rk4},       {"drape-128-verlet", 128, k_verlet}, {"drape-256-rk4", 256, k_rk4},
+    {"drape-256-verlet", 256, k_verlet}, {"drape-512-rk4", 512, k_rk4},       {"drape-512-verlet", 512, k_verlet},
+};
+
+using Positions = std::vector<glm::vec4>;
+
+std::vector<double> structural_stretches(const Positions& x, uint32_t side)
+{
+    const double rest = 2.4 / (side - 1);
+    std::vector<double> result;
+    result.reserve(2 * x.size());
+    const auto add = [&](size_t a, size_t b)
+    { result.push_back(glm::distance(glm::dvec3(x[a]), glm::dvec3(x[b])) / rest - 1); };
+    for (uint32_t row = 0; row < side; ++row)
+        for (uint32_t column = 0; column < side; ++column)
+        {
+            const size_t i = size_t{row} * side + column;
+            if (column + 1 < side)
+                add(i, i + 1);
+            if (row + 1 < side)
+                add(i, i + side);
+        }
+    return result;
+}
+
+double mean_height(const Positions& x)
+{
+    double sum = 0;
+    for (const glm::vec4& p : x)
+        sum += static_cast<double>(p.y);
+    return sum / static_cast<double>(x.size());
+}
+
+double share_deeper(const Positions& x, const cloth::MeshCollider& heart, double depth)
+{
+    const cloth::MeshDistance distance = engine::take(cloth::MeshDistance::create(heart));
+    size_t deep = 0;
+    for (const glm::vec4& p : x)
+        deep += distance.nearest(glm::dvec3(p)).signed_distance < -depth ? 1 : 0;
+    return static_cast<double>(deep) / static_cast<double>(x.size());
+}
+
+void upload(TimedQueue& queue, cloth::Solver& solver)
+{
+    cloth::Upload kept;
+    queue.run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+}
+
+} // namespace
+
+std::span<const DrapeCase> drape_cases()
+{
+    return k_cases;
+}
+
+const DrapeCase* find_drape_case(std::string_view name)
+{
+    const auto found =
+        std::find_if(std::begin(k_cases), std::end(k_cases), [&](const DrapeCase& item) { return name == item.name; });
+    return found == std::end(k_cases) ? nullptr : &*found;
+}
+
+DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_t workgroup_size)
+{
+    cloth::SolverOptions options;
+    options.workgroup_size = workgroup_size;
+    cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
+    cloth::Grid grid = drape_grid(item.side);
+    grid.integrator = item.integrator;
+    const cloth::ClothId id = engine::take(solver.add_cloth(grid));
+    const engine::Mesh mesh = scenes::make_drape_heart();
+    const cloth::MeshCollider heart{.name = "heart", .positions = mesh.positions, .triangles = mesh.triangles};
+    (void)engine::take(solver.add_collider(heart));
+    (void)engine::take(solver.add_collider(cloth::PlaneCollider{.offset = -0.4f}));
+    upload(queue, solver);
+
+    const cloth::Step step{.duration = k_frame};
+    DrapeMeasurement result;
+    result.vertices = solver.vertex_count();
+    result.triangles = solver.triangle_count();
+    result.substeps = solver.stable_substeps(k_frame, step.max_substeps);
+    result.dispatches = solver.dispatches(step);
+    std::vector<double> times; // ms
+    Positions x;
+    for (uint32_t frame = 0; frame < k_frames; ++frame)
+    {
+        const double time = queue.time([&](VkCommandBuffer cmd) { solver.record(cmd, step); }) / 1000;
+        if (frame >= k_first_timed)
+            times.push_back(time);
+        queue.run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+        result.limited = std::max(result.limited, solver.statistics(0).limited_vertices);
+        const cloth::VertexStreams streams = solver.vertices(id);
+        x = engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.vertices, streams.offset);
+        result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));
+        if (frame + 1 == k_first_timed)
+            result.height = mean_height(x);
+    }
+    const std::vector<double> stretches = structural_stretches(x, item.side);
+    result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
+    result.deep_share = share_deeper(x, heart, 0.005);
+    result.gpu_median = quantile(times, 0.5);
+    result.gpu_p95 = quantile(times, 0.95);
+    return result;
+}
+
+} // namespace bench

@@ -1,0 +1,47 @@
+// The drape scene, frame by frame: the scene on which peers were timed, with the conditions that make a run count.
+#pragma once
+
+#include "timed_queue.hpp"
+
+#include "cloth/solver.hpp"
+
+#include <span>
+#include <string_view>
+
+namespace bench
+{
+
+struct DrapeCase
+{
+    const char* name = nullptr;
+    uint32_t side = 0; // vertices along each side
+    cloth::Integrator integrator = cloth::Integrator::rk4;
+};
+std::span<const DrapeCase> drape_cases();
+const DrapeCase* find_drape_case(std::string_view name); // null if there is none
+
+// 90 frames of 1/60 s; times are those of frames 30 to 89.
+struct DrapeMeasurement
+{
+    uint32_t vertices = 0;
+    uint32_t triangles = 0;
+    uint32_t substeps = 0;   // of a frame
+    uint32_t dispatches = 0; // of a frame
+    double gpu_median = 0;   // ms a frame of Solver::record
+    double gpu_p95 = 0;      // ms
+    // The conditions.
+    double stretch_99 =
+        0; // the largest over all frames of the 99 % quantile of l / L - 1 of the structural springs; < 0.12
+    double last_stretch = 0; // largest l / L - 1 of the structural springs after the last frame; < 0.15
+    double deep_share = 0;   // of the vertices deeper than 5 mm in the heart after the last frame; <= 0.001
+    double height = 0;       // m, mean after frame 30; < 0.30
+    uint32_t limited = 0;    // most vertices in a frame that bore less than the whole of their inner forces
+    [[nodiscard]] bool valid() const
+    {
+        return stretch_99 < 0.12 && last_stretch < 0.15 && deep_share <= 0.001 && height < 0.30;
+    }
+};
+
+DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_t workgroup_size);
+
+} // namespace bench

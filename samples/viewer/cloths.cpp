@@ -1,0 +1,217 @@
+// Cloths from grids and meshes, and their pins.
+#include "samples/viewer/cloths.hpp"
+
+#include "samples/viewer/materials.hpp"
+#include "samples/viewer/text.hpp"
+
+#include "engine/assets/load_mesh.hpp"
+
+#include <cstdio>
+#include <utility>
+
+namespace viewer
+{
+namespace
+{
+
+// What pins refer to.
+struct Vertices
+{
+    std::vector<glm::vec3> start; // m
+    uint32_t columns = 0;         // of a grid; 0: a mesh
+    uint32_t rows = 0;
+};
+
+std::vector<glm::vec3> grid_places(const cloth::Grid& grid)
+{
+    std::vector<glm::vec3> places;
+    places.reserve(size_t{grid.columns} * grid.rows);
+    for (uint32_t row = 0; row < grid.rows; ++row)
+        for (uint32_t column = 0; column < grid.columns; ++column)
+        {
+            const float x = (static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f) * grid.width;
+            const float z = (static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f) * grid.depth;
+            places.emplace_back(grid.transform * glm::vec4(x, 0, z, 1));
+        }
+    return places;
+}
+
+uint32_t corner_vertex(const Vertices& vertices, uint32_t corner)
+{
+    const uint32_t row = corner < 2 ? 0 : vertices.rows - 1;
+    const uint32_t column = corner % 2 == 0 ? 0 : vertices.columns - 1;
+    return row * vertices.columns + column;
+}
+
+std::vector<uint32_t> edge_vertices(const Vertices& vertices, Edge edge)
+{
+    const bool along_row = edge == Edge::top || edge == Edge::bottom;
+    const uint32_t count = along_row ? vertices.columns : vertices.rows;
+    const uint32_t line = edge == Edge::bottom ? vertices.rows - 1 : edge == Edge::right ? vertices.columns - 1 : 0;
+    std::vector<uint32_t> result;
+    for (uint32_t i = 0; i < count; ++i)
+        result.push_back(along_row ? line * vertices.columns + i : i * vertices.columns + line);
+    return result;
+}
+
+std::vector<uint32_t> box_vertices(const Vertices& vertices, const BoxPin& box)
+{
+    std::vector<uint32_t> result;
+    for (uint32_t i = 0; i < vertices.start.size(); ++i)
+        if (glm::all(glm::greaterThanEqual(vertices.start[i], box.min)) &&
+            glm::all(glm::lessThanEqual(vertices.start[i], box.max)))
+            result.push_back(i);
+    return result;
+}
+
+std::vector<uint32_t> pinned_vertices(const Vertices& vertices, const PinEntry& pin)
+{
+    if (const auto* corner = std::get_if<CornerPin>(&pin.at))
+        return {corner_vertex(vertices, corner->corner)};
+    if (const auto* edge = std::get_if<EdgePin>(&pin.at))
+        return edge_vertices(vertices, edge->edge);
+    if (const auto* vertex = std::get_if<VertexPin>(&pin.at))
+        return {vertex->vertex};
+    return box_vertices(vertices, std::get<BoxPin>(pin.at));
+}
+
+gpu::Error at(const SceneFile& scene, uint32_t line, const std::string& reason)
+{
+    return gpu::Error{place(scene, line) + ": " + reason};
+}
+
+// The holds of all pins; where two pins name a vertex, the later one holds it.
+gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                           const Vertices& vertices, AddedCloth& added)
+{
+    std::vector<std::optional<cloth::Hold>> held(vertices.start.size());
+    for (const PinEntry& pin : entry.pins)
+    {
+        cloth::Hold hold;
+        if (pin.motion)
+        {
+            auto anchor = solver.add_anchor(matrix(*pin.motion, 0));
+            if (!anchor)
+                return at(scene, pin.line, anchor.error().message);
+            hold.anchor = anchor.value();
+            added.moving_pins.push_back({anchor.value(), *pin.motion});
+        }
+        if (pin.stiffness || pin.max_distance)
+            hold.stiffness = pin.stiffness.value_or(0);
+        hold.damping = pin.damping;
+        hold.max_distance = pin.max_distance.value_or(hold.max_distance);
+        const std::vector<uint32_t> pinned = pinned_vertices(vertices, pin);
+        if (pinned.empty())
+            return at(scene, pin.line, "cloth \"" + entry.name + "\": no vertex lies in the pin's box");
+        for (const uint32_t vertex : pinned)
+        {
+            if (vertex >= vertices.start.size())
+                return at(scene, pin.line,
+                          "cloth \"" + entry.name + "\": pin vertex:" + std::to_string(vertex) + ", but it has " +
+                              std::to_string(vertices.start.size()) + " vertices");
+            hold.vertex = vertex;
+            hold.place.reset();
+            if (hold.anchor) // as seen from the anchor, which is at its place of time 0
+                hold.place = glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(vertices.start[vertex], 1));
+            held[vertex] = hold;
+        }
+    }
+    std::vector<cloth::Hold> holds;
+    for (const std::optional<cloth::Hold>& hold : held)
+        if (hold)
+            holds.push_back(*hold);
+    if (auto set = solver.set_holds(added.id, holds); !set)
+        return at(scene, entry.line, set.error().message);
+    if (!entry.tethers)
+        return {};
+    if (auto set = solver.set_tethers(added.id, cloth::Tethers{*entry.tethers}); !set)
+        return at(scene, entry.line, set.error().message);
+    return {};
+}
+
+gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                     const GridEntry& form, const Options& options, Vertices& vertices)
+{
+    cloth::Grid grid;
+    grid.name = entry.name;
+    grid.columns = options.cloth_resolution.value_or(form.columns);
+    grid.rows = options.cloth_resolution.value_or(form.rows);
+    grid.width = form.size.x;
+    grid.depth = form.size.y;
+    grid.transform = matrix(entry.transform);
+    grid.velocity = entry.velocity;
+    grid.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
+    auto material = make_cloth_material(
+        scene, entry.material,
+        glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
+    if (!material)
+        return material.error();
+    grid.material = material.value();
+    vertices = {grid_places(grid), grid.columns, grid.rows};
+    auto id = solver.add_cloth(grid);
+    return id ? id : at(scene, entry.line, id.error().message);
+}
+
+void tell(const cloth::MeshReport& report, const std::string& name)
+{
+    std::string odd;
+    const auto add = [&](uint32_t count, const char* what)
+    {
+        if (count > 0)
+            odd += (odd.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+    };
+    add(report.degenerate_triangles, "triangles without area, which have no springs");
+    add(report.isolated_vertices, "vertices without a triangle, which stay where they are");
+    add(report.non_manifold_edges, "edges of three or more triangles, each pair of which bends");
+    add(report.coincident_vertices, "vertices at the place of another and not joined to it: open seams");
+    if (!odd.empty())
+        std::fprintf(stderr, "viewer: note: cloth \"%s\": %s\n", name.c_str(), odd.c_str());
+}
+
+gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                     const std::filesystem::path& file, Vertices& vertices)
+{
+    auto loaded = engine::load_mesh(file);
+    if (!loaded)
+        return at(scene, entry.line, loaded.error().message);
+    const engine::Mesh& mesh = loaded.value();
+    auto material = make_cloth_material(scene, entry.material, std::nullopt);
+    if (!material)
+        return material.error();
+    cloth::MeshCloth cloth;
+    cloth.name = entry.name;
+    cloth.positions = mesh.positions;
+    cloth.triangles = mesh.triangles;
+    cloth.transform = matrix(entry.transform);
+    cloth.velocity = entry.velocity;
+    cloth.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
+    cloth.material = material.value();
+    for (const glm::vec3& p : mesh.positions)
+        vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
+    auto id = solver.add_cloth(cloth);
+    if (!id)
+        return at(scene, entry.line, file.string() + ": " + id.error().message);
+    tell(solver.mesh_report(id.value()), entry.name);
+    return id;
+}
+
+} // namespace
+
+gpu::Result<AddedCloth> add_cloth(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                  const Options& options)
+{
+    Vertices vertices;
+    const auto* form = std::get_if<GridEntry>(&entry.form);
+    auto id = form != nullptr ? add_grid(solver, scene, entry, *form, options, vertices)
+                              : add_mesh(solver, scene, entry, std::get<std::filesystem::path>(entry.form), vertices);
+    if (!id)
+        return id.error();
+    AddedCloth added;
+    added.id = id.value();
+    if (auto pins = add_pins(solver, scene, entry, vertices, added); !pins)
+        return pins.error();
+    added.start = std::move(vertices.start);
+    return added;
+}
+
+} // namespace viewer
