@@ -41,12 +41,15 @@ struct Rates
     double decay = 0;         // 1/s
 };
 
-double border_share(const shared::ClothRecord& record, int row, int column)
+// Of a place on a line of `count`, whatever the line across it is.
+double border_share(const shared::ClothRecord& record, int place, uint32_t count)
 {
-    const auto share = static_cast<double>(record.border_share);
-    const bool row_border = row == 0 || row + 1 == static_cast<int>(record.rows);
-    const bool column_border = column == 0 || column + 1 == static_cast<int>(record.columns);
-    return (row_border ? share : 1) * (column_border ? share : 1);
+    return place == 0 || place + 1 == static_cast<int>(count) ? static_cast<double>(record.border_share) : 1;
+}
+
+double vertex_share(const shared::ClothRecord& record, int row, int column)
+{
+    return border_share(record, row, record.rows) * border_share(record, column, record.columns);
 }
 
 // The blocks of one vertex of a flat grid: twice their largest eigenvalue over the mass.
@@ -63,15 +66,15 @@ Rates vertex_rates(const shared::ClothRecord& record, const glm::vec2& spacing, 
                 other_column >= static_cast<int>(record.columns))
                 continue;
             // Along a border the springs of the line itself have the border's share.
-            const double share = c % 4 == 0   ? border_share(record, row, 1)
-                                 : c % 4 == 1 ? border_share(record, 1, column)
+            const double share = c % 4 == 0   ? border_share(record, row, record.rows)
+                                 : c % 4 == 1 ? border_share(record, column, record.columns)
                                               : 1;
             const glm::dvec3 d = glm::normalize(glm::dvec3(k_offsets[c].column * static_cast<double>(spacing.x),
                                                            k_offsets[c].row * static_cast<double>(spacing.y), 0));
             stiffness += share * static_cast<double>(record.springs[c].stiffness) * glm::outerProduct(d, d);
             damping += share * static_cast<double>(record.springs[c].damping) * glm::outerProduct(d, d);
         }
-    const double mass = inner_mass * border_share(record, row, column);
+    const double mass = inner_mass * vertex_share(record, row, column);
     return {2 * largest_eigenvalue(stiffness) / mass,
             (2 * largest_eigenvalue(damping) + static_cast<double>(record.linear_drag)) / mass};
 }
@@ -262,7 +265,7 @@ double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, 
     if (cloth.mesh)
         return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
     const double share =
-        border_share(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
+        vertex_share(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
     return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
 }
 
