@@ -11,11 +11,12 @@ const float k_rk4_reach = 2.6;
 const float k_stability_margin = 0.9;
 
 // How much of the step's reach a mode of frequency^2 `omega_squared` (1/s^2) and decay rate `decay` (1/s) takes up; a
-// step is stable up to 1. Velocity Verlet whose damping force sees the velocity half a step before: (omega h / 2)^2 +
-// decay h / 2 <= 1, from its characteristic polynomial.
+// step is stable up to 1. Velocity Verlet whose damping force sees the predicted velocity, v[n-1/2] + h/2 a[n-1]: its
+// characteristic polynomial z^3 + (W + 3/2 D - 2) z^2 + (1 - 2 D) z + D / 2, with W = (omega h)^2 and D = decay h, has
+// its roots in the unit circle up to W / 4 + D = 1.
 float verlet_load(float omega_squared, float decay, float h)
 {
-    return 0.25 * omega_squared * h * h + 0.5 * decay * h;
+    return 0.25 * omega_squared * h * h + decay * h;
 }
 
 struct Shares
