@@ -17,10 +17,14 @@ struct Gather
     vec3 x;       // of the vertex, m
     vec3 v;       // m/s
     vec3 force;   // N, of the springs
-    vec3 bending; // N, of the isometric model, before the share that a step bears
-    vec3 wind; // m/s, at x
-    vec3 air;  // N
+    vec3 bending; // N, of the isometric model
+    float bending_stiffness; // the step's share of it: bending sees bending_stiffness * x + bending_damping * v
+    float bending_damping;   // s
+    vec3 wind;      // m/s, at x
+    vec3 air;       // N
+    float air_rate; // N s/m, force over relative velocity
     StiffnessSum stiffness;
+    StiffnessSum damping; // likewise of the springs' damping, N s/m
 };
 
 void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
@@ -31,7 +35,10 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float stretch = length_squared * inverse_length - rest_length;
     g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
     if (MEASURE)
+    {
         add_stiffness(g.stiffness, stiffness, direction, rest_length * inverse_length);
+        add_stiffness(g.damping, damping, direction, 1);
+    }
 }
 
 // Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
@@ -46,8 +53,11 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
     const vec3 u = g.wind - g.v;
     const float u_n = dot(u, n);
     const vec3 u_t = u - u_n * n;
-    g.air += 0.25 * push.air_density * share * across_length *
-             (cloths[cloth].drag_normal * abs(u_n) * u_n * n + cloths[cloth].drag_tangential * length(u_t) * u_t);
+    const float c = 0.25 * push.air_density * share * across_length;
+    const float normal = c * cloths[cloth].drag_normal * abs(u_n);
+    const float tangential = c * cloths[cloth].drag_tangential * length(u_t);
+    g.air += normal * u_n * n + tangential * u_t;
+    g.air_rate += normal + tangential;
 }
 
 bool feels_air(uint cloth) { return cloths[cloth].drag_normal + cloths[cloth].drag_tangential > 0; }
@@ -58,7 +68,7 @@ struct Neighbour
 {
     bool exists;
     vec3 delta;   // m
-    vec3 bending; // m, delta + bending_time * relative velocity
+    vec3 bending; // m, bending_stiffness * delta + bending_damping * relative velocity
 };
 
 // Reads the neighbour and adds the spring to it, if the class has any.
@@ -73,7 +83,7 @@ Neighbour grid_neighbour(inout Gather g, uint cloth, GridVertex self, ivec2 offs
     const uint other = neighbour(self, offset, cloths[cloth].columns);
     n.delta = stage_positions[other].xyz - g.x;
     const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-    n.bending = n.delta + cloths[cloth].bending_time * relative_velocity;
+    n.bending = g.bending_stiffness * n.delta + g.bending_damping * relative_velocity;
     if (spring.stiffness + spring.damping > 0)
         add_spring(g, spring.stiffness, spring.damping, spring.rest_length, n.delta, relative_velocity);
     return n;
@@ -174,7 +184,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
         const float damping = shares.damping * weight * spring.damping;
         if (stiffness + damping > 0)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
-        g.bending -= entry.bending * (delta + cloths[cloth].bending_time * relative_velocity);
+        g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
     }
     g.bending *= cloths[cloth].bending.x;
     if (feels_air(cloth))
@@ -188,14 +198,6 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
     }
 }
 
-// Air must not turn the motion round within a step, however light the vertex and however strong the wind: it takes at most
-// a fifth of the velocity relative to it.
-vec3 bounded_air(vec3 air, float inverse_mass, vec3 relative_velocity)
-{
-    const float rate = inverse_mass * length(air) / max(length(relative_velocity), 1e-20); // 1/s
-    return air * min(1, 0.2 / max(rate * push.step, 1e-30));
-}
-
 // The acceleration of a vertex, m/s^2. `share`: what the step bears of the inner forces' part; found where MEASURE is set,
 // else given.
 vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, inout float share)
@@ -204,28 +206,31 @@ vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, in
     g.x = x;
     g.v = v;
     g.force = g.bending = g.air = vec3(0);
+    g.air_rate = 0;
     g.wind = wind_at(x);
-    g.stiffness.diagonal = g.stiffness.mixed = vec3(0);
-    const Shares shares =
-        stable_shares(cloths[cloth].flags, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    g.stiffness = g.damping = StiffnessSum(vec3(0), vec3(0));
+    const uint flags = cloths[cloth].flags;
+    const Shares shares = stable_shares(flags, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    g.bending_stiffness = shares.stiffness;
+    g.bending_damping = shares.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
         gather_grid(g, cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local), shares);
     else
         gather_mesh(g, cloth, local, shares);
+    const float drag = shares.damping * cloths[cloth].linear_drag; // N s/m
+    const float air_decay = inverse_mass * g.air_rate;             // 1/s
+    const float air_share = stable_air(flags, air_decay, push.step);
     if (MEASURE)
     {
         // The largest eigenvalue of M^-1 K is at most twice that of a vertex's own block: u^T K u = sum k (d . (u_i -
-        // u_j))^2 <= sum 2 k ((d . u_i)^2 + (d . u_j)^2).
-        const float springs = 2 * inverse_mass * largest_eigenvalue(g.stiffness);
-        const float bending = shares.stiffness * cloths[cloth].bending_omega_squared;
-        // Damping is along the same directions: it grows as stiffness does.
-        const float growth = (springs + bending) / max(shares.stiffness * cloths[cloth].omega_squared, 1e-30);
-        const float decay = shares.damping * cloths[cloth].decay * growth;
-        share = stable_acceleration(cloths[cloth].flags, springs + bending, decay, push.step);
+        // u_j))^2 <= sum 2 k ((d . u_i)^2 + (d . u_j)^2). The same holds for damping.
+        const float bending = cloths[cloth].bending_omega_squared;
+        const float omega_squared = 2 * inverse_mass * largest_eigenvalue(g.stiffness) + shares.stiffness * bending;
+        const float decay = inverse_mass * (2 * largest_eigenvalue(g.damping) + drag) +
+                            g.bending_damping * bending + 2 * air_share * air_decay;
+        share = stable_acceleration(flags, omega_squared, decay, push.step);
     }
-    const vec3 drag = shares.damping * cloths[cloth].linear_drag * (g.wind - v);
-    const vec3 air = bounded_air(g.air, inverse_mass, g.wind - v);
-    return push.gravity + inverse_mass * (share * (g.force + shares.stiffness * g.bending) + drag + air);
+    return push.gravity + inverse_mass * (share * (g.force + g.bending + drag * (g.wind - v)) + air_share * g.air);
 }
 
 #endif

@@ -38,7 +38,16 @@ Shares stable_shares(uint flags, float omega_squared, float decay, float h)
     return Shares(min(1, reach * reach / max(omega_squared, 1e-30)), min(1, reach / max(decay, 1e-30)));
 }
 
-// The share of its acceleration by inner forces that a vertex keeps, given what its springs amount to in their present
+// The share of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic
+// in the velocity grows twice as fast with it as its rate says, and may take up what the margin leaves of the reach.
+float stable_air(uint flags, float decay, float h)
+{
+    const float reach = (flags & VOILE_CLOTH_VERLET) != 0 ? 1 - k_stability_margin * k_stability_margin
+                                                          : k_rk4_reach * (1 - k_stability_margin);
+    return min(1, 0.5 * reach / max(decay * h, 1e-30));
+}
+
+// The share of its acceleration by inner forces and linear drag that a vertex keeps, given what its springs amount to in their present
 // directions. Below 1 only where cloth is crumpled or torn so far that it is stiffer than the margin foresees: the vertex
 // then is as if it were heavier.
 float stable_acceleration(uint flags, float omega_squared, float decay, float h)
