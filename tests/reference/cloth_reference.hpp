@@ -2,6 +2,8 @@
 // without a look at the shaders' structure (one loop over springs that adds to both ends).
 #pragma once
 
+#include "integrators.hpp"
+
 #include "cloth/descriptions.hpp"
 
 #include <glm/glm.hpp>
@@ -20,19 +22,6 @@ struct Spring
     double stiffness;
     double damping;
     double rest_length;
-};
-
-struct ClothState
-{
-    std::vector<glm::dvec3> x;
-    std::vector<glm::dvec3> v;
-};
-
-struct Environment
-{
-    glm::dvec3 gravity{0, -9.81, 0};
-    glm::dvec3 wind{0.0};
-    double air_density = 1.225;
 };
 
 class Cloth
@@ -97,24 +86,12 @@ public:
         return result;
     }
 
-    // Kutta 1901.
-    void step(double h, const Environment& environment)
+    void step(double h, const Environment& environment) { rk4_step(*this, state, h, environment); }
+
+    // Velocity Verlet, `substeps` of h seconds each.
+    void verlet_step(double h, uint32_t substeps, const Environment& environment)
     {
-        const ClothState& s1 = state;
-        const auto a1 = accelerations(s1, environment);
-        const ClothState s2 = advanced(s1.v, a1, h / 2);
-        const auto a2 = accelerations(s2, environment);
-        const ClothState s3 = advanced(s2.v, a2, h / 2);
-        const auto a3 = accelerations(s3, environment);
-        const ClothState s4 = advanced(s3.v, a3, h);
-        const auto a4 = accelerations(s4, environment);
-        ClothState next = state;
-        for (size_t i = 0; i < size(); ++i)
-        {
-            next.x[i] += h / 6 * (s1.v[i] + 2.0 * s2.v[i] + 2.0 * s3.v[i] + s4.v[i]);
-            next.v[i] += h / 6 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
-        }
-        state = next;
+        reference::verlet_step(*this, state, h, substeps, environment);
     }
 
     [[nodiscard]] double energy(const Environment& environment) const // kinetic, elastic and potential, J
@@ -157,19 +134,6 @@ private:
     [[nodiscard]] double border(uint32_t i, uint32_t count) const
     {
         return i == 0 || i + 1 == count ? double(material_.border_share) : 1;
-    }
-
-    [[nodiscard]] ClothState advanced(const std::vector<glm::dvec3>& v, const std::vector<glm::dvec3>& a,
-                                      double h) const
-    {
-        ClothState result = state;
-        for (size_t i = 0; i < size(); ++i)
-        {
-            if (inverse_mass_[i] > 0)
-                result.x[i] += h * v[i];
-            result.v[i] += h * a[i];
-        }
-        return result;
     }
 
     // Each of the four cells around the vertex acts on half of the triangle that its two sides span, a quarter of it.

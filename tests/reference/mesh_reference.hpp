@@ -1,0 +1,312 @@
+// A mesh as cloth in double precision on the CPU, from the model's formulas alone: one map of edges, one loop over
+// triangles. Bending is the quadratic form of its energy, assembled as it stands.
+#pragma once
+
+#include "cloth_reference.hpp"
+
+#include <array>
+#include <map>
+#include <utility>
+
+namespace reference
+{
+
+using Linear = std::map<uint32_t, double>; // sum of coefficient * x over vertices
+
+class MeshCloth
+{
+public:
+    explicit MeshCloth(const cloth::MeshCloth& mesh) : triangles_(mesh.triangles.begin(), mesh.triangles.end())
+    {
+        for (const glm::vec3& p : mesh.positions)
+            rest_.emplace_back(glm::vec3(mesh.transform * glm::vec4(p, 1))); // stored in float
+        state = {rest_, std::vector<glm::dvec3>(rest_.size(), glm::dvec3(mesh.velocity))};
+        const double flat = 1e-6; // of the longest edge squared; see mesh_topology.cpp
+        std::erase_if(triangles_,
+                      [&](const glm::uvec3& t)
+                      {
+                          const double longest =
+                              std::max({glm::distance(rest_[t.x], rest_[t.y]), glm::distance(rest_[t.y], rest_[t.z]),
+                                        glm::distance(rest_[t.z], rest_[t.x])});
+                          return area(t, rest_) <= flat * longest * longest;
+                      });
+        areas_.resize(rest_.size());
+        for (const glm::uvec3& t : triangles_)
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                areas_[t[corner]] += area(t, rest_) / 3;
+                edges_[ordered(t[corner], t[(corner + 1) % 3])].push_back({t[(corner + 2) % 3], t});
+            }
+        take_material(mesh.material);
+        for (size_t i = 0; i < rest_.size(); ++i)
+            inverse_mass.push_back(areas_[i] > 0 ? 1 / (masses_alike_ ? density_ : density_ * areas_[i]) : 0);
+        for (size_t i = 0; i < mesh.inverse_masses.size(); ++i)
+            inverse_mass[i] = areas_[i] > 0 ? double(mesh.inverse_masses[i]) : 0;
+        for (const uint32_t held : mesh.held)
+            inverse_mass[held] = 0;
+        for (size_t i = 0; i < rest_.size(); ++i)
+            if (inverse_mass[i] == 0)
+                state.v[i] = glm::dvec3(0);
+    }
+
+    [[nodiscard]] size_t size() const { return rest_.size(); }
+    void step(double h, const Environment& environment) { rk4_step(*this, state, h, environment); }
+    void verlet_step(double h, uint32_t substeps, const Environment& environment)
+    {
+        reference::verlet_step(*this, state, h, substeps, environment);
+    }
+
+    [[nodiscard]] std::vector<glm::dvec3> accelerations(const ClothState& s, const Environment& environment) const
+    {
+        std::vector<glm::dvec3> force(size(), glm::dvec3(0));
+        for (const Spring& spring : springs)
+        {
+            const glm::dvec3 delta = s.x[spring.b] - s.x[spring.a];
+            const glm::dvec3 d = glm::normalize(delta);
+            const glm::dvec3 f = (spring.stiffness * (glm::length(delta) - spring.rest_length) +
+                                  spring.damping * glm::dot(s.v[spring.b] - s.v[spring.a], d)) *
+                                 d;
+            force[spring.a] += f;
+            force[spring.b] -= f;
+        }
+        for (const auto& [pair, q] : bending_form_) // minus the gradient of 1/2 B x^T Q x, and its damping
+            force[pair.first] -= bending_ * q * (s.x[pair.second] + bending_time_ * s.v[pair.second]);
+        for (const glm::uvec3& t : triangles_)
+            for (int corner = 0; corner < 3; ++corner)
+                force[t[corner]] += air(t, s, environment.wind - s.v[t[corner]], environment.air_density) / 3.0;
+        for (size_t i = 0; i < size(); ++i)
+        {
+            force[i] += linear_drag_ * (environment.wind - s.v[i]);
+            force[i] = inverse_mass[i] > 0 ? environment.gravity + inverse_mass[i] * force[i] : glm::dvec3(0);
+        }
+        return force;
+    }
+
+    [[nodiscard]] double energy(const Environment& environment) const // kinetic, elastic and potential, J
+    {
+        double total = 0;
+        for (size_t i = 0; i < size(); ++i)
+            if (inverse_mass[i] > 0)
+                total += (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(environment.gravity, state.x[i])) /
+                         inverse_mass[i];
+        for (const Spring& s : springs)
+            total += 0.5 * s.stiffness * std::pow(glm::distance(state.x[s.a], state.x[s.b]) - s.rest_length, 2);
+        for (const auto& [pair, q] : bending_form_)
+            total += 0.5 * bending_ * q * glm::dot(state.x[pair.first], state.x[pair.second]);
+        return total;
+    }
+
+    // No vertex is moved by its neighbours faster than this, 1/s^2: twice its springs and bending over its mass.
+    [[nodiscard]] double omega_squared() const
+    {
+        std::vector<double> stiffness(size());
+        for (const Spring& s : springs)
+        {
+            stiffness[s.a] += 2 * s.stiffness;
+            stiffness[s.b] += 2 * s.stiffness;
+        }
+        for (const auto& [pair, q] : bending_form_)
+            stiffness[pair.first] += bending_ * std::abs(q);
+        double largest = 0;
+        for (size_t i = 0; i < size(); ++i)
+            largest = std::max(largest, stiffness[i] * inverse_mass[i]);
+        return largest;
+    }
+
+    ClothState state;
+    std::vector<Spring> springs;
+    std::vector<double> inverse_mass; // 1/kg
+
+private:
+    struct Side
+    {
+        uint32_t opposite;
+        glm::uvec3 triangle;
+    };
+
+    static std::pair<uint32_t, uint32_t> ordered(uint32_t a, uint32_t b) { return std::minmax({a, b}); }
+
+    static double area(const glm::uvec3& t, const std::vector<glm::dvec3>& x)
+    {
+        return 0.5 * glm::length(glm::cross(x[t.y] - x[t.x], x[t.z] - x[t.x]));
+    }
+
+    void take_material(const cloth::ClothMaterial& material)
+    {
+        if (const auto* raw = std::get_if<cloth::Material>(&material))
+        {
+            density_ = double(raw->vertex_mass);
+            masses_alike_ = true;
+            bending_ = double(raw->bending_stiffness);
+            bending_time_ = double(raw->bending_time);
+            linear_drag_ = double(raw->linear_drag);
+            drag_normal_ = double(raw->air_drag_normal);
+            drag_tangential_ = double(raw->air_drag_tangential);
+            add_bending_form();
+            const cloth::Spring along = raw->springs.structural_warp;
+            const cloth::Spring across = raw->springs.bend_warp;
+            for_each_edge(
+                [&](uint32_t a, uint32_t b, double, double length) {
+                    springs.push_back({a, b, double(along.stiffness), double(along.damping), length});
+                });
+            std::map<std::pair<uint32_t, uint32_t>, bool> seen; // one spring a pair, however many edges it crosses
+            for_each_pair(
+                [&](uint32_t a, uint32_t b, double, double length)
+                {
+                    if (!std::exchange(seen[ordered(a, b)], true))
+                        springs.push_back({a, b, double(across.stiffness), double(across.damping), length});
+                });
+            return;
+        }
+        take_fabric(std::get<cloth::Fabric>(material));
+    }
+
+    void take_fabric(const cloth::Fabric& fabric)
+    {
+        density_ = double(fabric.areal_density);
+        drag_normal_ = double(fabric.air_drag_normal);
+        drag_tangential_ = double(fabric.air_drag_tangential);
+        const double stretch = 0.5 * (double(fabric.stretch_stiffness[0]) + double(fabric.stretch_stiffness[1]));
+        const double ratio = double(fabric.damping_ratio);
+        const auto solid = double(std::count_if(areas_.begin(), areas_.end(), [](double a) { return a > 0; }));
+        double mean_stiffness = 0;
+        double mean_mass = 0;
+        for_each_edge([&](uint32_t, uint32_t, double a, double length)
+                      { mean_stiffness += stretch * a / (length * length) / double(edges_.size()); });
+        for (const double a : areas_)
+            mean_mass += density_ * a / solid;
+        const double time = 2 * ratio * std::sqrt(mean_mass / (2 * mean_stiffness)); // damping over stiffness
+        const auto add = [&](uint32_t a, uint32_t b, double stiffness, double length) {
+            springs.push_back({a, b, stiffness, stiffness * time, length});
+        };
+        for_each_edge([&](uint32_t a, uint32_t b, double around, double length)
+                      { add(a, b, stretch * around / (length * length), length); });
+        if (fabric.bending_model == cloth::BendingModel::springs)
+        {
+            for_each_pair([&](uint32_t a, uint32_t b, double around, double length)
+                          { add(a, b, double(fabric.bending_stiffness) * 2 / 3 / around, length); });
+            return;
+        }
+        bending_ = double(fabric.bending_stiffness);
+        add_bending_form();
+        std::vector<double> row_sums(size());
+        for (const auto& [pair, q] : bending_form_)
+            if (pair.first != pair.second)
+                row_sums[pair.first] += std::abs(q);
+        double fastest = 0;
+        for (size_t i = 0; i < size(); ++i)
+            if (areas_[i] > 0)
+                fastest = std::max(fastest, 2 * bending_ * row_sums[i] / (density_ * areas_[i]));
+        bending_time_ = fastest > 0 ? 2 * ratio / std::sqrt(fastest) : 0;
+    }
+
+    // visit(a, b, area of the triangles around, length) of every edge.
+    template <typename Visit>
+    void for_each_edge(Visit visit) const
+    {
+        for (const auto& [edge, sides] : edges_)
+        {
+            double around = 0;
+            for (const Side& side : sides)
+                around += area(side.triangle, rest_);
+            visit(edge.first, edge.second, around, glm::distance(rest_[edge.first], rest_[edge.second]));
+        }
+    }
+
+    // The same of every pair of vertices opposite to an edge.
+    template <typename Visit>
+    void for_each_pair(Visit visit) const
+    {
+        for (const auto& [edge, sides] : edges_)
+            for (size_t i = 0; i < sides.size(); ++i)
+                for (size_t j = i + 1; j < sides.size(); ++j)
+                    if (sides[i].opposite != sides[j].opposite)
+                        visit(sides[i].opposite, sides[j].opposite,
+                              area(sides[i].triangle, rest_) + area(sides[j].triangle, rest_),
+                              glm::distance(rest_[sides[i].opposite], rest_[sides[j].opposite]));
+    }
+
+    // Where the height on an edge from `opposite` stands, as a share of the way from a to b.
+    [[nodiscard]] double foot(uint32_t a, uint32_t b, uint32_t opposite) const
+    {
+        const glm::dvec3 along = rest_[b] - rest_[a];
+        return glm::dot(rest_[opposite] - rest_[a], along) / glm::dot(along, along);
+    }
+    [[nodiscard]] glm::dvec3 height(uint32_t a, uint32_t b, uint32_t opposite) const // from the foot to `opposite`
+    {
+        return rest_[opposite] - glm::mix(rest_[a], rest_[b], foot(a, b, opposite));
+    }
+
+    // The angle of a small fold times the edge's length, along the normal: what each side's height has turned by, its
+    // foot less its top over its length.
+    [[nodiscard]] Linear fold(uint32_t a, uint32_t b, uint32_t first, uint32_t second) const
+    {
+        Linear result;
+        for (const uint32_t opposite : {first, second})
+        {
+            const double t = foot(a, b, opposite);
+            const double turn = glm::distance(rest_[a], rest_[b]) / glm::length(height(a, b, opposite));
+            result[a] += turn * (1 - t);
+            result[b] += turn * t;
+            result[opposite] -= turn;
+        }
+        return result;
+    }
+
+    // Energy of a triangle: 1/2 B A |S|^2, S = sum over its hinges of fold / 2A m m^T, m the edge's normal in its
+    // plane.
+    void add_bending_form()
+    {
+        for (const glm::uvec3& t : triangles_)
+        {
+            const double around = area(t, rest_);
+            std::array<Linear, 9> curvature;
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                const auto [a, b] = ordered(t[corner], t[(corner + 1) % 3]);
+                const uint32_t own = t[(corner + 2) % 3];
+                const glm::dvec3 m = glm::normalize(height(a, b, own));
+                for (const Side& side : edges_.at({a, b}))
+                {
+                    if (side.opposite == own)
+                        continue;
+                    for (const auto& [vertex, coefficient] : fold(a, b, own, side.opposite))
+                        for (int k = 0; k < 9; ++k)
+                            curvature[size_t(k)][vertex] += coefficient / (2 * around) * m[k / 3] * m[k % 3];
+                }
+            }
+            for (const Linear& entry : curvature)
+                for (const auto& [i, left] : entry)
+                    for (const auto& [j, right] : entry)
+                        bending_form_[{i, j}] += around * left * right;
+        }
+    }
+
+    // Drag on a whole triangle whose velocity against the air is -u.
+    [[nodiscard]] glm::dvec3 air(const glm::uvec3& t, const ClothState& s, const glm::dvec3& u, double density) const
+    {
+        const glm::dvec3 across = glm::cross(s.x[t.y] - s.x[t.x], s.x[t.z] - s.x[t.x]);
+        if (drag_normal_ + drag_tangential_ == 0 || glm::length(across) == 0)
+            return glm::dvec3(0);
+        const glm::dvec3 n = glm::normalize(across);
+        const glm::dvec3 normal = glm::dot(u, n) * n;
+        const glm::dvec3 tangential = u - normal;
+        return 0.5 * density * area(t, s.x) *
+               (drag_normal_ * glm::length(normal) * normal + drag_tangential_ * glm::length(tangential) * tangential);
+    }
+
+    std::vector<glm::uvec3> triangles_; // that have area
+    std::vector<glm::dvec3> rest_;
+    std::vector<double> areas_; // m^2, of each vertex
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> edges_;
+    std::map<std::pair<uint32_t, uint32_t>, double> bending_form_; // 1/m^2, both halves
+    double density_ = 0;                                           // kg/m^2, or kg a vertex
+    bool masses_alike_ = false;
+    double bending_ = 0; // N m
+    double bending_time_ = 0;
+    double linear_drag_ = 0;
+    double drag_normal_ = 0;
+    double drag_tangential_ = 0;
+};
+
+} // namespace reference
