@@ -115,7 +115,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_
         queue.run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
         result.limited = std::max(result.limited, solver.statistics(0).limited_vertices);
         const cloth::VertexStreams streams = solver.vertices(id);
-        x = engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.vertices, streams.offset);
+        x = engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
         result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));
         if (frame + 1 == k_first_timed)
             result.height = mean_height(x);

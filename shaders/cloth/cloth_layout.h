@@ -100,11 +100,14 @@ struct MeshCorner
     uint c;
 };
 
-// What one workgroup works on: vertices first .. first + group size - 1 of one cloth.
+// What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift columns
+// from column `first` on, and as many rows from `row` on as fill the group: what lies near on the cloth is worked on together.
 struct Chunk
 {
     uint cloth;
     uint first; // counted within the cloth
+    uint row;
+    uint tile_shift;
 };
 
 // A frame that holds follow, before and after the step.

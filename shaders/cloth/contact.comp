@@ -88,12 +88,11 @@ void keep_out(inout Motion motion)
 
 void main()
 {
-    const Chunk chunk = chunks[gl_WorkGroupID.x];
-    const uint cloth = chunk.cloth;
-    const uint local = chunk.first + gl_LocalInvocationID.x;
-    if (local >= cloths[cloth].vertices)
+    const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
+    if (!self.exists)
         return;
-    const uint i = cloths[cloth].first_vertex + local;
+    const uint i = self.index;
+    const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
     const vec4 proposed_velocity = proposed_velocities[i];
     Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz);
@@ -101,7 +100,7 @@ void main()
     if (proposed.w > 0)
     {
         const float thickness = cloths[cloth].thickness;
-        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(cloth, local) : vec3(0);
+        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
         for (uint c = 0; c < push.colliders; ++c)
         {
             const ColliderRecord collider = colliders[c];

@@ -7,7 +7,7 @@
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
-#include "grid.glsl"
+#include "chunk.glsl"
 #include "mesh.glsl"
 #include "stability.glsl"
 #include "wind.glsl"
@@ -72,15 +72,15 @@ struct Neighbour
 };
 
 // Reads the neighbour and adds the spring to it, if the class has any.
-Neighbour grid_neighbour(inout Gather g, uint cloth, GridVertex self, ivec2 offset, SpringClass spring)
+Neighbour grid_neighbour(inout Gather g, uint cloth, ChunkVertex self, ivec2 offset, SpringClass spring)
 {
     Neighbour n;
-    n.exists = in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows);
+    n.exists = in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows);
     n.delta = vec3(0);
     n.bending = vec3(0);
     if (!n.exists)
         return n;
-    const uint other = neighbour(self, offset, cloths[cloth].columns);
+    const uint other = neighbour(self.index, offset, cloths[cloth].columns);
     n.delta = stage_positions[other].xyz - g.x;
     const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
     n.bending = g.bending_stiffness * n.delta + g.bending_damping * relative_velocity;
@@ -98,7 +98,7 @@ SpringClass scaled(SpringClass spring, float stiffness, float damping)
 
 // One line of the grid through the vertex: its structural and bend springs, and bending by the isometric model, from the
 // energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of the line: minus its gradient over c.
-void gather_line(inout Gather g, uint cloth, GridVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
+void gather_line(inout Gather g, uint cloth, ChunkVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
                  out Neighbour ahead, out Neighbour behind)
 {
     ahead = grid_neighbour(g, cloth, self, along, spring);
@@ -116,7 +116,7 @@ void gather_line(inout Gather g, uint cloth, GridVertex self, ivec2 along, Sprin
 }
 
 // One cell at the vertex: its shear spring and the cell's twist, x_diagonal - x_along_row - x_along_column + x.
-void gather_cell(inout Gather g, uint cloth, GridVertex self, ivec2 offset, SpringClass shear, Neighbour along_row,
+void gather_cell(inout Gather g, uint cloth, ChunkVertex self, ivec2 offset, SpringClass shear, Neighbour along_row,
                  Neighbour along_column)
 {
     const float c = cloths[cloth].bending.z;
@@ -130,11 +130,11 @@ void gather_cell(inout Gather g, uint cloth, GridVertex self, ivec2 offset, Spri
 // Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
 // bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
 // the sum of the squared second differences along rows and columns and of twice the squared twist of the cells.
-void gather_grid(inout Gather g, uint cloth, GridVertex self, Shares shares)
+void gather_grid(inout Gather g, uint cloth, ChunkVertex self, Shares shares)
 {
     const float share = cloths[cloth].border_share;
-    const float row_share = self.row == 0 || self.row + 1 == int(cloths[cloth].rows) ? share : 1;
-    const float column_share = self.column == 0 || self.column + 1 == int(cloths[cloth].columns) ? share : 1;
+    const float row_share = self.place.y == 0 || self.place.y + 1 == int(cloths[cloth].rows) ? share : 1;
+    const float column_share = self.place.x == 0 || self.place.x + 1 == int(cloths[cloth].columns) ? share : 1;
     SpringClass springs[VOILE_SPRING_CLASSES];
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
     {
@@ -200,8 +200,9 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
 
 // The acceleration of a vertex, m/s^2. `share`: what the step bears of the inner forces' part; found where MEASURE is set,
 // else given.
-vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, inout float share)
+vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout float share)
 {
+    const uint cloth = self.cloth;
     Gather g;
     g.x = x;
     g.v = v;
@@ -214,9 +215,9 @@ vec3 acceleration(uint cloth, uint local, vec3 x, float inverse_mass, vec3 v, in
     g.bending_stiffness = shares.stiffness;
     g.bending_damping = shares.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
-        gather_grid(g, cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local), shares);
+        gather_grid(g, cloth, self, shares);
     else
-        gather_mesh(g, cloth, local, shares);
+        gather_mesh(g, cloth, self.local, shares);
     const float drag = shares.damping * cloths[cloth].linear_drag; // N s/m
     const float air_decay = inverse_mass * g.air_rate;             // 1/s
     const float air_share = stable_air(flags, air_decay, push.step);

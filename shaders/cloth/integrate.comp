@@ -33,19 +33,17 @@ const bool MEASURE = STAGE == 1;
 
 void main()
 {
-    const Chunk chunk = chunks[push.first_chunk + gl_WorkGroupID.x];
-    const uint cloth = chunk.cloth;
-    const uint local = chunk.first + gl_LocalInvocationID.x;
-    if (local >= cloths[cloth].vertices)
+    const ChunkVertex self = chunk_vertex(push.first_chunk + gl_WorkGroupID.x);
+    if (!self.exists)
         return;
-    const uint i = cloths[cloth].first_vertex + local;
+    const uint i = self.index;
     const vec4 stage_x = stage_positions[i];
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
     const vec4 velocity_sum = STAGE == 1 ? vec4(0) : velocity_sums[i];
     float share = velocity_sum.w;
     const vec3 a =
-        inverse_mass > 0 ? acceleration(cloth, local, stage_x.xyz, inverse_mass, stage_v, share) : vec3(0);
+        inverse_mass > 0 ? acceleration(self, stage_x.xyz, inverse_mass, stage_v, share) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.
     const vec3 x = STAGE == 1 ? stage_x.xyz : base_positions[i].xyz;

@@ -29,6 +29,7 @@ layout(set = 0, binding = 9, std430) readonly buffer StepVelocities { vec4 step_
 
 layout(push_constant, std430) uniform Push { StrainPush push; };
 
+#include "chunk.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
 
@@ -78,12 +79,13 @@ float coarse_inverse_mass(uint cloth, ivec2 place, uint index, int spacing)
                 lines_with(place.y, int(cloths[cloth].rows), spacing, share));
 }
 
-Correction limit_grid(uint cloth, GridVertex self, vec3 x, vec3 v)
+Correction limit_grid(ChunkVertex self, vec3 x, vec3 v)
 {
+    const uint cloth = self.cloth;
     Correction correction = Correction(vec3(0), vec3(0));
     const uint columns = cloths[cloth].columns;
     const int spacing = int(push.spacing);
-    const ivec2 place = ivec2(self.column, self.row);
+    const ivec2 place = self.place;
     if (!on_level(place, spacing))
         return correction;
     const float own = coarse_inverse_mass(cloth, place, self.index, spacing);
@@ -94,7 +96,7 @@ Correction limit_grid(uint cloth, GridVertex self, vec3 x, vec3 v)
             const ivec2 offset = (side == 0 ? 1 : -1) * spacing * k_spring_offsets[c];
             if (spring.stiffness == 0 || !in_grid(place + offset, columns, cloths[cloth].rows))
                 continue;
-            const uint other = neighbour(self, offset, columns);
+            const uint other = neighbour(self.index, offset, columns);
             add_limit(correction, x, v, own, other, coarse_inverse_mass(cloth, place + offset, other, spacing),
                       (1 + cloths[cloth].strain_limit) * float(spacing) * spring.rest_length);
         }
@@ -102,11 +104,12 @@ Correction limit_grid(uint cloth, GridVertex self, vec3 x, vec3 v)
 }
 
 // What a vertex between the lines of the level before takes over from its neighbours on them.
-Correction between(uint cloth, GridVertex self)
+Correction between(ChunkVertex self)
 {
+    const uint cloth = self.cloth;
     Correction sum = Correction(vec3(0), vec3(0));
     const int spacing = int(push.spacing);
-    const ivec2 place = ivec2(self.column, self.row);
+    const ivec2 place = self.place;
     if (!on_level(place, spacing) || on_level(place, 2 * spacing))
         return sum;
     const ivec2 off = (place / spacing) % 2; // 1 where it lies between
@@ -119,7 +122,7 @@ Correction between(uint cloth, GridVertex self)
         const ivec2 offset = spacing * off * (1 - 2 * side);
         if (!in_grid(place + offset, cloths[cloth].columns, cloths[cloth].rows))
             continue;
-        const uint other = neighbour(self, offset, cloths[cloth].columns);
+        const uint other = neighbour(self.index, offset, cloths[cloth].columns);
         sum.x += positions[other].xyz - step_positions[other].xyz;
         sum.v += velocities[other].xyz - step_velocities[other].xyz;
         count += 1;
@@ -145,12 +148,11 @@ Correction limit_mesh(uint cloth, uint local, vec3 x, vec3 v, float inverse_mass
 
 void main()
 {
-    const Chunk chunk = chunks[gl_WorkGroupID.x];
-    const uint cloth = chunk.cloth;
-    const uint local = chunk.first + gl_LocalInvocationID.x;
-    if (local >= cloths[cloth].vertices)
+    const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
+    if (!self.exists)
         return;
-    const uint i = cloths[cloth].first_vertex + local;
+    const uint cloth = self.cloth;
+    const uint i = self.index;
     const vec4 x = positions[i];
     const vec4 v = velocities[i];
     const bool grid = cloths[cloth].columns > 0;
@@ -159,15 +161,15 @@ void main()
     {
         float relaxation = cloths[cloth].strain_relaxation;
         if (!grid)
-            correction = limit_mesh(cloth, local, x.xyz, v.xyz, x.w);
+            correction = limit_mesh(cloth, self.local, x.xyz, v.xyz, x.w);
         else if (push.between == 1)
         {
-            correction = between(cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local));
+            correction = between(self);
             relaxation = 1;
         }
         else
             correction =
-                limit_grid(cloth, grid_vertex(cloths[cloth].first_vertex, cloths[cloth].columns, local), x.xyz, v.xyz);
+                limit_grid(self, x.xyz, v.xyz);
         correction.x *= relaxation;
         correction.v *= relaxation;
     }

@@ -18,8 +18,7 @@ layout(set = 0, binding = 5, std430) readonly buffer MeshCorners { MeshCorner me
 
 void main()
 {
-    const Chunk chunk = chunks[gl_WorkGroupID.x];
-    const uint local = chunk.first + gl_LocalInvocationID.x;
-    if (local < cloths[chunk.cloth].vertices)
-        normals[cloths[chunk.cloth].first_vertex + local] = vec4(vertex_normal(chunk.cloth, local), 0);
+    const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
+    if (self.exists)
+        normals[self.index] = vec4(vertex_normal(self), 0);
 }

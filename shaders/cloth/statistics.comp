@@ -22,6 +22,7 @@ layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring me
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
+#include "chunk.glsl"
 #include "contact_query.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
@@ -37,15 +38,16 @@ void measure_spring(vec3 x, uint other, float rest_length, inout StatisticsRecor
     record.springs += 1;
 }
 
-void measure_grid_springs(uint cloth, GridVertex self, vec3 x, inout StatisticsRecord record)
+void measure_grid_springs(ChunkVertex self, vec3 x, inout StatisticsRecord record)
 {
+    const uint cloth = self.cloth;
     for (int c = 0; c < 4; ++c) // structural and shear
     {
         const SpringClass spring = cloths[cloth].springs[c];
         const ivec2 offset = k_spring_offsets[c];
         if (spring.stiffness > 0 &&
-            in_grid(ivec2(self.column, self.row) + offset, cloths[cloth].columns, cloths[cloth].rows))
-            measure_spring(x, neighbour(self, offset, cloths[cloth].columns), spring.rest_length, record);
+            in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows))
+            measure_spring(x, neighbour(self.index, offset, cloths[cloth].columns), spring.rest_length, record);
     }
 }
 
@@ -77,13 +79,12 @@ void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
 
 void main()
 {
-    const Chunk chunk = chunks[gl_WorkGroupID.x];
-    const uint cloth = chunk.cloth;
-    const uint local = chunk.first + gl_LocalInvocationID.x;
+    const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
+    const uint cloth = self.cloth;
     StatisticsRecord record = no_statistics();
-    if (local < cloths[cloth].vertices)
+    if (self.exists)
     {
-        const uint i = cloths[cloth].first_vertex + local;
+        const uint i = self.index;
         const vec4 x = positions[i];
         const vec4 v = velocities[i];
         if (!finite(x.xyz) || !finite(v.xyz))
@@ -92,9 +93,9 @@ void main()
         {
             const uint columns = cloths[cloth].columns;
             if (columns > 0)
-                measure_grid_springs(cloth, grid_vertex(cloths[cloth].first_vertex, columns, local), x.xyz, record);
+                measure_grid_springs(self, x.xyz, record);
             else
-                measure_mesh_springs(cloth, local, x.xyz, record);
+                measure_mesh_springs(cloth, self.local, x.xyz, record);
             measure_penetration(x.xyz, cloths[cloth].thickness, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
             record.contacts = uint(v.w) & VOILE_VERTEX_TOUCHES;

@@ -31,15 +31,13 @@ const bool MEASURE = true;
 
 void main()
 {
-    const Chunk chunk = chunks[push.first_chunk + gl_WorkGroupID.x];
-    const uint cloth = chunk.cloth;
-    const uint local = chunk.first + gl_LocalInvocationID.x;
-    if (local >= cloths[cloth].vertices)
+    const ChunkVertex self = chunk_vertex(push.first_chunk + gl_WorkGroupID.x);
+    if (!self.exists)
         return;
-    const uint i = cloths[cloth].first_vertex + local;
+    const uint i = self.index;
     const vec4 x = stage_positions[i];
     float share = 1;
-    const vec3 a = x.w > 0 ? acceleration(cloth, local, x.xyz, x.w, stage_velocities[i].xyz, share) : vec3(0);
+    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, stage_velocities[i].xyz, share) : vec3(0);
     const vec4 before = velocities[i];
     const vec3 v = before.xyz + push.kick * a;
     // The kick that ends a step moves nothing: what the vertex touches, it still touches.

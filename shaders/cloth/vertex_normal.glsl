@@ -3,19 +3,19 @@
 #ifndef VOILE_VERTEX_NORMAL_GLSL
 #define VOILE_VERTEX_NORMAL_GLSL
 
-#include "grid.glsl"
+#include "chunk.glsl"
 #include "mesh.glsl"
 
-vec3 neighbour_delta(GridVertex self, ivec2 offset, uint columns, uint rows)
+vec3 neighbour_delta(ChunkVertex self, ivec2 offset, uint columns, uint rows)
 {
-    if (!in_grid(ivec2(self.column, self.row) + offset, columns, rows))
+    if (!in_grid(self.place + offset, columns, rows))
         return vec3(0);
-    return VOILE_NORMAL_POSITIONS[neighbour(self, offset, columns)].xyz - VOILE_NORMAL_POSITIONS[self.index].xyz;
+    return VOILE_NORMAL_POSITIONS[neighbour(self.index, offset, columns)].xyz - VOILE_NORMAL_POSITIONS[self.index].xyz;
 }
 
 // The sum of the cross products of consecutive neighbours around the vertex, E x N + N x W + W x S + S x E, is the one
 // product (E - W) x (N - S): the area-weighted normal of the four quadrants. Up for a flat grid seen from above.
-vec3 grid_across(GridVertex self, uint columns, uint rows)
+vec3 grid_across(ChunkVertex self, uint columns, uint rows)
 {
     const vec3 along_row = neighbour_delta(self, ivec2(1, 0), columns, rows) -
                            neighbour_delta(self, ivec2(-1, 0), columns, rows);
@@ -40,12 +40,10 @@ vec3 mesh_across(uint cloth, uint local)
     return across;
 }
 
-vec3 vertex_normal(uint cloth, uint local)
+vec3 vertex_normal(ChunkVertex self)
 {
-    const uint first = cloths[cloth].first_vertex;
-    const uint columns = cloths[cloth].columns;
-    const vec3 n = columns > 0 ? grid_across(grid_vertex(first, columns, local), columns, cloths[cloth].rows)
-                               : mesh_across(cloth, local);
+    const uint columns = cloths[self.cloth].columns;
+    const vec3 n = columns > 0 ? grid_across(self, columns, cloths[self.cloth].rows) : mesh_across(self.cloth, self.local);
     const float length_squared = dot(n, n);
     return length_squared > 1e-30 ? n * inversesqrt(length_squared) : vec3(0, 1, 0);
 }

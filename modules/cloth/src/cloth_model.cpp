@@ -4,6 +4,7 @@
 #include "stability.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace cloth
@@ -347,15 +348,40 @@ std::vector<glm::uvec3> cloth_triangles(const Model& model, uint32_t cloth)
     return result;
 }
 
+namespace
+{
+
+// How many columns of a grid a workgroup works on, unless it or the grid is smaller; bench/NOTES.md has others.
+constexpr uint32_t k_tile_width = 32;
+
+void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workgroup_size,
+               std::vector<shared::Chunk>& chunks)
+{
+    const uint32_t width = std::min(std::bit_ceil(std::min(record.columns, k_tile_width)), workgroup_size);
+    const uint32_t height = workgroup_size / width;
+    for (uint32_t row = 0; row < record.rows; row += height)
+        for (uint32_t column = 0; column < record.columns; column += width)
+            chunks.push_back({cloth, column, row, static_cast<uint32_t>(std::countr_zero(width))});
+}
+
+} // namespace
+
 Chunks make_chunks(const Model& model, uint32_t workgroup_size)
 {
     Chunks result;
     for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
     {
         for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
-            if (model.cloths[cloth].integrator == integrator)
-                for (uint32_t first = 0; first < model.records[cloth].vertices; first += workgroup_size)
-                    result.chunks.push_back({cloth, first});
+        {
+            const shared::ClothRecord& record = model.records[cloth];
+            if (model.cloths[cloth].integrator != integrator)
+                continue;
+            if (record.columns > 0)
+                add_tiles(record, cloth, workgroup_size, result.chunks);
+            else
+                for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
+                    result.chunks.push_back({cloth, first, 0, 0});
+        }
         if (integrator == Integrator::rk4)
             result.rk4 = static_cast<uint32_t>(result.chunks.size());
     }

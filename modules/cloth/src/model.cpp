@@ -16,7 +16,7 @@ static_assert(offsetof(shared::ClothRecord, springs) == 96);
 static_assert(sizeof(shared::MeshVertex) == 16);
 static_assert(sizeof(shared::MeshSpring) == 16);
 static_assert(sizeof(shared::MeshCorner) == 8);
-static_assert(sizeof(shared::Chunk) == 8);
+static_assert(sizeof(shared::Chunk) == 16);
 static_assert(sizeof(shared::ColliderRecord) == 64);
 static_assert(offsetof(shared::ColliderRecord, shape) == 48);
 static_assert(sizeof(shared::StagePush) == 68);
