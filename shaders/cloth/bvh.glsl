@@ -1,26 +1,13 @@
 // Traversal of a bounding volume hierarchy with a box as the query.
 //
-// The including kernel declares `bvh_nodes[]` and `bvh_triangles[]` and defines, before the include,
-//   void visit_triangle(uint triangle)
-// which is called for every triangle of the leaves that the box reaches.
+// The including kernel declares `bvh_nodes[]` and defines boxes_overlap and, before the include,
+//   void take_leaf(uint first, uint count)
+// which is called for every leaf that the box reaches, with its triangles.
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
 
-bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
-{
-    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
-}
-
-void visit_leaf(uint first_triangle, uint leaf)
-{
-    const uint first = first_triangle + (leaf & VOILE_BVH_FIRST_MASK);
-    const uint count = ((leaf >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1;
-    for (uint t = first; t < first + count; ++t)
-        visit_triangle(t);
-}
-
-// Leaves that the traversal has found and not yet visited. Neighbouring threads find theirs at different steps; visiting
-// them together keeps the expensive triangle tests out of the loop over nodes.
+// Leaves that the traversal has found and not yet handed on. Neighbouring threads find theirs at different steps; taking
+// them together keeps what is done with them out of the loop over nodes.
 #define VOILE_BVH_WAITING_LEAVES 8
 
 void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
@@ -54,7 +41,8 @@ void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
             node = go_left ? n.left : go_right ? n.right : stack[--entries];
         }
         for (uint i = 0; i < waiting; ++i)
-            visit_leaf(first_triangle, leaves[i]);
+            take_leaf(first_triangle + (leaves[i] & VOILE_BVH_FIRST_MASK),
+                      ((leaves[i] >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1);
         waiting = 0;
     }
 }

@@ -22,6 +22,11 @@
 #define VOILE_COLLIDER_SPHERE 1
 #define VOILE_COLLIDER_MESH 2
 
+// How many leaves of the colliders' hierarchies a vertex keeps from substep to substep (contact_candidates.glsl).
+#define VOILE_CANDIDATES 7
+// and how many substeps lie between the renewals of these lists.
+#define VOILE_RENEWAL 16
+
 // A closed mesh has an outside: its triangles push outwards. Any other mesh pushes to the side that a vertex came from.
 #define VOILE_COLLIDER_CLOSED 1u
 // The collider has friction coefficients of its own.
@@ -162,6 +167,10 @@ struct ColliderRecord
     uint first_node;
     vec3 box_max;
     uint first_triangle;
+    uint triangles; // of a mesh, from first_triangle on
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
     vec4 shape; // plane: unit normal and offset (normal . x of its points); sphere: centre and radius
 };
 
@@ -185,6 +194,8 @@ struct ContactPush
 {
     float step; // s
     uint colliders;
+    uint renew;         // 1: lists of candidates are renewed in this substep
+    float renewal_time; // s, from one renewal to the next
 };
 
 // Push constants of the passes over pins, holds and tethers.

@@ -27,11 +27,15 @@ layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner m
 layout(set = 0, binding = 11, std430) readonly buffer ProposedPredicted { vec4 proposed_predicted[]; };
 layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 
+layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
+layout(set = 0, binding = 14, std430) buffer CandidateLeaves { uint candidate_leaves[]; };
+
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #include "vertex_normal.glsl"
 #include "contact_query.glsl"
+#include "contact_candidates.glsl"
 
 struct Motion
 {
@@ -97,9 +101,12 @@ void main()
     const vec4 proposed_velocity = proposed_velocities[i];
     Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz);
     float touches = 0;
+    bool stays_out = false;
     if (proposed.w > 0)
     {
         const float thickness = cloths[cloth].thickness;
+        const float travelled = distance(motion.from, motion.x);
+        find_candidates(i, push.colliders, motion.from, motion.x, length(motion.v), thickness);
         const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
         for (uint c = 0; c < push.colliders; ++c)
         {
@@ -107,13 +114,15 @@ void main()
             const Contact contact = find_contact(collider, METHOD, motion.from, motion.x, normal, thickness);
             if (!contact.found)
                 continue;
+            // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
+            stays_out = touches == 0 && thickness - contact.gap + travelled < contact.gap;
             touches = VOILE_VERTEX_TOUCHES;
             respond(motion, contact, thickness,
                     pair_friction(cloths[cloth].static_friction, collider.static_friction, collider.flags),
                     pair_friction(cloths[cloth].kinetic_friction, collider.kinetic_friction, collider.flags));
         }
     }
-    if (touches > 0)
+    if (touches > 0 && !stays_out)
         keep_out(motion);
     positions[i] = vec4(motion.x, proposed.w);
     velocities[i] = vec4(motion.v, touches + proposed_velocity.w);

@@ -1,6 +1,8 @@
 // Where a vertex touches a collider.
 //
-// The including kernel declares `colliders[]`, `bvh_nodes[]` and `bvh_triangles[]`.
+// The including kernel declares `colliders[]`, `bvh_nodes[]` and `bvh_triangles[]`, and defines after the include
+//   void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
+// which calls visit_triangle for all triangles of the mesh that the box can reach.
 #ifndef VOILE_CONTACT_QUERY_GLSL
 #define VOILE_CONTACT_QUERY_GLSL
 
@@ -92,7 +94,12 @@ void visit_triangle(uint index)
         visit_nearest(triangle.a, triangle.b, triangle.c, face);
 }
 
-#include "bvh.glsl"
+bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+{
+    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
+}
+
+void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max);
 
 Contact crossing_contact()
 {
@@ -143,7 +150,7 @@ Contact mesh_contact(ColliderRecord collider, int method, vec3 from, vec3 to, ve
     query.distance = thickness;
     query.alignment = 2; // nothing ties with "nothing found"
     query.crossing = 2;
-    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+    visit_mesh(collider, box_min, box_max);
     if (query.crossing <= 1)
         return crossing_contact();
     return nearest_contact();
@@ -163,7 +170,7 @@ Contact path_contact(ColliderRecord collider, vec3 from, vec3 to)
     query.to = to;
     query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
     query.crossing = 2;
-    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+    visit_mesh(collider, box_min, box_max);
     if (query.crossing <= 1)
         contact = crossing_contact();
     return contact;

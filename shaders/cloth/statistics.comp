@@ -24,6 +24,19 @@ layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "chunk.glsl"
 #include "contact_query.glsl"
+
+void take_leaf(uint first, uint count)
+{
+    for (uint t = first; t < first + count; ++t)
+        visit_triangle(t);
+}
+#include "bvh.glsl"
+
+void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
+{
+    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+}
+
 #include "grid.glsl"
 #include "mesh.glsl"
 #include "statistics_merge.glsl"

@@ -43,6 +43,9 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.stage_b.velocities, "cloth stage b velocities", per_vertex},
         {&state.sums.positions, "cloth velocity sums", per_vertex},
         {&state.sums.velocities, "cloth acceleration sums", per_vertex},
+        {&state.candidate_places, "cloth candidate places", per_vertex},
+        {&state.candidate_leaves, "cloth candidate leaves",
+         model.positions.size() * (VOILE_CANDIDATES + 1) * sizeof(uint32_t)},
         {&state.normals, "cloth normals", per_vertex},
         {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
         {&state.result, "cloth statistics", statistics_slots * sizeof(shared::StatisticsRecord), gpu::Memory::readback},
@@ -145,7 +148,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
                  s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
                  s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(), s.sums.velocities.handle(),
-                 s.stage_a.velocities.handle()});
+                 s.stage_a.velocities.handle(), s.candidate_places.handle(), s.candidate_leaves.handle()});
     binder.bind(s.normals_set, kernels.normals,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle()});
@@ -173,7 +176,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
     constexpr uint32_t k_sets = 21;
-    constexpr uint32_t k_most_bindings = 13;
+    constexpr uint32_t k_most_bindings = 15;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

@@ -39,7 +39,7 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
          {"cloth strain limit", shaders::k_limit_strain_comp, 10, sizeof(shared::StrainPush), {group, 0, layout}}},
         {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 4, k_edit_bytes, {group}}},
         {&kernels.contact,
-         {"cloth contact", shaders::k_contact_comp, 13, sizeof(shared::ContactPush), {group, method, layout}}},
+         {"cloth contact", shaders::k_contact_comp, 15, sizeof(shared::ContactPush), {group, method, layout}}},
         {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},
         {&kernels.statistics,
          {"cloth statistics", shaders::k_statistics_comp, 10, sizeof(shared::StatisticsPush), {group, 0, layout}}},

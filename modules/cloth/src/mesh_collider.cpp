@@ -19,6 +19,7 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
         record.flags |= VOILE_COLLIDER_CLOSED;
     record.first_node = static_cast<uint32_t>(nodes.size());
     record.first_triangle = static_cast<uint32_t>(triangles.size());
+    record.triangles = static_cast<uint32_t>(bvh.triangles.size());
     const shared::BvhNode& root = bvh.nodes[0];
     record.box_min = glm::min(root.left_min, root.right_min);
     record.box_max = glm::max(root.left_max, root.right_max);

@@ -49,7 +49,7 @@ void SubstepRecorder::record()
         record_verlet(push, substep);
         record_holds(substep);
         if (commits_)
-            record_contact();
+            record_contact(substep);
     }
     finish_verlet(make_push(substeps_));
     if (solver_.passes.strain_spacing > 0)
@@ -116,10 +116,11 @@ void SubstepRecorder::record_holds(uint32_t substep)
     recorder_.dispatch(kernels_.tethers, device_.proposed_tethers, push.count, group_, push);
 }
 
-void SubstepRecorder::record_contact()
+void SubstepRecorder::record_contact(uint32_t substep)
 {
+    const uint32_t renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
     recorder_.dispatch(kernels_.contact, device_.contact, device_.chunk_count * group_, group_,
-                       shared::ContactPush{h_, device_.collider_count});
+                       shared::ContactPush{h_, device_.collider_count, renew, VOILE_RENEWAL * h_});
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
@@ -151,7 +152,7 @@ void SubstepRecorder::record_strain_limit()
     }
     if (pass % 2 == 0)
         record_pass({1, 0, 1});
-    record_contact();
+    record_contact(substeps_);
 }
 
 } // namespace cloth

@@ -98,6 +98,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
+    const std::vector<glm::vec4> no_candidates(s.model.positions.size(), glm::vec4(0, 0, 0, -1));
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -118,6 +119,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
+        {next.candidate_places, 0, bytes_of(no_candidates)},
         {next.normals, kept_bytes, bytes_of(up)},
     };
     for (const Staged& item : staged)
