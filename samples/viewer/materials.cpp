@@ -1,59 +1,14 @@
 // Presets, and what a scene file changes of them.
 #include "samples/viewer/materials.hpp"
 
+#include "cloth/fabrics.hpp"
+
 #include <algorithm>
 
 namespace viewer
 {
 namespace
 {
-
-// Typical of their class (plain light silk, shirting, suiting, 12 oz denim, garment leather), not of one measured
-// sample: areal density, stretch stiffness of warp and weft, shear, bending, damping ratio, thickness, friction.
-std::optional<cloth::Fabric> fabric_preset(const std::string& name)
-{
-    if (name == "silk")
-        return cloth::Fabric{.areal_density = 0.07f,
-                             .stretch_stiffness{900, 700},
-                             .shear_stiffness = 25,
-                             .bending_stiffness = 4e-6f,
-                             .thickness = 0.004f,
-                             .static_friction = 0.3f,
-                             .kinetic_friction = 0.25f};
-    if (name == "cotton")
-        return cloth::Fabric{.areal_density = 0.14f,
-                             .stretch_stiffness{1500, 1200},
-                             .shear_stiffness = 60,
-                             .bending_stiffness = 8e-6f,
-                             .thickness = 0.005f,
-                             .static_friction = 0.5f,
-                             .kinetic_friction = 0.4f};
-    if (name == "wool")
-        return cloth::Fabric{.areal_density = 0.25f,
-                             .stretch_stiffness{1200, 1000},
-                             .shear_stiffness = 50,
-                             .bending_stiffness = 1.2e-5f,
-                             .thickness = 0.006f,
-                             .static_friction = 0.6f,
-                             .kinetic_friction = 0.5f};
-    if (name == "denim")
-        return cloth::Fabric{.areal_density = 0.4f,
-                             .stretch_stiffness{3500, 2500},
-                             .shear_stiffness = 250,
-                             .bending_stiffness = 7e-5f,
-                             .thickness = 0.006f,
-                             .static_friction = 0.6f,
-                             .kinetic_friction = 0.5f};
-    if (name == "leather")
-        return cloth::Fabric{.areal_density = 0.7f,
-                             .stretch_stiffness{4500, 4500},
-                             .shear_stiffness = 1200,
-                             .bending_stiffness = 2e-4f,
-                             .thickness = 0.007f,
-                             .static_friction = 0.6f,
-                             .kinetic_friction = 0.5f};
-    return std::nullopt;
-}
 
 void override_with(const std::optional<float>& value, float& target)
 {
@@ -135,7 +90,7 @@ gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, co
     else
     {
         const std::string preset = entry.preset.value_or("cotton");
-        std::optional<cloth::Fabric> fabric = fabric_preset(preset);
+        std::optional<cloth::Fabric> fabric = cloth::find_fabric(preset);
         if (!fabric)
             return bad("unknown preset \"" + preset + "\"; there are silk, cotton, wool, denim, leather and reference");
         apply(entry, *fabric);
