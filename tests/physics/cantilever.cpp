@@ -1,0 +1,165 @@
+// A horizontal strip that is held at one end and bends under its own weight, against the heavy elastica.
+#include "physics/cases.hpp"
+#include "physics/sheets.hpp"
+
+#include <algorithm>
+
+namespace physics
+{
+
+namespace
+{
+
+constexpr double k_length = 0.2; // m, free
+
+struct Row
+{
+    double load; // Gamma = w L^3 / B
+    double drop; // of the length
+};
+constexpr Row k_rows[] = {{1, 0.1235}, {5, 0.4959}, {10, 0.7002}, {20, 0.8299}, {50, 0.9079}};
+
+// Of the isometric model, and so stiff in stretch that its own weight lengthens it by 0.005 % at most.
+cloth::Fabric strip_fabric(double load)
+{
+    cloth::Fabric fabric = plain_fabric(4000);
+    fabric.bending_model = cloth::BendingModel::isometric;
+    fabric.bending_stiffness = static_cast<float>(0.2 * k_gravity * k_length * k_length * k_length / load);
+    return fabric;
+}
+
+// A spacing such that `spacings` and a half of it are the free length: an inner vertex of the second difference stands
+// for half a spacing to either side, so the clamp lies in the middle between the two columns that are held.
+double spacing_of(uint32_t spacings)
+{
+    return k_length / (spacings + 0.5);
+}
+
+// Settles and tells how far the mean of the last `end` vertices of the order given lies below the clamp.
+double drop_at_rest(Rig& rig, cloth::ClothId id, const std::vector<uint32_t>& end)
+{
+    rig.settle(id, {.duration = 0.01f}, 600);
+    const auto x = rig.positions(id);
+    double drop = 0;
+    for (const uint32_t i : end)
+        drop -= x[i].y / static_cast<double>(end.size());
+    return drop / k_length;
+}
+
+double grid_drop(double load, uint32_t spacings)
+{
+    const double h = spacing_of(spacings);
+    cloth::Grid grid;
+    grid.integrator = cloth::Integrator::verlet;
+    grid.columns = spacings + 2;
+    grid.rows = 3;
+    grid.width = static_cast<float>(h * (spacings + 1));
+    grid.depth = static_cast<float>(2 * h);
+    grid.material = strip_fabric(load);
+    std::vector<uint32_t> end;
+    for (uint32_t row = 0; row < 3; ++row)
+    {
+        grid.held.push_back(row * grid.columns);
+        grid.held.push_back(row * grid.columns + 1);
+        end.push_back((row + 1) * grid.columns - 1);
+    }
+    Rig rig;
+    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    rig.upload();
+    return drop_at_rest(rig, id, end);
+}
+
+// Equilateral triangles: columns of four and of five vertices by turns.
+struct Strip
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    std::vector<uint32_t> held;
+    std::vector<uint32_t> end;
+};
+
+Strip triangle_strip(uint32_t spacings)
+{
+    const double h = spacing_of(spacings);
+    const double edge = h * 2 / std::sqrt(3.0);
+    Strip strip;
+    uint32_t previous = 0; // first vertex of the column before
+    for (uint32_t column = 0; column < spacings + 2; ++column)
+    {
+        const auto first = static_cast<uint32_t>(strip.positions.size());
+        const uint32_t count = column % 2 == 0 ? 4 : 5;
+        for (uint32_t i = 0; i < count; ++i)
+            strip.positions.emplace_back(column * h, 0, edge * (i - 0.5 * (count - 1)));
+        for (uint32_t i = 0; column > 0 && i < 4; ++i)
+        {
+            const uint32_t four = count == 4 ? first : previous;
+            const uint32_t five = count == 5 ? first : previous;
+            strip.triangles.emplace_back(four + i, five + i, five + i + 1);
+            if (i < 3)
+                strip.triangles.emplace_back(four + i, five + i + 1, four + i + 1);
+        }
+        for (uint32_t i = first; i < first + count; ++i)
+        {
+            if (column < 2)
+                strip.held.push_back(i);
+            if (column == spacings + 1)
+                strip.end.push_back(i);
+        }
+        previous = first;
+    }
+    return strip;
+}
+
+double mesh_drop(double load, uint32_t spacings)
+{
+    const Strip strip = triangle_strip(spacings);
+    cloth::MeshCloth mesh;
+    mesh.positions = strip.positions;
+    mesh.triangles = strip.triangles;
+    mesh.held = strip.held;
+    mesh.integrator = cloth::Integrator::verlet;
+    mesh.material = strip_fabric(load);
+    Rig rig;
+    const cloth::ClothId id = engine::take(rig.solver.add_cloth(mesh));
+    rig.upload();
+    return drop_at_rest(rig, id, strip.end);
+}
+
+CaseResult cantilever(Detail detail, const char* kind, double (*drop)(double load, uint32_t spacings))
+{
+    CaseResult result;
+    const uint32_t spacings = detail == Detail::fine ? 32 : 16;
+    Plot plot{std::string("cantilever_") + kind,
+              std::string("Cantilever, ") + kind,
+              "w L³ / B",
+              "drop / length",
+              {{"exact", {}, {}, false}, {"ours", {}, {}, true}},
+              false,
+              false};
+    for (const Row& row : k_rows)
+    {
+        const double found = drop(row.load, spacings);
+        result.measurements.push_back({"drop / length at Γ = " + short_number(row.load),
+                                       std::to_string(spacings) + " spacings", found, row.drop, 0.03});
+        for (Curve& curve : plot.curves)
+            curve.x.push_back(row.load);
+        plot.curves[0].y.push_back(row.drop);
+        plot.curves[1].y.push_back(found);
+    }
+    result.plots.push_back(plot);
+    return result;
+}
+
+} // namespace
+
+CaseResult cantilever_grid(Detail detail)
+{
+    return cantilever(detail, "grid", grid_drop);
+}
+
+CaseResult cantilever_mesh(Detail detail)
+{
+    return cantilever(detail, "mesh", mesh_drop);
+}
+
+} // namespace physics

@@ -1,0 +1,198 @@
+// Cusick's drape test: a disc of cloth of 30 cm held between discs of 18 cm, the rest hanging; the drape coefficient is
+// the share of the overhang's area that the shadow from above still has.
+#include "physics/cases.hpp"
+#include "physics/sheets.hpp"
+
+#include "cloth/fabrics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace physics
+{
+
+namespace
+{
+
+constexpr double k_support = 0.09; // m, radii
+constexpr double k_cloth = 0.15;
+
+struct Disc
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    std::vector<uint32_t> held;
+};
+
+// Rings of an equilateral lattice made round: ring n has 6 n vertices, evenly spaced.
+class DiscMaker
+{
+public:
+    // `overhang` rings and a half lie outside the support: its edge is in the middle between the last ring that is held
+    // and the first that is not, as with a cantilever.
+    explicit DiscMaker(uint32_t overhang)
+    {
+        const double spacing = (k_cloth - k_support) / (overhang - 0.5);
+        const double inner = k_support - 0.5 * spacing;
+        const auto held = static_cast<uint32_t>(std::lround(inner / spacing));
+        disc_.positions.emplace_back(0.f);
+        for (uint32_t n = 1; n <= held + overhang; ++n)
+            add_ring(n, n <= held ? inner * n / held : inner + spacing * (n - held));
+        for (uint32_t i = 0; i < 1 + 3 * held * (held + 1); ++i)
+            disc_.held.push_back(i);
+    }
+
+    [[nodiscard]] const Disc& disc() const { return disc_; }
+
+private:
+    static uint32_t first_of(uint32_t ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }
+
+    // Vertex k of a ring, round and round.
+    static uint32_t vertex(uint32_t ring, uint32_t k) { return ring == 0 ? 0 : first_of(ring) + k % (6 * ring); }
+
+    void add_ring(uint32_t n, double radius)
+    {
+        for (uint32_t k = 0; k < 6 * n; ++k)
+        {
+            const double angle = 2 * std::numbers::pi * k / (6.0 * n);
+            disc_.positions.emplace_back(radius * std::sin(angle), 0, radius * std::cos(angle));
+        }
+        for (uint32_t sector = 0; sector < 6; ++sector)
+            for (uint32_t k = 0; k < n; ++k)
+            {
+                const uint32_t outer = sector * n + k;
+                const uint32_t inner = sector * (n - 1) + k;
+                disc_.triangles.emplace_back(vertex(n, outer), vertex(n, outer + 1), vertex(n - 1, inner));
+                if (k + 1 < n)
+                    disc_.triangles.emplace_back(vertex(n, outer + 1), vertex(n - 1, inner + 1), vertex(n - 1, inner));
+            }
+    }
+
+    Disc disc_;
+};
+
+constexpr size_t k_rays = 720;
+
+// How far the shadow reaches from the axis in each of `k_rays` directions: the outermost of the edges there.
+std::vector<double> outline(const Disc& disc, const std::vector<glm::dvec3>& x)
+{
+    std::vector<double> radii(k_rays, k_support);
+    for (const glm::uvec3& t : disc.triangles)
+        for (int side = 0; side < 3; ++side)
+        {
+            const glm::dvec2 a(x[t[side]].x, x[t[side]].z);
+            const glm::dvec2 b(x[t[(side + 1) % 3]].x, x[t[(side + 1) % 3]].z);
+            if (std::min(glm::length(a), glm::length(b)) < 0.5 * k_support)
+                continue;
+            const double step = 2 * std::numbers::pi / k_rays;
+            const double from = std::atan2(a.y, a.x);
+            const double turn = std::remainder(std::atan2(b.y, b.x) - from, 2 * std::numbers::pi);
+            const double low = std::min(from, from + turn);
+            const double high = std::max(from, from + turn);
+            for (auto ray = static_cast<long>(std::ceil(low / step)); static_cast<double>(ray) * step <= high; ++ray)
+            {
+                const double angle = static_cast<double>(ray) * step;
+                const glm::dvec2 d(std::cos(angle), std::sin(angle));
+                const double across = d.x * (b.y - a.y) - d.y * (b.x - a.x);
+                if (std::abs(across) < 1e-12)
+                    continue;
+                double& radius = radii[static_cast<size_t>(ray + 2 * static_cast<long>(k_rays)) % k_rays];
+                radius = std::max(radius, (a.x * b.y - a.y * b.x) / across);
+            }
+        }
+    return radii;
+}
+
+double coefficient(const std::vector<double>& radii)
+{
+    double squares = 0;
+    for (const double r : radii)
+        squares += r * r / static_cast<double>(k_rays);
+    return (squares - k_support * k_support) / (k_cloth * k_cloth - k_support * k_support);
+}
+
+// How many waves the outline has: places where it goes outwards through its mean.
+uint32_t waves(const std::vector<double>& radii)
+{
+    double mean = 0;
+    for (const double r : radii)
+        mean += r / static_cast<double>(k_rays);
+    uint32_t count = 0;
+    for (size_t i = 0; i < k_rays; ++i)
+        count += radii[i] < mean && radii[(i + 1) % k_rays] >= mean ? 1 : 0;
+    return count;
+}
+
+std::vector<double> draped(const cloth::Fabric& fabric, uint32_t overhang)
+{
+    const Disc disc = DiscMaker(overhang).disc();
+    cloth::MeshCloth mesh;
+    mesh.positions = disc.positions;
+    mesh.triangles = disc.triangles;
+    mesh.held = disc.held;
+    mesh.integrator = cloth::Integrator::verlet;
+    mesh.material = fabric;
+    Rig rig;
+    const cloth::ClothId id = engine::take(rig.solver.add_cloth(mesh));
+    rig.upload();
+    // Not quite flat, by a thousandth of the spacing, or it could not choose where to fold. Waves of several counts.
+    auto x = rig.positions(id);
+    for (size_t i = disc.held.size(); i < x.size(); ++i)
+    {
+        const double angle = std::atan2(x[i].z, x[i].x);
+        x[i].y +=
+            1e-5 * (std::cos(5 * angle) + std::sin(7 * angle) + std::cos(4 * angle + 1) + std::sin(6 * angle + 2));
+    }
+    rig.place(id, x);
+    rig.settle(id, {.duration = 0.01f, .max_substeps = 20000}, 250, 1e-6);
+    return outline(disc, rig.positions(id));
+}
+
+struct Band
+{
+    const char* fabric;
+    double low; // %
+    double high;
+};
+constexpr Band k_bands[] = {
+    {"silk", 20, 40}, {"cotton", 60, 76}, {"wool", 40, 70}, {"denim", 70, 90}, {"leather", 47.35, 69.9}};
+
+Curve closed_curve(const char* name, const std::vector<double>& radii)
+{
+    Curve curve{name, {}, {}, false};
+    for (size_t i = 0; i <= k_rays; ++i)
+    {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / k_rays;
+        curve.x.push_back(radii[i % k_rays] * std::cos(angle));
+        curve.y.push_back(radii[i % k_rays] * std::sin(angle));
+    }
+    return curve;
+}
+
+} // namespace
+
+CaseResult drape(Detail detail)
+{
+    CaseResult result;
+    const uint32_t overhang = detail == Detail::fine ? 7 : 4;
+    Plot plot{"drape", "Cusick drape from above", "x, m", "z, m", {}, false, true};
+    plot.curves.push_back(closed_curve("support", std::vector<double>(k_rays, k_support)));
+    for (const Band& band : k_bands)
+    {
+        const auto radii = draped(*cloth::find_fabric(band.fabric), overhang);
+        Measurement m{std::string(band.fabric) + ", drape coefficient, % (" + std::to_string(waves(radii)) + " waves)",
+                      std::to_string(overhang) + " rings outside",
+                      100 * coefficient(radii),
+                      0,
+                      0,
+                      band.low,
+                      band.high};
+        result.measurements.push_back(m);
+        plot.curves.push_back(closed_curve(band.fabric, radii));
+    }
+    result.plots.push_back(plot);
+    return result;
+}
+
+} // namespace physics

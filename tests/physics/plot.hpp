@@ -1,0 +1,14 @@
+// Plots as SVG files.
+#pragma once
+
+#include "physics/cases.hpp"
+
+#include <filesystem>
+
+namespace physics
+{
+
+// Writes `folder`/<plot's file>.svg. False if that fails.
+bool write_svg(const Plot& plot, const std::filesystem::path& folder);
+
+} // namespace physics

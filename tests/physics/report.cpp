@@ -1,0 +1,126 @@
+// physics_report: runs every case at two resolutions and writes FOLDER/physics.md with plots in FOLDER/physics.
+//
+//   physics_report FOLDER [CASE ...]    with cases: only these, to standard output
+#include "physics/plot.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+
+using physics::Measurement;
+
+std::string text(const char* format, double value)
+{
+    char result[32];
+    std::snprintf(result, sizeof(result), format, value);
+    return result;
+}
+
+std::string exact_of(const Measurement& m)
+{
+    return m.band() ? text("%.4g", m.low) + " to " + text("%.4g", m.high) : text("%.5g", m.exact);
+}
+
+std::string error_of(const Measurement& m)
+{
+    if (m.band())
+        return m.error() == 0 ? "inside" : text("%.3g", m.error()) + " outside";
+    return m.exact == 0 ? text("%.2g", m.error()) : text("%.3f", 100 * m.error()) + " %";
+}
+
+std::string target_of(const Measurement& m)
+{
+    return m.band() ? "inside" : m.exact == 0 ? text("%.2g", m.target) : text("%.3g", 100 * m.target) + " %";
+}
+
+void write_table(std::ostream& out, const physics::CaseResult& coarse, const physics::CaseResult& fine)
+{
+    out << "| quantity | exact | coarse | error | fine | error | target | |\n| --- | --- | --- | --- | --- | --- | --- "
+           "| --- |\n";
+    for (size_t i = 0; i < fine.measurements.size(); ++i)
+    {
+        const Measurement& c = coarse.measurements[i];
+        const Measurement& f = fine.measurements[i];
+        out << "| " << f.quantity << " | " << exact_of(f) << " | " << text("%.5g", c.value) << " (" << c.resolution
+            << ") | " << error_of(c) << " | " << text("%.5g", f.value) << " (" << f.resolution << ") | " << error_of(f)
+            << " | " << target_of(f) << " | " << (f.good() ? "met" : "**missed**") << " |\n";
+    }
+    out << "\n";
+    if (!fine.remark.empty())
+        out << fine.remark << "\n\n";
+}
+
+// Returns how many targets were missed.
+long run_case(const physics::Case& entry, std::ostream& out, const std::filesystem::path& plots)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const physics::CaseResult coarse = entry.run(physics::Detail::coarse);
+    const physics::CaseResult fine = entry.run(physics::Detail::fine);
+    out << "## " << entry.name << "\n" << entry.setup << "\n\n";
+    write_table(out, coarse, fine);
+    for (const physics::Plot& plot : fine.plots)
+    {
+        out << "![" << plot.title << "](physics/" << plot.file << ".svg)\n\n";
+        if (!plots.empty() && !physics::write_svg(plot, plots))
+            throw std::runtime_error("cannot write " + (plots / plot.file).string() + ".svg");
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::cerr << entry.name << ": " << text("%.1f", seconds) << " s\n";
+    return std::count_if(fine.measurements.begin(), fine.measurements.end(),
+                         [](const Measurement& m) { return !m.good(); });
+}
+
+const char* const k_head = R"(# Physics report
+
+Written by `physics_report docs`; do not edit. Every case is run on the GPU at two resolutions and held against its exact
+value. Statics are brought to rest by kinetic damping: the velocities are taken away whenever the kinetic energy has passed
+a peak, so that no drag enters what they come to rest in. All but what names RK4 is advanced by velocity Verlet.
+
+)";
+
+int report(const std::filesystem::path& folder, const std::vector<std::string>& only)
+{
+    std::ostringstream out;
+    const std::filesystem::path plots = only.empty() ? folder / "physics" : "";
+    if (only.empty())
+        std::filesystem::create_directories(plots);
+    long missed = 0;
+    for (const physics::Case& entry : physics::all_cases())
+        if (only.empty() || std::find(only.begin(), only.end(), entry.name) != only.end())
+            missed += run_case(entry, only.empty() ? out : std::cout, plots);
+    if (!only.empty())
+        return 0;
+    std::ofstream file(folder / "physics.md");
+    file << k_head << (missed == 0 ? "All targets are met." : std::to_string(missed) + " targets are missed.") << "\n\n"
+         << out.str();
+    if (!file.flush())
+        throw std::runtime_error("cannot write " + (folder / "physics.md").string());
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc < 2)
+    {
+        std::cerr << "usage: physics_report FOLDER [CASE ...]\n";
+        return 1;
+    }
+    try
+    {
+        return report(argv[1], std::vector<std::string>(argv + 2, argv + argc));
+    }
+    catch (const std::exception& e)
+    {
+        std::cerr << "physics_report: " << e.what() << "\n";
+        return 1;
+    }
+}

@@ -1,0 +1,127 @@
+#include "physics/rig.hpp"
+
+#include "engine/gpu/download.hpp"
+#include "gpu/recorder.hpp"
+
+#include <algorithm>
+
+namespace physics
+{
+
+namespace
+{
+
+// Without validation: the same commands are validated by the other tests.
+engine::Device& device()
+{
+    static engine::Device instance({.device = {}, .validation = false, .instance_extensions = {}, .swapchain = false});
+    return instance;
+}
+
+} // namespace
+
+Rig::Rig() : solver(engine::take(cloth::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
+
+void Rig::run(const std::function<void(VkCommandBuffer)>& record)
+{
+    const engine::FrameRing::Frame frame = frames_.begin();
+    record(frame.cmd);
+    frames_.submit(frame);
+    frames_.wait(frame.slot);
+}
+
+void Rig::upload()
+{
+    cloth::Upload kept;
+    run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+}
+
+void Rig::step(const cloth::Step& step, uint32_t times)
+{
+    for (uint32_t i = 0; i < times; ++i)
+        run([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+}
+
+std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const cloth::VertexStreams& streams)
+{
+    std::vector<glm::dvec3> result;
+    for (const glm::vec4& v :
+         engine::download_values<glm::vec4>(device(), buffer, streams.offset, size_t{streams.vertices}))
+        result.emplace_back(v);
+    return result;
+}
+
+std::vector<glm::dvec3> Rig::positions(cloth::ClothId cloth)
+{
+    const cloth::VertexStreams streams = solver.vertices(cloth);
+    return read(streams.positions, streams);
+}
+
+std::vector<glm::dvec3> Rig::velocities(cloth::ClothId cloth)
+{
+    const cloth::VertexStreams streams = solver.vertices(cloth);
+    return read(streams.velocities, streams);
+}
+
+double Rig::kinetic_energy()
+{
+    run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+    return static_cast<double>(solver.statistics(0).kinetic_energy);
+}
+
+void Rig::place(cloth::ClothId cloth, const std::vector<glm::dvec3>& positions)
+{
+    const cloth::VertexStreams streams = solver.vertices(cloth);
+    auto values =
+        engine::download_values<glm::vec4>(device(), streams.positions, streams.offset, size_t{streams.vertices});
+    for (size_t i = 0; i < values.size(); ++i)
+        values[i] = glm::vec4(glm::vec3(positions[i]), values[i].w);
+    constexpr size_t k_most = 65536 / sizeof(glm::vec4); // of vkCmdUpdateBuffer
+    for (size_t first = 0; first < values.size(); first += k_most)
+        run(
+            [&](VkCommandBuffer cmd)
+            {
+                solver.context().fn.vkCmdUpdateBuffer(
+                    cmd, streams.positions, streams.offset + first * sizeof(glm::vec4),
+                    std::min(k_most, values.size() - first) * sizeof(glm::vec4), &values[first]);
+            });
+    stop(cloth);
+}
+
+void Rig::stop(cloth::ClothId cloth)
+{
+    const cloth::VertexStreams streams = solver.vertices(cloth);
+    run(
+        [&](VkCommandBuffer cmd)
+        {
+            solver.context().fn.vkCmdFillBuffer(cmd, streams.velocities, streams.offset,
+                                                streams.vertices * sizeof(glm::vec4), 0);
+            gpu::Recorder(solver.context(), cmd)
+                .barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                         VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT_KHR, VK_ACCESS_2_MEMORY_READ_BIT_KHR);
+        });
+}
+
+uint32_t Rig::settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest)
+{
+    double highest = 0;
+    double before = 0;
+    for (uint32_t steps = 1; steps <= most; ++steps)
+    {
+        this->step(step);
+        const double energy = kinetic_energy();
+        highest = std::max(highest, energy);
+        if (energy < before)
+        {
+            if (before < rest * highest)
+                return steps;
+            stop(cloth);
+            before = 0;
+        }
+        else
+            before = energy;
+    }
+    return most;
+}
+
+} // namespace physics

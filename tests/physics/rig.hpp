@@ -1,0 +1,46 @@
+// Rig: a solver on a device of its own, stepped, read back, and brought to rest.
+#pragma once
+
+#include "cloth/solver.hpp"
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/frames.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace physics
+{
+
+constexpr double k_gravity = 9.81;
+
+class Rig
+{
+public:
+    Rig();
+
+    void upload();
+    void step(const cloth::Step& step, uint32_t times = 1);
+    std::vector<glm::dvec3> positions(cloth::ClothId cloth);
+    std::vector<glm::dvec3> velocities(cloth::ClothId cloth);
+    double kinetic_energy(); // J, of all cloths
+
+    // Puts the vertices elsewhere, at rest; springs keep their rest lengths.
+    void place(cloth::ClothId cloth, const std::vector<glm::dvec3>& positions);
+    // Takes all velocities away.
+    void stop(cloth::ClothId cloth);
+
+    // Kinetic damping (Cundall 1976): steps, and stops the cloth whenever its kinetic energy has passed a peak, until a
+    // peak is less than `rest` of the highest one. Returns how many steps it took, `most` if it did not come to rest.
+    // Nothing is added to the forces, so what it comes to rest in is the static solution.
+    uint32_t settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest = 1e-9);
+
+    cloth::Solver solver;
+
+private:
+    void run(const std::function<void(VkCommandBuffer)>& record);
+    std::vector<glm::dvec3> read(VkBuffer buffer, const cloth::VertexStreams& streams);
+
+    engine::FrameRing frames_;
+};
+
+} // namespace physics
