@@ -52,8 +52,8 @@ Curve catenary_curve(double span)
 // The middle line of a strip of unit length that hangs between two holds.
 std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
 {
-    // Stretched by less than rho g L / k = 0.02 %. Of two rows, without shear, which hang alike.
-    const cloth::Fabric fabric = plain_fabric(10000);
+    // Stretched by less than rho g L / k = 0.07 %. Of two rows, without shear, which hang alike.
+    const cloth::Fabric fabric = plain_fabric(3000);
     cloth::Grid grid;
     grid.integrator = cloth::Integrator::verlet;
     grid.columns = links + 1;
