@@ -80,7 +80,7 @@ TEST_CASE("numbers that are not finite, out of range or of the wrong kind")
           "dir/s.json:1: step.substeps is 2.5; expected a whole number");
     CHECK(scene_message("\"step\": {\"substeps\": \"many\"}") ==
           "dir/s.json:1: step.substeps is neither \"auto\" nor a whole number within 1 to 1000");
-    CHECK(scene_message("\"wind\": {\"gust\": -1}") == "dir/s.json:1: wind.gust is -1; it must be at least 0");
+    CHECK(scene_message("\"wind\": {\"gust\": -1}") == "dir/s.json:1: wind.gust is -1; it must be within 0 to 10");
     CHECK(cloth_message("\"material\": {\"thickness\": 0}") ==
           "dir/s.json:1: cloths[0].material.thickness is 0; it must be larger than 0");
     CHECK(cloth_message("\"material\": {\"areal_density\": 1e-300}") ==

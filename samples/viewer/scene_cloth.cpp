@@ -205,7 +205,8 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     PinEntry pin;
     pin.line = field.line();
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
-    if (is_object && field.node->find("box") == nullptr)
+    const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
+    if (is_object && (has("at") || has("motion") || has("stiffness") || has("max_distance")))
     {
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
@@ -217,7 +218,7 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
             pin.motion = parse_motion(reader, motion);
         return pin;
     }
-    if (is_object && !reader.object(field, {"box", "at", "motion"}))
+    if (is_object && !reader.object(field, {"box", "at", "motion", "stiffness", "damping", "max_distance"}))
         return pin;
     parse_pin_place(reader, field, grid, pin);
     return pin;
