@@ -4,7 +4,8 @@
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
 // neighbours, and writes the next stage's state. STAGE 4 writes the result of the step. Stage 1 also finds the share of
-// the inner forces that the step bears, which holds for all four stages; it travels in the w of the velocity sums.
+// the inner forces that the step bears, in every VOILE_MEASURE-th substep; it holds until the next and travels in the w of the
+// velocity sums.
 // Reads: cloths, chunks, mesh lists, base state, stage state. Writes: next state, running sums.
 #include "cloth_layout.h"
 
@@ -28,7 +29,8 @@ layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner m
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-const bool MEASURE = STAGE == 1;
+layout(constant_id = 3) const uint MEASURES = 1;
+const bool MEASURE = STAGE == 1 && MEASURES == 1;
 #include "forces.glsl"
 
 void main()
@@ -40,8 +42,10 @@ void main()
     const vec4 stage_x = stage_positions[i];
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
-    const vec4 velocity_sum = STAGE == 1 ? vec4(0) : velocity_sums[i];
+    vec4 velocity_sum = MEASURE ? vec4(0) : velocity_sums[i];
     float share = velocity_sum.w;
+    if (STAGE == 1)
+        velocity_sum = vec4(0);
     const vec3 a =
         inverse_mass > 0 ? acceleration(self, stage_x.xyz, inverse_mass, stage_v, share) : vec3(0);
 

@@ -6,6 +6,8 @@
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
 // after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction,
 // v + a h/2, for the next, which keeps the second order.
+// Every VOILE_MEASURE-th substep finds the share of the inner forces that the step bears; it holds until the next and travels
+// in the w of the predicted velocities.
 // A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions, predicted and own velocities. Writes: next
 // positions, velocities, predicted velocities.
 #include "cloth_layout.h"
@@ -26,7 +28,8 @@ layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner m
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-const bool MEASURE = true;
+layout(constant_id = 3) const uint MEASURES = 1;
+const bool MEASURE = MEASURES == 1;
 #include "forces.glsl"
 
 void main()
@@ -36,13 +39,14 @@ void main()
         return;
     const uint i = self.index;
     const vec4 x = stage_positions[i];
-    float share = 1;
-    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, stage_velocities[i].xyz, share) : vec3(0);
+    const vec4 predicted = stage_velocities[i];
+    float share = MEASURE ? 1 : predicted.w;
+    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, predicted.xyz, share) : vec3(0);
     const vec4 before = velocities[i];
     const vec3 v = before.xyz + push.kick * a;
     // The kick that ends a step moves nothing: what the vertex touches, it still touches.
     const uint touches = push.drift == 0 ? uint(before.w) & VOILE_VERTEX_TOUCHES : 0;
     next_positions[i] = vec4(x.xyz + push.drift * v, x.w);
     next_velocities[i] = vec4(v, touches + (share < 1 ? VOILE_VERTEX_LIMITED : 0));
-    next_predicted[i] = vec4(v + 0.5 * push.step * a, 0);
+    next_predicted[i] = vec4(v + 0.5 * push.step * a, share);
 }
