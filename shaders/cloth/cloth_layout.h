@@ -23,7 +23,7 @@
 #define VOILE_COLLIDER_MESH 2
 
 // How many substeps lie between two in which vertices find what share of their inner forces they bear (stability.glsl).
-#define VOILE_MEASURE 4
+#define VOILE_MEASURE 8
 
 // How many leaves of the colliders' hierarchies a vertex keeps from substep to substep (contact_candidates.glsl).
 #define VOILE_CANDIDATES 7

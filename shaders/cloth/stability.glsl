@@ -8,7 +8,7 @@
 // plane comes nowhere nearer to the origin than 2.6.
 const float k_rk4_reach = 2.6;
 // At rest, a step uses at most this share of the reach: springs turn and stretch, and are then stiffer along one axis.
-const float k_stability_margin = 0.9;
+const float k_stability_margin = 0.95;
 
 // How much of the step's reach a mode of frequency^2 `omega_squared` (1/s^2) and decay rate `decay` (1/s) takes up; a
 // step is stable up to 1. Velocity Verlet whose damping force sees the predicted velocity, v[n-1/2] + h/2 a[n-1]: its

@@ -219,7 +219,7 @@ public:
     void record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The substeps with which every cloth is stable at its full stiffness, with a margin of 10 %; at most max_substeps.
+    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
     // From the blocks of M^-1 K and M^-1 C at rest (stability.hpp): RK4 takes omega h <= 2.6, velocity Verlet omega h
     // <= 2, less with damping. A cloth that turns out stiffer on its way, crumpled or torn, is held by
     // stable_acceleration in shaders/cloth/stability.glsl; Statistics::limited_vertices counts where.
