@@ -22,6 +22,8 @@ struct Case
     cloth::MeshLayout layout = cloth::MeshLayout::interleaved;
     float wind = 0; // m/s along x
     float gust = 0; // of the wind
+    bool verlet = false;
+    uint32_t lists = 0; // entries of a mesh vertex's list of springs
 };
 
 std::span<const Case> cases();

@@ -24,17 +24,23 @@ constexpr float k_frame = 1.f / 60; // s
 //   stage 2   reads stage A, state, sums        writes stage B, sums    6 + 4 = 10
 //   stage 3   reads stage B, state, sums        writes stage A, sums    6 + 4 = 10
 //   stage 4   reads stage A, state, sums        writes stage B or state 6 + 2 =  8
+//   Verlet    reads x, v, predicted v           writes the same         3 + 3 =  6, in place of the stages
 //   contact   reads stage B, earlier positions  writes state            3 + 2 =  5
 //   normals   reads positions                   writes normals          1 + 1 =  2, once a frame
-// What fits a cache need not reach memory: the share of the copy bandwidth can then exceed 100 %.
+// A mesh's vertex reads its record and its list of springs as well, 16 bytes each, in every evaluation of the forces.
+// Edits, holds, tethers and the strain limit are not counted. What fits a cache need not reach memory: the share of the
+// copy bandwidth can then exceed 100 %.
 constexpr double k_value = 16;
-constexpr double k_integration = (6 + 10 + 10 + 8) * k_value;
+constexpr double k_rk4 = (6 + 10 + 10 + 8) * k_value;
+constexpr double k_verlet = 6 * k_value;
 constexpr double k_contact = 5 * k_value;
 constexpr double k_normals = 2 * k_value;
 
-double bytes_a_substep(const cloth::Solver& solver, bool contact, uint32_t substeps)
+double bytes_a_substep(const cloth::Solver& solver, const Case& item, uint32_t substeps)
 {
-    const double a_vertex = k_integration + (contact ? k_contact : 0) + k_normals / substeps;
+    const double list = item.lists > 0 ? (1 + item.lists) * k_value : 0;
+    const double forces = item.verlet ? k_verlet + list : k_rk4 + 4 * list;
+    const double a_vertex = forces + (item.in_contact ? k_contact : 0) + k_normals / substeps;
     return a_vertex * solver.vertex_count();
 }
 
@@ -195,7 +201,7 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, u
     result.substeps = solver.stable_substeps(k_frame);
     result.dispatches = solver.dispatches({.duration = k_frame, .substeps = result.substeps});
     result.measured = measured_substeps(queue.device(), solver, result.substeps);
-    result.bytes = bytes_a_substep(solver, item.in_contact, result.measured);
+    result.bytes = bytes_a_substep(solver, item, result.measured);
     result.contacts = advance(queue, solver, item);
 
     const Snapshot start(queue, solver, cloths);
