@@ -128,7 +128,7 @@ double mesh_drop(double load, uint32_t spacings)
 CaseResult cantilever(Detail detail, const char* kind, double (*drop)(double load, uint32_t spacings))
 {
     CaseResult result;
-    const uint32_t spacings = detail == Detail::fine ? 32 : 16;
+    const uint32_t spacings = detail == Detail::fine ? 24 : 12;
     Plot plot{std::string("cantilever_") + kind,
               std::string("Cantilever, ") + kind,
               "w L³ / B",

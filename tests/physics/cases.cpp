@@ -20,7 +20,9 @@ const std::vector<Case>& all_cases()
         {"cantilever, mesh", "The same of equilateral triangles.", cantilever_mesh},
         {"incline", "A patch on an incline of 30° for 1 s.", incline},
         {"strap", "A light strap over half a cylinder, a weight at each end, sliding.", strap},
-        {"drape", "A disc of 30 cm, held on 18 cm, comes to rest; a triangle mesh with the presets.", drape},
+        {"drape",
+         "A disc of 30 cm, held on 18 cm, comes to rest; the presets on a triangle mesh, with the fabric's shear.",
+         drape},
     };
     return cases;
 }

@@ -6,7 +6,6 @@
 #include "cloth/fabrics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 
 namespace physics
@@ -124,6 +123,29 @@ uint32_t waves(const std::vector<double>& radii)
     return count;
 }
 
+// The preset as a mesh can have it. A mesh has one stretch stiffness, and shears with 3/8 of it: 20 times as stiff as
+// silk, which then cannot take the double curvature of a fold and comes to rest anywhere. What governs drape is shear
+// (Cusick 1965), so the mesh is given the fabric's, and the stretch stiffness that belongs to it; the overhang's own
+// weight still lengthens silk by no more than rho g 6 cm / E = 0.1 %.
+cloth::Fabric sheared_like(cloth::Fabric fabric)
+{
+    fabric.stretch_stiffness = {fabric.shear_stiffness * 8 / 3, fabric.shear_stiffness * 8 / 3};
+    return fabric;
+}
+
+// The start: lifted towards the edge by waves of several counts, or the flat disc could not choose where to fold.
+std::vector<glm::dvec3> slightly_waved(std::vector<glm::dvec3> x)
+{
+    for (glm::dvec3& p : x)
+    {
+        const double out = std::max(0.0, (glm::length(p) - k_support) / (k_cloth - k_support));
+        const double angle = std::atan2(p.z, p.x);
+        p.y += 1e-3 * out * out *
+               (std::cos(4 * angle + 1) + std::cos(5 * angle) + std::sin(6 * angle + 2) + std::sin(7 * angle));
+    }
+    return x;
+}
+
 std::vector<double> draped(const cloth::Fabric& fabric, uint32_t overhang)
 {
     const Disc disc = DiscMaker(overhang).disc();
@@ -132,20 +154,12 @@ std::vector<double> draped(const cloth::Fabric& fabric, uint32_t overhang)
     mesh.triangles = disc.triangles;
     mesh.held = disc.held;
     mesh.integrator = cloth::Integrator::verlet;
-    mesh.material = fabric;
+    mesh.material = sheared_like(fabric);
     Rig rig;
     const cloth::ClothId id = engine::take(rig.solver.add_cloth(mesh));
     rig.upload();
-    // Not quite flat, by a thousandth of the spacing, or it could not choose where to fold. Waves of several counts.
-    auto x = rig.positions(id);
-    for (size_t i = disc.held.size(); i < x.size(); ++i)
-    {
-        const double angle = std::atan2(x[i].z, x[i].x);
-        x[i].y +=
-            1e-5 * (std::cos(5 * angle) + std::sin(7 * angle) + std::cos(4 * angle + 1) + std::sin(6 * angle + 2));
-    }
-    rig.place(id, x);
-    rig.settle(id, {.duration = 0.01f, .max_substeps = 20000}, 250, 1e-6);
+    rig.place(id, slightly_waved(rig.positions(id)));
+    rig.settle(id, {.duration = 0.01f}, 150, 1e-7);
     return outline(disc, rig.positions(id));
 }
 
@@ -175,7 +189,7 @@ Curve closed_curve(const char* name, const std::vector<double>& radii)
 CaseResult drape(Detail detail)
 {
     CaseResult result;
-    const uint32_t overhang = detail == Detail::fine ? 7 : 4;
+    const uint32_t overhang = detail == Detail::fine ? 14 : 8;
     Plot plot{"drape", "Cusick drape from above", "x, m", "z, m", {}, false, true};
     plot.curves.push_back(closed_curve("support", std::vector<double>(k_rays, k_support)));
     for (const Band& band : k_bands)
@@ -192,6 +206,15 @@ CaseResult drape(Detail detail)
         plot.curves.push_back(closed_curve(band.fabric, radii));
     }
     result.plots.push_back(plot);
+    result.remark =
+        "Drape converges slowly: cotton has 44, 57, 64, 68, 69 and 71 % with 4, 6, 8, 10, 12 and 16 rings outside the "
+        "support, so some 74 % in the limit. The mesh has 8/3 of the fabric's shear stiffness as its stretch "
+        "stiffness, "
+        "because a mesh shears with 3/8 of that. With the presets' own stretch stiffness it shears 20 times too "
+        "stiffly "
+        "for silk, the disc cannot take the double curvature of its folds, and it comes to rest wherever it is caught: "
+        "silk of 1.3e-6 N m then had 20 or 36 % with 4 rings and 41 or 53 % with 6, by its start; so had cotton 57 and "
+        "78 %. With the fabric's shear two starts agreed within 3 % from 6 rings on.";
     return result;
 }
 

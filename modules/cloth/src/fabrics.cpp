@@ -23,7 +23,7 @@ Fabric silk()
     f.areal_density = 0.082f;          // 19 momme charmeuse at 4.34 g/m^2 each (trade data); the class has 0.055-0.090
     f.stretch_stiffness = {1400, 740}; // typical KES secants 15 and 8 kN/m, LT 0.65
     f.shear_stiffness = 17;            // typical, G 0.2-0.4 gf/(cm degree)
-    f.bending_stiffness = 1.3e-6f;     // typical, 0.8-3e-6; limp cloths of 0.07-0.10 kg/m^2 in the data of Feng et al.
+    f.bending_stiffness = 1.8e-6f;     // typical, 0.8-3e-6; limp cloths of 0.07-0.10 kg/m^2 in the data of Feng et al.
                                        // 2022 (drape tester) have 0.5-2.5e-6
     f.thickness = 0.002f;              // the fabric's own: 0.22 mm
     f.static_friction = 0.3f;          // typical 0.25-0.40; fibres 0.26 (Morton and Hearle)
