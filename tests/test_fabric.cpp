@@ -2,6 +2,8 @@
 // same fabric on grids of different spacing.
 #include "cloth_harness.hpp"
 
+#include "cloth/fabrics.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -180,4 +182,23 @@ TEST_CASE("a hanging strip swings with the periods of a chain")
         const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
         CHECK(period == doctest::Approx(mode.period).epsilon(0.01));
     }
+}
+
+TEST_CASE("every preset is found by its name, valid, and on a grid of its own stretch and shear")
+{
+    for (const char* name : {"silk", "cotton", "wool", "denim", "leather"})
+    {
+        CAPTURE(name);
+        const auto fabric = cloth::find_fabric(name);
+        REQUIRE(fabric);
+        CHECK(cloth::validate(*fabric));
+        CHECK(fabric->static_friction >= fabric->kinetic_friction);
+        CHECK(fabric->bending_model == cloth::BendingModel::isometric);
+        // Shear is not so stiff that structural springs, which leave to the diagonals what these resist, would vanish.
+        const cloth::Material material = cloth::make_material(*fabric, 0.01f, 0.01f);
+        CHECK(material.springs.structural_warp.stiffness > 0);
+        CHECK(material.springs.structural_weft.stiffness > 0);
+    }
+    CHECK_FALSE(cloth::find_fabric("chiffon"));
+    CHECK_FALSE(cloth::find_fabric(""));
 }

@@ -69,7 +69,8 @@ double grid_drop(double load, uint32_t spacings)
     return drop_at_rest(rig, id, end);
 }
 
-// Equilateral triangles: columns of four and of five vertices by turns.
+// Equilateral triangles: columns of n and of n + 1 vertices by turns, n a third of the spacings along the strip, so
+// that its shape is the same at every resolution.
 struct Strip
 {
     std::vector<glm::vec3> positions;
@@ -82,21 +83,22 @@ Strip triangle_strip(uint32_t spacings)
 {
     const double h = spacing_of(spacings);
     const double edge = h * 2 / std::sqrt(3.0);
+    const uint32_t across = spacings / 3;
     Strip strip;
     uint32_t previous = 0; // first vertex of the column before
     for (uint32_t column = 0; column < spacings + 2; ++column)
     {
         const auto first = static_cast<uint32_t>(strip.positions.size());
-        const uint32_t count = column % 2 == 0 ? 4 : 5;
+        const uint32_t count = column % 2 == 0 ? across : across + 1;
         for (uint32_t i = 0; i < count; ++i)
             strip.positions.emplace_back(column * h, 0, edge * (i - 0.5 * (count - 1)));
-        for (uint32_t i = 0; column > 0 && i < 4; ++i)
+        for (uint32_t i = 0; column > 0 && i < across; ++i)
         {
-            const uint32_t four = count == 4 ? first : previous;
-            const uint32_t five = count == 5 ? first : previous;
-            strip.triangles.emplace_back(four + i, five + i, five + i + 1);
-            if (i < 3)
-                strip.triangles.emplace_back(four + i, five + i + 1, four + i + 1);
+            const uint32_t fewer = count == across ? first : previous;
+            const uint32_t more = count == across ? previous : first;
+            strip.triangles.emplace_back(fewer + i, more + i, more + i + 1);
+            if (i + 1 < across)
+                strip.triangles.emplace_back(fewer + i, more + i + 1, fewer + i + 1);
         }
         for (uint32_t i = first; i < first + count; ++i)
         {
@@ -159,7 +161,13 @@ CaseResult cantilever_grid(Detail detail)
 
 CaseResult cantilever_mesh(Detail detail)
 {
-    return cantilever(detail, "mesh", mesh_drop);
+    CaseResult result = cantilever(detail, "mesh", mesh_drop);
+    result.remark =
+        "Two errors of opposite signs. Triangles along the free sides lack hinges, so a strip is too limp, the "
+        "more the fewer triangles it has across: with 4 across at 24 spacings, half as many as here, it hangs "
+        "2.7 % too low at Γ = 1 and 1.7 % at Γ = 5. Coarse links cannot follow the bend at the clamp where Γ is "
+        "large, and hang too high.";
+    return result;
 }
 
 } // namespace physics

@@ -42,7 +42,8 @@ std::string target_of(const Measurement& m)
 
 void write_table(std::ostream& out, const physics::CaseResult& coarse, const physics::CaseResult& fine)
 {
-    out << "| quantity | exact | coarse | error | fine | error | target | |\n| --- | --- | --- | --- | --- | --- | --- "
+    out << "| quantity | exact | coarse | error | fine | error | target | |\n"
+           "| --- | --- | --- | --- | --- | --- | --- "
            "| --- |\n";
     for (size_t i = 0; i < fine.measurements.size(); ++i)
     {
