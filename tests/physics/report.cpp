@@ -99,7 +99,10 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
     if (!only.empty())
         return 0;
     std::ofstream file(folder / "physics.md");
-    file << k_head << (missed == 0 ? "All targets are met." : std::to_string(missed) + " targets are missed.") << "\n\n"
+    file << k_head
+         << (missed == 0 ? "All targets are met; what a case needed for it stands below its table."
+                         : std::to_string(missed) + " targets are missed.")
+         << "\n\n"
          << out.str();
     if (!file.flush())
         throw std::runtime_error("cannot write " + (folder / "physics.md").string());
