@@ -148,6 +148,26 @@ TEST_CASE("positions that no triangle uses are left out")
     CHECK(loaded.mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
 }
 
+TEST_CASE(
+    "vertices by position: the file's own, in its order, whatever texture coordinates and normals the corners have")
+{
+    const TestFolder folder;
+    // Two triangles that share an edge but no texture coordinate and no normal; a vertex that nothing uses.
+    const std::string path =
+        folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                              "vn 0 1 0\nvn 0 0 1\nf 4/1/1 3/2/1 1/3/1\nf 1/1/2 5/2/2 4/3/2\n");
+    CHECK(engine::load_obj(path).value().positions.size() == 6); // both corners of the edge twice
+    const auto mesh = engine::load_obj(path, nullptr, engine::MeshVertices::positions);
+    REQUIRE(mesh);
+    REQUIRE(mesh.value().positions.size() == 5);
+    CHECK(mesh.value().positions[1] == glm::vec3(9));
+    CHECK(mesh.value().positions[4] == glm::vec3(0, 0, 1));
+    CHECK(mesh.value().triangles[0] == glm::uvec3(3, 2, 0));
+    CHECK(mesh.value().triangles[1] == glm::uvec3(0, 4, 3));
+    CHECK(mesh.value().texture_coordinates[3] == glm::vec2(0, 0));
+    CHECK(std::abs(mesh.value().normals[0].y) == 1);
+}
+
 TEST_CASE("line ends, blanks, comments, continued lines, weights, colours, a byte order mark")
 {
     const engine::Mesh plain = load(k_triangle + "f 1 2 3\n").mesh;

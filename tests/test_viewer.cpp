@@ -262,3 +262,54 @@ TEST_CASE("an interrupted run leaves no unfinished file")
     CHECK(run.errors.find("interrupted after") != std::string::npos);
     CHECK(folder.is_empty());
 }
+
+TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and what is odd about a mesh is told")
+{
+    const TestFolder folder;
+    // A sheet of two triangles, a vertex without a triangle, and one of a seam that is open.
+    std::ofstream(folder / "sheet.obj") << "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 5 5 5\nv 0 0 0\nv 0 0 -1\nv 1 0 -1\n"
+                                           "f 1 4 3\nf 1 3 2\nf 6 2 8\nf 6 8 7\n";
+    std::ofstream(folder / "scene.json") << R"({
+        "wind": {"velocity": [2, 0, 0], "gust": 0.3, "gust_length": 2},
+        "cloths": [
+          {"name": "mesh", "mesh": "sheet.obj", "transform": {"scale": 0.5}, "material": "silk", "integrator": "verlet",
+           "pins": [{"at": "vertex:0", "motion": {"sway": {"amplitude": [0.1, 0, 0], "period": 1}}}],
+           "tethers": {"stretch": 0.01}},
+          {"name": "grid", "grid": {"vertices": [8, 8], "size": [1, 1]}, "transform": {"translate": [3, 1, 0]},
+           "material": {"preset": "cotton", "strain_limit": 0.05, "bending_model": "isometric"},
+           "pins": [{"at": "edge:top", "stiffness": 50, "damping": 0.1}, {"at": "corner:3", "max_distance": 0.2}]}],
+        "colliders": [{"plane": {"y": -2}}]})";
+    const Run run =
+        run_viewer((folder / "scene.json").string() + " --headless --frames 8 --size 64x36 --validate --verify " +
+                   "--export " + (folder / "end.obj").string());
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 0);
+    CHECK(
+        run.errors.find("note: cloth \"mesh\": 1 vertices without a triangle, which stay where they are, 1 vertices at "
+                        "the place of another and not joined to it: open seams") != std::string::npos);
+    // The file's order of vertices is kept; the isolated one has not moved.
+    const std::string mesh = text_of(folder / "end_mesh.obj");
+    CHECK(mesh.find("v 2.5 2.5 2.5\n") != std::string::npos);
+    CHECK(std::count(mesh.begin(), mesh.end(), '\n') >= 8);
+}
+
+TEST_CASE("what a cloth cannot be is told with the line of the scene")
+{
+    const TestFolder folder;
+    std::ofstream(folder / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
+    std::ofstream(folder / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n";
+    const auto refused = [&](const std::string& cloth, const std::vector<std::string>& parts)
+    {
+        std::ofstream(folder / "s.json") << "{\"cloths\": [\n" + cloth + "]}";
+        check_refused(run_viewer((folder / "s.json").string() + " --headless --frames 1 --size 64x36"), parts);
+    };
+    refused(R"({"mesh": "one.obj", "pins": ["vertex:3"]})", {"s.json:2: ", "pin vertex:3, but it has 3 vertices"});
+    refused(R"({"mesh": "one.obj", "tethers": {}})", {"s.json:2: ", "tethers need a pin, and it has none"});
+    refused(R"({"mesh": "one.obj", "material": {"strain_limit": 50}})",
+            {"s.json:2: ", "strain_limit is 50, must be 0.001 to 10"});
+    refused(R"({"mesh": "one.obj", "material": {"vertex_mass": 1}})", {"s.json:2: ", "need the preset \"reference\""});
+    refused(R"({"mesh": "flat.obj"})", {"flat.obj"});
+    refused(
+        R"({"grid": {"vertices": [4, 4], "size": [1, 1]}, "pins": [{"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}]})",
+        {"s.json:2: ", "no vertex lies in the pin's box"});
+}

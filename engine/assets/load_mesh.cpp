@@ -9,15 +9,15 @@
 namespace engine
 {
 
-gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report)
+gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     std::string extension = path.extension().string();
     for (char& c : extension)
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (extension == ".obj")
-        return load_obj(path, report);
+        return load_obj(path, report, vertices);
     if (extension == ".ply")
-        return load_ply(path, report);
+        return load_ply(path, report, vertices);
     return gpu::Error{path.string() + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
 }
 

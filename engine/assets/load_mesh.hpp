@@ -11,6 +11,7 @@ namespace engine
 
 // Goes by the extension, in capitals or not: .obj as load_obj does, .ply as load_ply does. Errors: theirs, or another
 // extension.
-gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr);
+gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
+                            MeshVertices vertices = MeshVertices::corners);
 
 } // namespace engine

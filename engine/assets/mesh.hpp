@@ -17,6 +17,14 @@ struct Mesh
     std::vector<glm::uvec3> triangles;          // indices into positions, counter-clockwise seen from outside
 };
 
+// What becomes a vertex of a mesh that is loaded.
+enum class MeshVertices
+{
+    corners,   // each combination of position, texture coordinate and normal in use: for drawing
+    positions, // each position of the file, used or not, in its order: for what must hang together, as cloth does.
+               // Normals are computed; of several texture coordinates the first counts
+};
+
 struct Bounds
 {
     glm::vec3 min{0.f};

@@ -191,9 +191,31 @@ Mesh assemble(const Polygons& polygons, const std::vector<Triangle>& triangles)
     return mesh;
 }
 
+Mesh assemble_positions(const Polygons& polygons, const std::vector<Triangle>& triangles)
+{
+    Mesh mesh;
+    mesh.positions = polygons.positions;
+    mesh.normals = polygons.normals; // computed: one a position
+    mesh.texture_coordinates.resize(polygons.positions.size(), glm::vec2(0.f));
+    std::vector<bool> placed(polygons.positions.size());
+    for (const Triangle& t : triangles)
+        for (const Corner& corner : t)
+        {
+            const auto position = static_cast<size_t>(corner.position);
+            if (corner.texture_coordinate < 0 || placed[position])
+                continue;
+            placed[position] = true;
+            mesh.texture_coordinates[position] =
+                polygons.texture_coordinates[static_cast<size_t>(corner.texture_coordinate)];
+        }
+    for (const Triangle& t : triangles)
+        mesh.triangles.emplace_back(t[0].position, t[1].position, t[2].position);
+    return mesh;
+}
+
 } // namespace
 
-gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report)
+gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report, MeshVertices vertices)
 {
     MeshReport changes;
     std::vector<Triangle> triangles = cut_faces(polygons, changes);
@@ -201,10 +223,17 @@ gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshRep
     clean(polygons, triangles, changes);
     if (triangles.empty())
         return gpu::Error{name + ": no triangles left, all " + std::to_string(count) + " are degenerate"};
+    if (vertices == MeshVertices::positions)
+    {
+        for (Triangle& t : triangles)
+            for (Corner& corner : t)
+                corner.normal = -1;
+    }
     settle_normals(polygons, triangles, changes);
     if (report != nullptr)
         *report = changes;
-    return assemble(polygons, triangles);
+    return vertices == MeshVertices::positions ? assemble_positions(polygons, triangles)
+                                               : assemble(polygons, triangles);
 }
 
 } // namespace engine

@@ -58,7 +58,7 @@ void append_number(std::string& text, Number number)
 
 } // namespace
 
-gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report)
+gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     const std::string name = path.string();
     const gpu::Result<std::string> text = read_file(path);
@@ -70,7 +70,7 @@ gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report
     gpu::Result<Polygons> polygons = parse(std::move(checked.value()), name);
     if (!polygons)
         return polygons.error();
-    return build_mesh(std::move(polygons.value()), name, report);
+    return build_mesh(std::move(polygons.value()), name, report, vertices);
 }
 
 gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)

@@ -226,7 +226,7 @@ gpu::Result<Polygons> BodyReader::run()
 
 } // namespace
 
-gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report)
+gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     const std::string name = path.string();
     const gpu::Result<std::string> text = read_file(path);
@@ -239,7 +239,7 @@ gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report
     gpu::Result<Polygons> polygons = BodyReader(header.value(), body, name).run();
     if (!polygons)
         return polygons.error();
-    return build_mesh(std::move(polygons.value()), name, report);
+    return build_mesh(std::move(polygons.value()), name, report, vertices);
 }
 
 } // namespace engine

@@ -15,6 +15,7 @@ namespace engine
 // cleaned as load_obj does. Errors name the file, the line (in a binary file the vertex or face) and the reason:
 // missing, unreadable, empty, malformed or truncated file; something after the last element; an index out of range; a
 // coordinate that is not finite; no triangles left.
-gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report = nullptr);
+gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report = nullptr,
+                           MeshVertices vertices = MeshVertices::corners);
 
 } // namespace engine

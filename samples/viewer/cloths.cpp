@@ -171,7 +171,8 @@ void tell(const cloth::MeshReport& report, const std::string& name)
 gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
                                      const std::filesystem::path& file, Vertices& vertices)
 {
-    auto loaded = engine::load_mesh(file);
+    engine::MeshReport changes;
+    auto loaded = engine::load_mesh(file, &changes, engine::MeshVertices::positions);
     if (!loaded)
         return at(scene, entry.line, loaded.error().message);
     const engine::Mesh& mesh = loaded.value();
@@ -191,7 +192,9 @@ gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& sce
     auto id = solver.add_cloth(cloth);
     if (!id)
         return at(scene, entry.line, file.string() + ": " + id.error().message);
-    tell(solver.mesh_report(id.value()), entry.name);
+    cloth::MeshReport report = solver.mesh_report(id.value());
+    report.degenerate_triangles += changes.degenerate_triangles;
+    tell(report, entry.name);
     return id;
 }
 

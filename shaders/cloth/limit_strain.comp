@@ -157,7 +157,8 @@ void main()
     const vec4 v = velocities[i];
     const bool grid = cloths[cloth].columns > 0;
     Correction correction = Correction(vec3(0), vec3(0));
-    if (cloths[cloth].strain_limit > 0 && x.w > 0)
+    const bool limited = cloths[cloth].strain_limit > 0 && x.w > 0;
+    if (limited)
     {
         float relaxation = cloths[cloth].strain_relaxation;
         if (!grid)
@@ -174,7 +175,7 @@ void main()
         correction.v *= relaxation;
     }
     vec3 next_x = x.xyz + correction.x;
-    if (push.acceleration != 1) // what this pass overwrites is the result of the last but one
+    if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
         next_x = mix(next_positions[i].xyz, next_x, push.acceleration);
     next_positions[i] = vec4(next_x, x.w);
     next_velocities[i] = vec4(v.xyz + correction.v, v.w);
