@@ -21,6 +21,8 @@
 #define VOILE_COLLIDER_PLANE 0
 #define VOILE_COLLIDER_SPHERE 1
 #define VOILE_COLLIDER_MESH 2
+#define VOILE_COLLIDER_CAPSULE 3
+#define VOILE_COLLIDER_BOX 4
 
 // How many substeps lie between two in which vertices find what share of their inner forces they bear (stability.glsl).
 #define VOILE_MEASURE 8
@@ -30,10 +32,14 @@
 // and how many substeps lie between the renewals of these lists.
 #define VOILE_RENEWAL 16
 
-// A closed mesh has an outside: its triangles push outwards. Any other mesh pushes to the side that a vertex came from.
-#define VOILE_COLLIDER_CLOSED 1u
-// The collider has friction coefficients of its own.
-#define VOILE_COLLIDER_FRICTION 2u
+// Flags of a collider.
+#define VOILE_COLLIDER_CLOSED 1u    // a mesh without a border
+#define VOILE_COLLIDER_FRICTION 2u  // it has friction coefficients of its own
+#define VOILE_COLLIDER_ONE_SIDED 4u // a mesh that pushes to the side its triangles face; else to where a vertex came from
+#define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
+// The number of the substep in which a list of candidates was made, and their count: one word.
+#define VOILE_CANDIDATE_COUNT_BITS 4
+#define VOILE_CANDIDATE_COUNT_MASK 15u
 
 // Wave vectors of the gusts (wind.glsl), in units of the longest one's.
 #define VOILE_GUST_WAVES                                                                                               \
@@ -76,7 +82,7 @@ struct ClothRecord
     float strain_limit;    // largest l / L - 1; 0: none
     float inverse_density; // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
     float strain_relaxation; // of a correction of the strain limit
-    float padding_0;
+    uint layers;             // bits; it meets colliders that have one of them
     vec3 bending;          // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
     float bending_time;    // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
@@ -160,21 +166,36 @@ struct TetherRecord
     float lengths[VOILE_TETHERS]; // m
 };
 
+// A collider where it was added.
 struct ColliderRecord
 {
     uint kind;
     uint flags;
     float static_friction;
     float kinetic_friction;
-    vec3 box_min; // m, world; everything of the collider is inside (planes: unused)
+    vec3 box_min; // m; everything of a mesh is inside
     uint first_node;
     vec3 box_max;
     uint first_triangle;
     uint triangles; // of a mesh, from first_triangle on
+    uint layers;    // bits; it meets cloths that have one of them
     uint padding_0;
     uint padding_1;
+    vec4 shape;  // plane: unit normal, offset; sphere: centre, radius; capsule: an end, radius; box: centre
+    vec4 second; // capsule: the other end; box: half of its size
+};
+
+// How a collider goes through the step.
+struct ColliderMotion
+{
+    vec4 rotation_from; // unit quaternions, world from the collider's space
+    vec4 rotation_to;
+    vec3 center; // m, in the collider's space; it goes straight
+    uint padding_0;
+    vec3 place_from; // m, of the centre in the world
+    uint padding_1;
+    vec3 place_to;
     uint padding_2;
-    vec4 shape; // plane: unit normal and offset (normal . x of its points); sphere: centre and radius
 };
 
 // Push constants of the integration passes.
@@ -199,6 +220,11 @@ struct ContactPush
     uint colliders;
     uint renew;         // 1: lists of candidates are renewed in this substep
     float renewal_time; // s, from one renewal to the next
+    float progress_from; // 0..1, of the step at the substep's start
+    float progress_to;   // and at its end
+    float progress_a_substep;
+    uint substep;        // counted through all steps
+    uint first_substep;  // of the step
 };
 
 // Push constants of the passes over pins, holds and tethers.
@@ -257,9 +283,9 @@ struct StatisticsRecord
     uint penetrating_vertices; // vertices under the surface of a collider
     uint contacts;             // vertices that touch a collider
     uint limited_vertices;     // vertices that bore less than the whole of their inner forces
+    uint candidates;           // leaves in the lists of all vertices
+    uint overflowing_vertices; // vertices near more leaves than a list holds: they traverse in every substep
     uint padding_0;
-    uint padding_1;
-    uint padding_2;
 };
 
 VOILE_SHARED_END

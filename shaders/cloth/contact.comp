@@ -5,7 +5,7 @@
 // Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
-// Reads: cloths, chunks, mesh lists, colliders, hierarchy, proposed state, own previous state. Writes: state (velocity.w:
+// Reads: cloths, chunks, mesh lists, colliders, hierarchy, proposed state, own previous state, motions of colliders. Writes: state (velocity.w:
 // 1 = touches), predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -29,11 +29,13 @@ layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicte
 
 layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
 layout(set = 0, binding = 14, std430) buffer CandidateLeaves { uint candidate_leaves[]; };
+layout(set = 0, binding = 15, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #include "vertex_normal.glsl"
+#include "collider_pose.glsl"
 #include "contact_query.glsl"
 #include "contact_candidates.glsl"
 
@@ -44,28 +46,77 @@ struct Motion
     vec3 v;    // m/s
 };
 
+// What contact needs of the vertex's cloth.
+struct ClothContact
+{
+    float thickness; // m
+    float static_friction;
+    float kinetic_friction;
+    uint layers;
+    vec3 normal; // at the vertex, for VOILE_METHOD_NORMAL_RAY
+};
+
 // A pair's coefficient is the geometric mean of both sides' (Box2D's rule); a collider without one takes the fabric's.
 float pair_friction(float fabric, float collider, uint flags)
 {
     return (flags & VOILE_COLLIDER_FRICTION) != 0 ? sqrt(fabric * collider) : fabric;
 }
 
-void respond(inout Motion motion, Contact contact, float thickness, float static_friction, float kinetic_friction)
+// The substep as collider c sees it: the way of the vertex in the collider's space.
+struct Passage
 {
-    const vec3 n = contact.direction;
-    motion.x += (thickness - contact.gap) * n;
-    const float approach = min(dot(motion.v, n), 0);
+    bool moves;
+    Pose end;   // where it moves
+    Pose start;
+    vec3 from;
+    vec3 to;
+};
+
+Passage passage_of(uint c, uint flags, Motion motion)
+{
+    Passage result;
+    result.moves = (flags & VOILE_COLLIDER_MOVED) != 0;
+    result.from = motion.from;
+    result.to = motion.x;
+    if (result.moves)
+    {
+        result.start = pose_at(c, push.progress_from);
+        result.end = pose_at(c, push.progress_to);
+        result.from = to_collider(result.start, motion.from);
+        result.to = to_collider(result.end, motion.x);
+    }
+    return result;
+}
+
+// By how much the surface moves in the substep, m, at a place in the collider's space.
+vec3 surface_way(Passage passage, vec3 place)
+{
+    return passage.moves ? to_world(passage.end, place) - to_world(passage.start, place) : vec3(0);
+}
+
+vec3 world_direction(Passage passage, vec3 direction)
+{
+    return passage.moves ? rotate(passage.end.rotation, direction) : direction;
+}
+
+// `n`: world, unit, away from the surface; `gap`: m along it; `way`: m, of the surface in this substep.
+void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, float static_friction,
+             float kinetic_friction)
+{
+    motion.x += (thickness - gap) * n;
+    const vec3 relative = motion.v - way / push.step;
+    const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
     const float normal_impulse = -approach; // per unit of mass, m/s
     if (normal_impulse == 0)
         return;
 
-    const vec3 v_t = motion.v - dot(motion.v, n) * n;
+    const vec3 v_t = relative - dot(relative, n) * n;
     const float speed = length(v_t);
     if (speed <= static_friction * normal_impulse)
     {
         // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
-        const vec3 slid = motion.x - motion.from;
+        const vec3 slid = motion.x - motion.from - way;
         motion.x -= slid - dot(slid, n) * n;
         motion.v -= v_t;
         return;
@@ -76,18 +127,45 @@ void respond(inout Motion motion, Contact contact, float thickness, float static
 }
 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. Where the way from
-// its last place leads through one, it stays at that last place, so that no vertex is ever on the wrong side of a mesh.
-void keep_out(inout Motion motion)
+// its last place leads through one, it stays at that last place, as that surface carries it, so that no vertex is ever on the
+// wrong side of a mesh.
+void keep_out(inout Motion motion, uint layers)
 {
     for (uint c = 0; c < push.colliders; ++c)
     {
-        const Contact contact = path_contact(colliders[c], motion.from, motion.x);
+        const ColliderRecord collider = colliders[c];
+        if ((collider.layers & layers) == 0)
+            continue;
+        const Passage passage = passage_of(c, collider.flags, motion);
+        const Contact contact = path_contact(c, collider, passage.from, passage.to);
         if (!contact.found)
             continue;
-        motion.x = motion.from;
-        motion.v -= min(dot(motion.v, contact.direction), 0) * contact.direction;
+        const vec3 way = surface_way(passage, passage.from);
+        const vec3 n = world_direction(passage, contact.direction);
+        motion.x = motion.from + way;
+        motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
         return;
     }
+}
+
+void meet(inout Motion motion, uint c, ClothContact cloth, inout bool touches, inout bool stays_out)
+{
+    const ColliderRecord collider = colliders[c];
+    if ((collider.layers & cloth.layers) == 0)
+        return;
+    const Passage passage = passage_of(c, collider.flags, motion);
+    const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
+    const Contact contact = find_contact(c, collider, METHOD, passage.from, passage.to, normal, cloth.thickness);
+    if (!contact.found)
+        return;
+    // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
+    const float moved = cloth.thickness - contact.gap + distance(passage.from, passage.to);
+    stays_out = !touches && moved < contact.gap;
+    touches = true;
+    respond(motion, world_direction(passage, contact.direction), contact.gap,
+            surface_way(passage, passage.to - contact.gap * contact.direction), cloth.thickness,
+            pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
+            pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
 
 void main()
@@ -100,32 +178,24 @@ void main()
     const vec4 proposed = proposed_positions[i];
     const vec4 proposed_velocity = proposed_velocities[i];
     Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz);
-    float touches = 0;
+    bool touches = false;
     bool stays_out = false;
     if (proposed.w > 0)
     {
-        const float thickness = cloths[cloth].thickness;
-        const float travelled = distance(motion.from, motion.x);
-        find_candidates(i, push.colliders, motion.from, motion.x, length(motion.v), thickness);
-        const vec3 normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
+        ClothContact contact;
+        contact.thickness = cloths[cloth].thickness;
+        contact.static_friction = cloths[cloth].static_friction;
+        contact.kinetic_friction = cloths[cloth].kinetic_friction;
+        contact.layers = cloths[cloth].layers;
+        contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
+        find_candidates(i, contact.layers, motion.from, motion.x, motion.v, contact.thickness);
         for (uint c = 0; c < push.colliders; ++c)
-        {
-            const ColliderRecord collider = colliders[c];
-            const Contact contact = find_contact(collider, METHOD, motion.from, motion.x, normal, thickness);
-            if (!contact.found)
-                continue;
-            // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
-            stays_out = touches == 0 && thickness - contact.gap + travelled < contact.gap;
-            touches = VOILE_VERTEX_TOUCHES;
-            respond(motion, contact, thickness,
-                    pair_friction(cloths[cloth].static_friction, collider.static_friction, collider.flags),
-                    pair_friction(cloths[cloth].kinetic_friction, collider.kinetic_friction, collider.flags));
-        }
+            meet(motion, c, contact, touches, stays_out);
+        if (touches && !stays_out)
+            keep_out(motion, contact.layers);
     }
-    if (touches > 0 && !stays_out)
-        keep_out(motion);
     positions[i] = vec4(motion.x, proposed.w);
-    velocities[i] = vec4(motion.v, touches + proposed_velocity.w);
+    velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);
     if ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0)
         predicted[i] = proposed_predicted[i] + vec4(motion.v - proposed_velocity.xyz, 0);
 }

@@ -5,7 +5,10 @@
 // of their own would find, in the same order, and a few more. Where a vertex has more leaves than the list holds, every
 // substep traverses. Threads wait for the slowest among them: so that most substeps have no traversal at all, lists are
 // renewed together, every VOILE_RENEWAL substeps, by all vertices that have used up half of their margin.
-// The including kernel declares candidate_places[] and candidate_leaves[] and includes contact_query.glsl before.
+// A moving collider has the list of the place where the vertex was, in the collider's space, when the list was made; it holds
+// within the step in which that was.
+// The including kernel declares candidate_places[] and candidate_leaves[] and includes contact_query.glsl and
+// collider_pose.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
@@ -15,8 +18,9 @@ struct Candidates
     uint vertex;
     uint count;   // VOILE_CANDIDATES + 1: more than fit
     bool collect; // take_leaf puts them into the list; else it visits their triangles
-    vec3 box_min; // what the list covers
-    vec3 box_max;
+    vec3 place;   // m, world: the middle of what the list covers
+    float cover;  // m, half the side of that box, with what contact reaches
+    float made;   // progress of the step when the list was made; < 0: in a step before
 };
 Candidates candidates;
 
@@ -36,11 +40,25 @@ void take_leaf(uint first, uint count)
 
 #include "bvh.glsl"
 
-void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
+// The middle of what the list covers in the space of collider c.
+vec3 covered_middle(uint c, uint flags)
 {
-    const bool covered = all(lessThanEqual(candidates.box_min, box_min)) &&
-                         all(lessThanEqual(box_max, candidates.box_max)) && candidates.count <= VOILE_CANDIDATES;
-    if (!covered)
+    return (flags & VOILE_COLLIDER_MOVED) != 0 ? to_collider(pose_at(c, candidates.made), candidates.place)
+                                               : candidates.place;
+}
+
+bool covers(uint c, uint flags, vec3 box_min, vec3 box_max)
+{
+    if (candidates.made < 0 && (flags & VOILE_COLLIDER_MOVED) != 0)
+        return false;
+    const vec3 middle = covered_middle(c, flags);
+    return all(lessThanEqual(middle - candidates.cover, box_min)) &&
+           all(lessThanEqual(box_max, middle + candidates.cover));
+}
+
+void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
+{
+    if (candidates.count > VOILE_CANDIDATES || !covers(c, collider.flags, box_min, box_max))
     {
         visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
         return;
@@ -55,36 +73,76 @@ void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
     }
 }
 
+// Whether every mesh that moves is either covered or out of reach. `way`: m, the farthest that one carries its surface here.
+bool serves_moving(uint layers, vec3 from, vec3 to, float reach, inout float way)
+{
+    bool serves = true;
+    for (uint c = 0; c < push.colliders; ++c)
+    {
+        const uint flags = colliders[c].flags;
+        if ((flags & VOILE_COLLIDER_MOVED) == 0 || colliders[c].kind != VOILE_COLLIDER_MESH ||
+            (colliders[c].layers & layers) == 0)
+            continue;
+        const Pose start = pose_at(c, push.progress_from);
+        const vec3 a = to_collider(start, from);
+        const vec3 b = to_collider(pose_at(c, push.progress_to), to);
+        const vec3 box_min = min(a, b) - reach;
+        const vec3 box_max = max(a, b) + reach;
+        if (!boxes_overlap(box_min, box_max, colliders[c].box_min, colliders[c].box_max))
+            continue;
+        way = max(way, distance(to_world(start, b), to));
+        serves = serves && covers(c, flags, box_min, box_max);
+    }
+    return serves;
+}
+
+void collect_leaves(uint layers)
+{
+    candidates.count = 0;
+    candidates.collect = true;
+    for (uint c = 0; c < push.colliders; ++c)
+    {
+        if (colliders[c].kind != VOILE_COLLIDER_MESH || (colliders[c].layers & layers) == 0)
+            continue;
+        const vec3 middle = covered_middle(c, colliders[c].flags);
+        const vec3 box_min = middle - candidates.cover;
+        const vec3 box_max = middle + candidates.cover;
+        if (boxes_overlap(box_min, box_max, colliders[c].box_min, colliders[c].box_max))
+            visit_box(colliders[c].first_node, colliders[c].first_triangle, box_min, box_max);
+    }
+    candidates.collect = false;
+}
+
 // Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to` and what contact may add.
-void find_candidates(uint vertex, uint collider_count, vec3 from, vec3 to, float speed, float thickness)
+void find_candidates(uint vertex, uint layers, vec3 from, vec3 to, vec3 velocity, float thickness)
 {
     const vec4 place = candidate_places[vertex]; // w: half the side of the box that the way must stay in; < 0: none
     const float reach = 2 * thickness;           // the distance that contact keeps, from either side
+    const uint head = candidate_leaves[vertex * (VOILE_CANDIDATES + 1)];
+    const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     candidates.vertex = vertex;
     candidates.collect = false;
+    candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
+    candidates.place = place.xyz;
+    candidates.cover = place.w + reach;
+    candidates.made = made < push.first_substep
+                          ? -1
+                          : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
     const float used = push.renew == 1 ? 0.5 * place.w : place.w;
     const bool serves =
         all(lessThanEqual(abs(from - place.xyz), vec3(used))) && all(lessThanEqual(abs(to - place.xyz), vec3(used)));
-    if (serves)
-    {
-        candidates.count = candidate_leaves[vertex * (VOILE_CANDIDATES + 1)];
-        candidates.box_min = place.xyz - (place.w + reach);
-        candidates.box_max = place.xyz + (place.w + reach);
+    float way = 0;
+    const bool serves_all = serves_moving(layers, from, to, reach, way) && serves;
+    if (serves_all)
         return;
-    }
-    const float margin = max(0.5 * thickness, 2 * speed * push.renewal_time) + 0.5 * distance(from, to);
-    const vec3 middle = 0.5 * (from + to);
-    candidates.count = 0;
-    candidates.box_min = middle - (margin + reach);
-    candidates.box_max = middle + (margin + reach);
-    candidates.collect = true;
-    for (uint c = 0; c < collider_count; ++c)
-        if (colliders[c].kind == VOILE_COLLIDER_MESH &&
-            boxes_overlap(candidates.box_min, candidates.box_max, colliders[c].box_min, colliders[c].box_max))
-            visit_box(colliders[c].first_node, colliders[c].first_triangle, candidates.box_min, candidates.box_max);
-    candidates.collect = false;
-    candidate_places[vertex] = vec4(middle, margin);
-    candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] = candidates.count;
+    const float speed = length(velocity) + way / push.step;
+    const float margin = max(0.5 * thickness, 2 * speed * push.renewal_time) + 0.5 * distance(from, to) + way;
+    candidates.place = 0.5 * (from + to);
+    candidates.cover = margin + reach;
+    candidates.made = push.progress_to;
+    collect_leaves(layers);
+    candidate_places[vertex] = vec4(candidates.place, margin);
+    candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] = push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
 }
 
 #endif

@@ -1,11 +1,12 @@
 // Where a vertex touches a collider.
 //
-// The including kernel declares `colliders[]`, `bvh_nodes[]` and `bvh_triangles[]`, and defines after the include
-//   void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
-// which calls visit_triangle for all triangles of the mesh that the box can reach.
+// All of this is in the collider's space. The including kernel declares `bvh_nodes[]` and `bvh_triangles[]`, and defines
+//   void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
+// after the include, which calls visit_triangle for all triangles of collider c that the box can reach.
 #ifndef VOILE_CONTACT_QUERY_GLSL
 #define VOILE_CONTACT_QUERY_GLSL
 
+#include "convex.glsl"
 #include "triangle.glsl"
 
 // How the narrow phase finds the surface within the thickness.
@@ -15,6 +16,8 @@
 
 // Offsets from the nearest point that are shorter than this share of the thickness are too short for a direction.
 #define VOILE_SHORT_OFFSET 0.01
+// What lies behind an open mesh with one side has its nearest point straight before it: |cosine| to the face's normal.
+#define VOILE_BEHIND 0.99
 
 struct Contact
 {
@@ -31,6 +34,7 @@ struct MeshQuery
     vec3 to;
     vec3 normal;     // of the cloth at the vertex, for VOILE_METHOD_NORMAL_RAY
     float thickness; // m
+    bool one_sided;
     bool closed;
 
     float distance;  // m to the nearest surface found; starts at the thickness
@@ -81,8 +85,8 @@ void visit_triangle(uint index)
     const BvhTriangle triangle = bvh_triangles[index];
     const vec3 face = normalize(cross(triangle.b - triangle.a, triangle.c - triangle.a));
     const float t = segment_triangle(query.from, query.to - query.from, triangle.a, triangle.b, triangle.c);
-    // Leaving a closed mesh through its surface is no fault.
-    if (t < query.crossing && !(query.closed && dot(query.to - query.from, face) >= 0))
+    // Leaving a solid through its surface is no fault.
+    if (t < query.crossing && !(query.one_sided && dot(query.to - query.from, face) >= 0))
     {
         query.crossing = t;
         query.crossing_face = face;
@@ -99,7 +103,7 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
     return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
 }
 
-void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max);
+void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max);
 
 Contact crossing_contact()
 {
@@ -116,14 +120,17 @@ Contact nearest_contact()
     Contact contact;
     contact.found = query.distance < query.thickness;
     const vec3 offset = query.to - query.point;
-    const bool inside = query.closed && dot(offset, query.face) < 0;
+    const bool inside = query.one_sided && dot(offset, query.face) < 0;
+    // Behind an open mesh, but nearest to its border: beside it.
+    if (inside && !query.closed && query.alignment < VOILE_BEHIND)
+        contact.found = false;
     // Near the surface the offset is too short to have a precise direction; the face has one. So it has for a ray's hit,
     // whose offset follows the cloth.
     const bool short_offset = query.distance < VOILE_SHORT_OFFSET * query.thickness;
     if (short_offset || query.method == VOILE_METHOD_NORMAL_RAY)
     {
         const vec3 side = query.method == VOILE_METHOD_NORMAL_RAY ? query.from - query.point : offset;
-        const bool flip = !query.closed && dot(side, query.face) < 0;
+        const bool flip = !query.one_sided && dot(side, query.face) < 0;
         contact.direction = flip ? -query.face : query.face;
         contact.gap = dot(offset, contact.direction);
         return contact;
@@ -133,68 +140,83 @@ Contact nearest_contact()
     return contact;
 }
 
-Contact mesh_contact(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+void begin_query(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
-    Contact none;
-    none.found = false;
-    const vec3 box_min = min(to - thickness, from);
-    const vec3 box_max = max(to + thickness, from);
-    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
-        return none;
     query.method = method;
     query.from = from;
     query.to = to;
     query.normal = normal;
     query.thickness = thickness;
+    query.one_sided = (collider.flags & VOILE_COLLIDER_ONE_SIDED) != 0;
     query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
     query.distance = thickness;
     query.alignment = 2; // nothing ties with "nothing found"
     query.crossing = 2;
-    visit_mesh(collider, box_min, box_max);
+}
+
+Contact no_contact()
+{
+    Contact none;
+    none.found = false;
+    return none;
+}
+
+Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+{
+    const vec3 box_min = min(to - thickness, from);
+    const vec3 box_max = max(to + thickness, from);
+    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+        return no_contact();
+    begin_query(collider, method, from, to, normal, thickness);
+    visit_mesh(c, collider, box_min, box_max);
     if (query.crossing <= 1)
         return crossing_contact();
     return nearest_contact();
 }
 
-// Whether the way from `from` to `to` leads through the mesh; contact.direction is the side that it comes from.
-Contact path_contact(ColliderRecord collider, vec3 from, vec3 to)
+// The nearest surface, or, where the way leads into the solid and would come out of another side of it, the plane on which
+// it went in.
+Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
 {
-    Contact contact;
-    contact.found = false;
-    const vec3 box_min = min(from, to);
-    const vec3 box_max = max(from, to);
-    if (collider.kind != VOILE_COLLIDER_MESH || !boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+    const ConvexSurface end = convex_surface(collider, to);
+    Contact contact = Contact(end.distance < thickness, end.direction, end.distance);
+    if (collider.kind == VOILE_COLLIDER_PLANE)
         return contact;
-    query.method = VOILE_METHOD_PATH_ALONE;
-    query.from = from;
-    query.to = to;
-    query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
-    query.crossing = 2;
-    visit_mesh(collider, box_min, box_max);
-    if (query.crossing <= 1)
-        contact = crossing_contact();
+    const float start = convex_surface(collider, from).distance;
+    if (start <= 0 || start + end.distance >= distance(from, to))
+        return contact;
+    vec3 entry;
+    ConvexSurface surface;
+    if (!find_entry(collider, from, to, thickness, entry, surface))
+        return contact;
+    const bool same_side = end.distance < thickness && dot(end.direction, surface.direction) > 0.5;
+    if (!same_side)
+        contact = Contact(true, surface.direction, surface.distance + dot(to - entry, surface.direction));
     return contact;
 }
 
-Contact find_contact(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+// Whether the way from `from` to `to` leads through collider c; contact.direction is the side that it comes from.
+Contact path_contact(uint c, ColliderRecord collider, vec3 from, vec3 to)
 {
-    Contact contact;
+    if (collider.kind != VOILE_COLLIDER_MESH)
+        return no_contact();
+    const vec3 box_min = min(from, to);
+    const vec3 box_max = max(from, to);
+    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+        return no_contact();
+    begin_query(collider, VOILE_METHOD_PATH_ALONE, from, to, vec3(0), 0);
+    visit_mesh(c, collider, box_min, box_max);
+    if (query.crossing <= 1)
+        return crossing_contact();
+    return no_contact();
+}
+
+// What a vertex that goes from `from` to `to` touches of collider c.
+Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+{
     if (collider.kind == VOILE_COLLIDER_MESH)
-        return mesh_contact(collider, method, from, to, normal, thickness);
-    if (collider.kind == VOILE_COLLIDER_PLANE)
-    {
-        contact.direction = collider.shape.xyz;
-        contact.gap = dot(collider.shape.xyz, to) - collider.shape.w;
-    }
-    else // sphere
-    {
-        const vec3 offset = to - collider.shape.xyz;
-        const float distance = length(offset);
-        contact.direction = distance > 1e-9 ? offset / distance : vec3(0, 1, 0);
-        contact.gap = distance - collider.shape.w;
-    }
-    contact.found = contact.gap < thickness;
-    return contact;
+        return mesh_contact(c, collider, method, from, to, normal, thickness);
+    return convex_contact(collider, from, to, thickness);
 }
 
 #endif

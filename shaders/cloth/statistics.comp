@@ -19,10 +19,13 @@ layout(set = 0, binding = 6, std430) readonly buffer BvhTriangles { BvhTriangle 
 layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
 layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 11, std430) readonly buffer CandidateLeaves { uint candidate_leaves[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "chunk.glsl"
+#include "collider_pose.glsl"
 #include "contact_query.glsl"
 
 void take_leaf(uint first, uint count)
@@ -32,7 +35,7 @@ void take_leaf(uint first, uint count)
 }
 #include "bvh.glsl"
 
-void visit_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
+void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
     visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
 }
@@ -77,17 +80,29 @@ void measure_mesh_springs(uint cloth, uint local, vec3 x, inout StatisticsRecord
     }
 }
 
-void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
+void measure_penetration(vec3 x, float thickness, uint layers, inout StatisticsRecord record)
 {
     float depth = 0;
     for (uint c = 0; c < push.colliders; ++c)
     {
-        const Contact contact = find_contact(colliders[c], VOILE_METHOD_NEAREST_POINT, x, x, vec3(0), thickness);
+        const ColliderRecord collider = colliders[c];
+        if ((collider.layers & layers) == 0)
+            continue;
+        const vec3 place = (collider.flags & VOILE_COLLIDER_MOVED) != 0 ? to_collider(pose_at(c, 1), x) : x;
+        const Contact contact =
+            find_contact(c, collider, VOILE_METHOD_NEAREST_POINT, place, place, vec3(0), thickness);
         if (contact.found)
             depth = max(depth, -contact.gap);
     }
     record.deepest_penetration = depth;
     record.penetrating_vertices = depth > 0 ? 1 : 0;
+}
+
+void count_candidates(uint vertex, inout StatisticsRecord record)
+{
+    const uint count = candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] & VOILE_CANDIDATE_COUNT_MASK;
+    record.candidates = min(count, VOILE_CANDIDATES);
+    record.overflowing_vertices = count > VOILE_CANDIDATES ? 1 : 0;
 }
 
 void main()
@@ -109,7 +124,9 @@ void main()
                 measure_grid_springs(self, x.xyz, record);
             else
                 measure_mesh_springs(cloth, self.local, x.xyz, record);
-            measure_penetration(x.xyz, cloths[cloth].thickness, record);
+            measure_penetration(x.xyz, cloths[cloth].thickness, cloths[cloth].layers, record);
+            if (push.colliders > 0)
+                count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
             record.contacts = uint(v.w) & VOILE_VERTEX_TOUCHES;
             record.limited_vertices = (uint(v.w) & VOILE_VERTEX_LIMITED) != 0 ? 1 : 0;

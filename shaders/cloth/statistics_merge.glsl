@@ -17,6 +17,8 @@ StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
     a.penetrating_vertices += b.penetrating_vertices;
     a.contacts += b.contacts;
     a.limited_vertices += b.limited_vertices;
+    a.candidates += b.candidates;
+    a.overflowing_vertices += b.overflowing_vertices;
     return a;
 }
 

@@ -29,6 +29,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.mesh_springs, "cloth mesh springs", data.lists.springs.size() * sizeof(shared::MeshSpring)},
         {&state.mesh_corners, "cloth mesh corners", data.lists.corners.size() * sizeof(shared::MeshCorner)},
         {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
+        {&state.collider_motions, "cloth collider motions", model.colliders.size() * sizeof(shared::ColliderMotion)},
         {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
         {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
         {&state.start, "cloth start", per_vertex},
@@ -148,14 +149,16 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
                  s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
                  s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(), s.sums.velocities.handle(),
-                 s.stage_a.velocities.handle(), s.candidate_places.handle(), s.candidate_leaves.handle()});
+                 s.stage_a.velocities.handle(), s.candidate_places.handle(), s.candidate_leaves.handle(),
+                 s.collider_motions.handle()});
     binder.bind(s.normals_set, kernels.normals,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle()});
     binder.bind(s.statistics, kernels.statistics,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
-                 s.mesh_vertices.handle(), s.mesh_springs.handle()});
+                 s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
+                 s.candidate_leaves.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
     return binder.status;
 }
@@ -176,7 +179,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
     constexpr uint32_t k_sets = 21;
-    constexpr uint32_t k_most_bindings = 15;
+    constexpr uint32_t k_most_bindings = 16;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

@@ -26,6 +26,7 @@ struct DeviceState
     gpu::Buffer mesh_springs;
     gpu::Buffer mesh_corners;
     gpu::Buffer colliders;
+    gpu::Buffer collider_motions;
     gpu::Buffer nodes;
     gpu::Buffer triangles;
     gpu::Buffer start; // places at the start, and what density multiplies

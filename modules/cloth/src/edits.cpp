@@ -46,7 +46,25 @@ void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
     }
 }
 
-void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, bool anchors)
+void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    for (uint32_t i = 0; i < solver.colliders.size(); ++i)
+    {
+        if ((solver.model.colliders[i].flags & VOILE_COLLIDER_MOVED) == 0)
+            continue;
+        const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i]);
+        update(recorder, solver.device->collider_motions, i * sizeof(motion), std::as_bytes(std::span(&motion, 1)));
+    }
+}
+
+// What moves in a step, or did in the one before and must come to rest.
+struct Moved
+{
+    bool anchors = false;
+    bool colliders = false;
+};
+
+void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const Moved& moved)
 {
     const DeviceState& device = *solver.device;
     for (const uint32_t cloth : solver.edits.records)
@@ -56,8 +74,13 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, bool a
         update(recorder, device.holds, 0, bytes_of(solver.hold_lists.holds));
     if (solver.edits.tethers)
         update(recorder, device.tethers, 0, bytes_of(solver.hold_lists.tethers));
-    if (anchors)
+    for (const uint32_t collider : solver.edits.colliders)
+        update(recorder, device.colliders, collider * sizeof(shared::ColliderRecord),
+               std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
+    if (moved.anchors)
         update_anchors(recorder, solver);
+    if (moved.colliders)
+        update_colliders(recorder, solver);
 }
 
 } // namespace
@@ -104,25 +127,30 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
         return;
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
-    const bool moves = std::any_of(solver.anchors.begin(), solver.anchors.end(),
-                                   [](const Anchor& anchor) { return anchor.from != anchor.to; });
-    // Anchors that came to rest leave their pins with the velocity of the last step.
-    const bool anchors = moves || solver.anchors_moved || solver.edits.holds || solver.edits.pins;
-    if (!anchors && !solver.edits.any())
+    const auto moves = [](const auto& poses)
+    { return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.from != pose.to; }); };
+    const Moved now{moves(solver.anchors), moves(solver.colliders)};
+    // Anchors that came to rest leave their pins with the velocity of the last step, colliders their surfaces.
+    const Moved due{now.anchors || solver.anchors_moved || solver.edits.holds || solver.edits.pins,
+                    now.colliders || solver.colliders_moved || !solver.edits.colliders.empty()};
+    if (!due.anchors && !due.colliders && !solver.edits.any())
         return;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    update_buffers(recorder, solver, anchors);
+    update_buffers(recorder, solver, due);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
     for (const shared::EditPush& edit : solver.edits.places)
         recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
-    if (anchors || !solver.edits.places.empty())
+    if (due.anchors || !solver.edits.places.empty())
         recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
                           shared::HoldPush{0, solver.passes.pins, step.duration, 0, 0});
-    solver.anchors_moved = moves;
+    solver.anchors_moved = now.anchors;
+    solver.colliders_moved = now.colliders;
     for (Anchor& anchor : solver.anchors)
         anchor.from = anchor.to;
+    for (ColliderPose& pose : solver.colliders)
+        pose.from = pose.to;
     solver.edits = {};
 }
 

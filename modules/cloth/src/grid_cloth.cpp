@@ -65,6 +65,7 @@ Result<ClothId> Model::add(const Grid& grid)
     record.vertices = static_cast<uint32_t>(count);
     record.columns = grid.columns;
     record.rows = grid.rows;
+    record.layers = grid.layers;
     apply_material(cloth, record);
     const auto index = static_cast<uint32_t>(cloths.size());
     cloths.push_back(std::move(cloth));

@@ -103,6 +103,7 @@ Result<ClothId> Model::add(const MeshCloth& description)
         cloth.texture_coordinates = projected(world);
 
     shared::ClothRecord record{};
+    record.layers = description.layers;
     record.first_vertex = static_cast<uint32_t>(first);
     record.vertices = static_cast<uint32_t>(count);
     record.first_list = static_cast<uint32_t>(mesh_vertices.size());

@@ -14,9 +14,11 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
         return mesh.error();
     const Bvh bvh = build_bvh(mesh.value().positions, mesh.value().triangles);
 
-    shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.friction);
+    shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
     if (mesh.value().closed)
         record.flags |= VOILE_COLLIDER_CLOSED;
+    if (collider.sides == Sides::one || (collider.sides == Sides::automatic && mesh.value().closed))
+        record.flags |= VOILE_COLLIDER_ONE_SIDED;
     record.first_node = static_cast<uint32_t>(nodes.size());
     record.first_triangle = static_cast<uint32_t>(triangles.size());
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());
@@ -25,8 +27,7 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
     record.box_max = glm::max(root.left_max, root.right_max);
     nodes.insert(nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
     triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
-    colliders.push_back(record);
-    return ColliderId{static_cast<uint32_t>(colliders.size() - 1)};
+    return append(record, glm::mat4(1));
 }
 
 } // namespace cloth

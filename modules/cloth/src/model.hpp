@@ -46,6 +46,7 @@ struct Model
     std::vector<shared::MeshCorner> mesh_corners;
     std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
     std::vector<shared::ColliderRecord> colliders;
+    std::vector<glm::mat4> placements; // of the colliders: world from their own space when they were added; rigid
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
 
@@ -55,6 +56,9 @@ struct Model
     Result<ColliderId> add(const MeshCollider& collider);
     Result<ColliderId> add(const PlaneCollider& collider);
     Result<ColliderId> add(const SphereCollider& collider);
+    Result<ColliderId> add(const CapsuleCollider& collider);
+    Result<ColliderId> add(const BoxCollider& collider);
+    ColliderId append(const shared::ColliderRecord& record, const glm::mat4& placement);
 };
 
 // What the validation of cloths and colliders shares.
@@ -62,7 +66,7 @@ Error invalid(const std::string& what, const std::string& name, const std::strin
 bool finite(const glm::vec3& v);
 bool finite(const glm::mat4& m);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
-shared::ColliderRecord make_collider_record(uint32_t kind, const std::optional<Friction>& friction);
+shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction);
 
 // What the validation of grids and meshes shares: transform, velocity, material, held vertices, inverse masses.
 struct ClothInput

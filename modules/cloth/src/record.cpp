@@ -3,6 +3,7 @@
 #include "substeps.hpp"
 
 #include <bit>
+#include <utility>
 
 namespace cloth
 {
@@ -29,6 +30,23 @@ void end_scope(gpu::Recorder& recorder)
                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
+// The number of a step's first substep. Where the numbers are used up, all lists of candidates are made anew.
+uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t substeps)
+{
+    const uint32_t taken = substeps + 1; // the strain limit has one of its own
+    if (solver.next_substep >= k_substeps_counted - taken)
+    {
+        solver.next_substep = 0;
+        const float none = -1;
+        recorder.barrier(k_compute, 0, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, 0);
+        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), solver.device->candidate_places.handle(), 0,
+                                              VK_WHOLE_SIZE, std::bit_cast<uint32_t>(none));
+        recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                         k_storage);
+    }
+    return std::exchange(solver.next_substep, solver.next_substep + taken);
+}
+
 } // namespace
 
 void Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
@@ -45,7 +63,8 @@ void Solver::record(gpu::Recorder& recorder, const Step& step)
     const uint32_t group = state_->options.workgroup_size;
     begin_scope(recorder);
     record_edits(recorder, *state_, step);
-    SubstepRecorder(recorder, *state_, step, State::substeps(*this, step)).record();
+    const uint32_t substeps = State::substeps(*this, step);
+    SubstepRecorder(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps)).record();
     recorder.dispatch(state_->kernels.normals, device.normals_set, device.chunk_count * group, group,
                       std::span<const std::byte>{});
     end_scope(recorder);

@@ -89,24 +89,14 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
     return result;
 }
 
-Result<ColliderId> Solver::add_collider(const MeshCollider& collider)
+Result<ColliderId> Solver::add_collider(const Collider& collider)
 {
-    auto result = state_->model.add(collider);
-    state_->dirty |= result.ok();
-    return result;
-}
-
-Result<ColliderId> Solver::add_collider(const PlaneCollider& collider)
-{
-    auto result = state_->model.add(collider);
-    state_->dirty |= result.ok();
-    return result;
-}
-
-Result<ColliderId> Solver::add_collider(const SphereCollider& collider)
-{
-    auto result = state_->model.add(collider);
-    state_->dirty |= result.ok();
+    auto result = std::visit([&](const auto& shape) { return state_->model.add(shape); }, collider);
+    if (result)
+    {
+        state_->colliders.emplace_back();
+        state_->dirty = true;
+    }
     return result;
 }
 
@@ -132,6 +122,8 @@ Statistics Solver::statistics(uint32_t slot) const
     result.nan_vertices = record.nan_vertices;
     result.contacts = record.contacts;
     result.limited_vertices = record.limited_vertices;
+    result.candidates = record.candidates;
+    result.overflowing_vertices = record.overflowing_vertices;
     return result;
 }
 

@@ -1,10 +1,6 @@
 // Changes of cloths that are there already. Each is validated here and recorded by edits.cpp.
-#include "bvh_query.hpp"
 #include "solver_state.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <utility>
 
 namespace cloth
@@ -25,47 +21,6 @@ Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
     if (auto valid = std::visit([](const auto& m) { return validate(m); }, material); !valid)
         return invalid("cloth", cloth.name, valid.error().message);
     return {};
-}
-
-// The hierarchy of one mesh collider.
-Bvh bvh_of(const Model& model, uint32_t collider)
-{
-    const shared::ColliderRecord& record = model.colliders[collider];
-    size_t last_node = model.nodes.size();
-    size_t last_triangle = model.triangles.size();
-    for (const shared::ColliderRecord& other : model.colliders)
-        if (other.kind == VOILE_COLLIDER_MESH && other.first_node > record.first_node && other.first_node < last_node)
-        {
-            last_node = other.first_node;
-            last_triangle = other.first_triangle;
-        }
-    const auto slice = [](const auto& values, size_t from, size_t to)
-    { return std::vector(values.begin() + static_cast<ptrdiff_t>(from), values.begin() + static_cast<ptrdiff_t>(to)); };
-    Bvh bvh;
-    bvh.nodes = slice(model.nodes, record.first_node, last_node);
-    bvh.triangles = slice(model.triangles, record.first_triangle, last_triangle);
-    return bvh;
-}
-
-// The nearest place of a collider's surface within `distance`.
-using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
-
-FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
-{
-    const shared::ColliderRecord& record = model.colliders[collider];
-    const glm::dvec3 shape(record.shape);
-    const auto size = static_cast<double>(record.shape.w);
-    const auto near = [distance](const glm::dvec3& x, const glm::dvec3& place)
-    { return glm::distance(x, place) <= distance ? std::optional(place) : std::nullopt; };
-    if (record.kind == VOILE_COLLIDER_PLANE)
-        return [=](const glm::dvec3& x) { return near(x, x - (glm::dot(shape, x) - size) * shape); };
-    if (record.kind == VOILE_COLLIDER_SPHERE)
-        return [=](const glm::dvec3& x) { return near(x, shape + size * glm::normalize(x - shape)); };
-    return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
-    {
-        const auto nearest = nearest_point(bvh, x, distance);
-        return nearest ? std::optional(nearest->point) : std::nullopt;
-    };
 }
 
 void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
@@ -121,25 +76,6 @@ Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
 const std::vector<Hold>& Solver::holds(ClothId cloth) const
 {
     return state_->model.cloths[cloth.index].holds;
-}
-
-Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance) const
-{
-    const Model& model = state_->model;
-    if (collider.index >= model.colliders.size())
-        return Error{"collider " + std::to_string(collider.index) + " does not exist"};
-    if (!(distance >= 0) || !std::isfinite(distance))
-        return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
-    const FindSurface find = surface_finder(model, collider.index, static_cast<double>(distance));
-    const shared::ClothRecord& record = model.records[cloth.index];
-    std::vector<Hold> holds;
-    for (uint32_t i = 0; i < record.vertices; ++i)
-        if (const auto place = find(glm::dvec3(model.start[record.first_vertex + i])))
-            holds.push_back({.vertex = i, .place = glm::vec3(*place)});
-    if (holds.empty())
-        return invalid("cloth", name(cloth),
-                       "no vertex starts within " + std::to_string(distance) + " m of the collider");
-    return holds;
 }
 
 Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)

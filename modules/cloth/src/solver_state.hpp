@@ -3,6 +3,7 @@
 
 #include "cloth/solver.hpp"
 
+#include "collider_motion.hpp"
 #include "device_state.hpp"
 
 #include <optional>
@@ -14,13 +15,20 @@ namespace cloth
 struct Edits
 {
     std::vector<uint32_t> records;        // cloths whose record changed
+    std::vector<uint32_t> colliders;      // colliders whose record changed
     std::vector<shared::EditPush> places; // in order
     bool holds = false;
     bool tethers = false;
     bool pins = false; // they must be set again
 
-    [[nodiscard]] bool any() const { return !records.empty() || !places.empty() || holds || tethers || pins; }
+    [[nodiscard]] bool any() const
+    {
+        return !records.empty() || !colliders.empty() || !places.empty() || holds || tethers || pins;
+    }
 };
+
+// So many substeps are told apart by the lists of candidates before they must be made anew.
+constexpr uint32_t k_substeps_counted = 1u << (32 - VOILE_CANDIDATE_COUNT_BITS);
 
 // Which of the optional passes a step has, by what there is.
 struct Passes
@@ -50,6 +58,9 @@ struct Solver::State
     Model model;
     std::vector<Anchor> anchors{Anchor{}}; // the first is the world
     bool anchors_moved = false;            // in the last step
+    std::vector<ColliderPose> colliders;
+    bool colliders_moved = false; // in the last step
+    uint32_t next_substep = 0;    // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
     Edits edits;
     Passes passes;

@@ -33,10 +33,10 @@ glm::vec4 gust_phases(const Step& step, double time)
 } // namespace
 
 SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step,
-                                 uint32_t substeps)
+                                 uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
-      group_(solver.options.workgroup_size), substeps_(substeps), h_(step.duration / static_cast<float>(substeps)),
-      commits_(solver.passes.commit)
+      group_(solver.options.workgroup_size), substeps_(substeps), first_substep_(first_substep),
+      h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit)
 {
 }
 
@@ -121,9 +121,21 @@ void SubstepRecorder::record_holds(uint32_t substep)
 
 void SubstepRecorder::record_contact(uint32_t substep)
 {
-    const uint32_t renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
-    recorder_.dispatch(kernels_.contact, device_.contact, device_.chunk_count * group_, group_,
-                       shared::ContactPush{h_, device_.collider_count, renew, VOILE_RENEWAL * h_});
+    const auto a_substep = 1 / static_cast<float>(substeps_);
+    shared::ContactPush push{};
+    push.step = h_;
+    push.colliders = device_.collider_count;
+    push.renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
+    push.renewal_time = VOILE_RENEWAL * h_;
+    push.progress_from = static_cast<float>(substep) * a_substep;
+    // What comes after the last substep, for the strain limit, sees all colliders at their end.
+    const auto progress = [&](uint32_t done) { return done >= substeps_ ? 1 : static_cast<float>(done) * a_substep; };
+    push.progress_from = progress(substep);
+    push.progress_to = progress(substep + 1);
+    push.progress_a_substep = a_substep;
+    push.substep = first_substep_ + substep;
+    push.first_substep = first_substep_;
+    recorder_.dispatch(kernels_.contact, device_.contact, device_.chunk_count * group_, group_, push);
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.

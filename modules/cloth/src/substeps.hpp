@@ -9,7 +9,8 @@ namespace cloth
 class SubstepRecorder
 {
 public:
-    SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps);
+    SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps,
+                    uint32_t first_substep);
 
     // Integration, holds, tethers and contact of each substep, and the strain limit at the end.
     void record();
@@ -33,8 +34,9 @@ private:
     const Step& step_;
     uint32_t group_;
     uint32_t substeps_;
-    float h_;      // s
-    bool commits_; // the contact pass runs, which takes what is proposed in stage B into the state
+    uint32_t first_substep_; // counted through all steps
+    float h_;                // s
+    bool commits_;           // the contact pass runs, which takes what is proposed in stage B into the state
 };
 
 } // namespace cloth

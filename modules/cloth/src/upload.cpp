@@ -99,6 +99,10 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     const std::vector<glm::vec4> no_candidates(s.model.positions.size(), glm::vec4(0, 0, 0, -1));
+    std::vector<shared::ColliderMotion> motions;
+    for (uint32_t i = 0; i < s.colliders.size(); ++i)
+        motions.push_back(make_motion(s.model, i, s.colliders[i]));
+    const std::vector<uint32_t> empty_lists(no_candidates.size() * (VOILE_CANDIDATES + 1));
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -112,6 +116,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.mesh_springs, 0, bytes_of(data.lists.springs)},
         {next.mesh_corners, 0, bytes_of(data.lists.corners)},
         {next.colliders, 0, bytes_of(s.model.colliders)},
+        {next.collider_motions, 0, bytes_of(motions)},
         {next.nodes, 0, bytes_of(s.model.nodes)},
         {next.triangles, 0, bytes_of(s.model.triangles)},
         {next.start, 0, bytes_of(s.model.start)},
@@ -120,6 +125,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
         {next.candidate_places, 0, bytes_of(no_candidates)},
+        {next.candidate_leaves, 0, bytes_of(empty_lists)},
         {next.normals, kept_bytes, bytes_of(up)},
     };
     for (const Staged& item : staged)
@@ -139,6 +145,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.device = std::move(next);
     s.dirty = false;
     s.edits.records.clear();
+    s.edits.colliders.clear();
     s.edits.holds = s.edits.tethers = false;
     s.edits.pins |= s.hold_lists.pins > 0; // anchors are not uploaded: the next step sets them
     s.update_passes();

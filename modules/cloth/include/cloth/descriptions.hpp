@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace cloth
@@ -37,6 +38,7 @@ struct Grid
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};        // vertices that do not move (inverse mass 0)
     std::vector<float> inverse_masses{}; // 1/kg, one a vertex, in place of the material's; 0 holds. Empty: none given
+    uint32_t layers = 1;                 // bits; it meets the colliders that have one of them
 };
 
 // A cloth of any triangles: open or closed, in one piece or several, vertices and their order kept. Triangles without
@@ -55,6 +57,7 @@ struct MeshCloth
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};
     std::vector<float> inverse_masses{};
+    uint32_t layers = 1;
 };
 
 // What a mesh is like as a cloth.
@@ -77,8 +80,15 @@ struct Friction
 
 // Friction of a pair is the geometric mean of the fabric's and the collider's; a collider without takes the fabric's.
 
-// A triangle mesh that does not move. Closed meshes (every edge shared by two triangles that agree on it) push
-// outwards; inside-out ones are turned. Open meshes push to the side that a vertex comes from.
+// To which side a mesh pushes.
+enum class Sides
+{
+    automatic, // a closed mesh outwards, an open one to the side that a vertex comes from
+    one,       // to where its triangles face, counter-clockwise seen from there
+    two,       // to the side that a vertex comes from: a box that holds cloth in
+};
+
+// A triangle mesh. Closed meshes (every edge shared by two triangles that agree on it) that are inside-out are turned.
 struct MeshCollider
 {
     std::string name = "mesh";
@@ -86,6 +96,8 @@ struct MeshCollider
     std::span<const glm::uvec3> triangles{}; // indices into positions; triangles without area are dropped
     glm::mat4 transform{1.f};                // world from mesh; affine
     std::optional<Friction> friction{};
+    Sides sides = Sides::automatic;
+    uint32_t layers = 1; // bits; it meets the cloths that have one of them
 };
 
 // Everything below the plane is solid.
@@ -95,6 +107,7 @@ struct PlaneCollider
     glm::vec3 normal{0, 1, 0}; // unit length
     float offset = 0;          // m; normal . x = offset on the plane
     std::optional<Friction> friction{};
+    uint32_t layers = 1;
 };
 
 struct SphereCollider
@@ -103,7 +116,31 @@ struct SphereCollider
     glm::vec3 center{0.f}; // m
     float radius = 1;      // m, > 0
     std::optional<Friction> friction{};
+    uint32_t layers = 1;
 };
+
+// Everything within `radius` of the segment between both ends.
+struct CapsuleCollider
+{
+    std::string name = "capsule";
+    glm::vec3 from{0.f}; // m
+    glm::vec3 to{0, 1, 0};
+    float radius = 0.5f; // m, > 0
+    std::optional<Friction> friction{};
+    uint32_t layers = 1;
+};
+
+struct BoxCollider
+{
+    std::string name = "box";
+    glm::vec3 min{-0.5f}; // m, in the box's space, each below max's
+    glm::vec3 max{0.5f};
+    glm::mat4 transform{1.f}; // world from box; rigid
+    std::optional<Friction> friction{};
+    uint32_t layers = 1;
+};
+
+using Collider = std::variant<MeshCollider, PlaneCollider, SphereCollider, CapsuleCollider, BoxCollider>;
 
 // Names of what was added; only valid in the solver that gave them.
 struct ClothId

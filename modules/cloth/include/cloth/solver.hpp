@@ -22,7 +22,8 @@
 //   anchors, holds,   AnchorRecord,          upload, edits          pins, holds, tethers
 //   tethers           HoldRecord, TetherRecord
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
-//   colliders, nodes, triangles              upload                 contact, statistics
+//   colliders, motions, ColliderRecord,      upload, edits          contact, statistics
+//   nodes, triangles    -Motion, Bvh...
 //   partials, result  StatisticsRecord       statistics             the host (result)
 #pragma once
 
@@ -156,9 +157,7 @@ public:
     // exist, a coordinate that is not finite, an index beyond the positions, more than the device's buffers hold.
     Result<ClothId> add_cloth(const Grid& grid);
     Result<ClothId> add_cloth(const MeshCloth& mesh);
-    Result<ColliderId> add_collider(const MeshCollider& collider);
-    Result<ColliderId> add_collider(const PlaneCollider& collider);
-    Result<ColliderId> add_collider(const SphereCollider& collider);
+    Result<ColliderId> add_collider(const Collider& collider);
 
     // Changes of a cloth that is there already. They take effect with the next record (or, where an upload is due, with
     // the next record after it), without new buffers. Errors leave everything as it was.
@@ -174,8 +173,8 @@ public:
     Result<void> set_holds(ClothId cloth, std::span<const Hold> holds);
     [[nodiscard]] const std::vector<Hold>& holds(ClothId cloth) const;
     // A hold for each vertex of the cloth that starts within `distance` (m) of the collider's surface, on the nearest
-    // place of that surface. Errors: no vertex is that near.
-    [[nodiscard]] Result<std::vector<Hold>> holds_on_surface(ClothId cloth, ColliderId collider, float distance) const;
+    // place of that surface, and moving with the collider. Errors: no vertex is that near.
+    [[nodiscard]] Result<std::vector<Hold>> holds_on_surface(ClothId cloth, ColliderId collider, float distance);
 
     // Tethers from the present pins; none: takes them away. Errors: no pin, a stretch out of range. More than ever
     // before need an upload.
@@ -185,6 +184,11 @@ public:
     Result<AnchorId> add_anchor(const glm::mat4& world_from_anchor);
     // Where the anchor is at the end of the next step; its holds go there along straight lines.
     Result<void> move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor);
+
+    // Where a collider is at the end of the next step: moved and turned by `motion` from where it was added. It goes
+    // there evenly, turning the shorter way; cloth feels its surface's velocity. Costs no refit. Errors: a collider
+    // that does not exist, a motion that is not finite or not rigid.
+    Result<void> move_collider(ColliderId collider, const glm::mat4& motion);
 
     // Back to the start: places, velocities, masses. Holds stay as they are.
     void reset(ClothId cloth);

@@ -1,0 +1,155 @@
+// What the host does with colliders that are there already: moving them, and holding cloth to their surfaces.
+#include "bvh_query.hpp"
+#include "solver_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace cloth
+{
+
+namespace
+{
+
+// The hierarchy of one mesh collider.
+Bvh bvh_of(const Model& model, uint32_t collider)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    size_t last_node = model.nodes.size();
+    size_t last_triangle = model.triangles.size();
+    for (const shared::ColliderRecord& other : model.colliders)
+        if (other.kind == VOILE_COLLIDER_MESH && other.first_node > record.first_node && other.first_node < last_node)
+        {
+            last_node = other.first_node;
+            last_triangle = other.first_triangle;
+        }
+    const auto slice = [](const auto& values, size_t from, size_t to)
+    { return std::vector(values.begin() + static_cast<ptrdiff_t>(from), values.begin() + static_cast<ptrdiff_t>(to)); };
+    Bvh bvh;
+    bvh.nodes = slice(model.nodes, record.first_node, last_node);
+    bvh.triangles = slice(model.triangles, record.first_triangle, last_triangle);
+    return bvh;
+}
+
+// The nearest place of a collider's surface, both in the collider's space.
+using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
+
+glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& x)
+{
+    const glm::dvec3 axis = b - a;
+    const double t = glm::dot(x - a, axis) / std::max(glm::dot(axis, axis), 1e-300);
+    return a + std::clamp(t, 0.0, 1.0) * axis;
+}
+
+glm::dvec3 on_sphere(const glm::dvec3& center, double radius, const glm::dvec3& x)
+{
+    const double distance = glm::distance(x, center);
+    return distance > 0 ? center + radius / distance * (x - center) : center + glm::dvec3(0, radius, 0);
+}
+
+glm::dvec3 on_box(const glm::dvec3& center, const glm::dvec3& half_size, const glm::dvec3& x)
+{
+    const glm::dvec3 offset = x - center;
+    const glm::dvec3 outside = glm::abs(offset) - half_size;
+    glm::dvec3 place = glm::clamp(offset, -half_size, half_size);
+    if (glm::all(glm::lessThan(outside, glm::dvec3(0))))
+    {
+        const int axis = outside.x >= outside.y && outside.x >= outside.z ? 0 : outside.y >= outside.z ? 1 : 2;
+        place[axis] = offset[axis] < 0 ? -half_size[axis] : half_size[axis];
+    }
+    return center + place;
+}
+
+FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    const glm::dvec3 shape(record.shape);
+    const glm::dvec3 second(record.second);
+    const auto size = static_cast<double>(record.shape.w);
+    switch (record.kind)
+    {
+    case VOILE_COLLIDER_PLANE:
+        return [=](const glm::dvec3& x) { return x - (glm::dot(shape, x) - size) * shape; };
+    case VOILE_COLLIDER_SPHERE:
+        return [=](const glm::dvec3& x) { return on_sphere(shape, size, x); };
+    case VOILE_COLLIDER_CAPSULE:
+        return [=](const glm::dvec3& x) { return on_sphere(nearest_on_segment(shape, second, x), size, x); };
+    case VOILE_COLLIDER_BOX:
+        return [=](const glm::dvec3& x) { return on_box(shape, second, x); };
+    default:
+        return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
+        {
+            const auto nearest = nearest_point(bvh, x, distance);
+            return nearest ? std::optional(nearest->point) : std::nullopt;
+        };
+    }
+}
+
+Result<void> check_exists(const Model& model, ColliderId collider)
+{
+    if (collider.index < model.colliders.size())
+        return {};
+    return Error{"collider " + std::to_string(collider.index) + " does not exist"};
+}
+
+} // namespace
+
+Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
+{
+    State& s = *state_;
+    if (auto exists = check_exists(s.model, collider); !exists)
+        return exists;
+    if (!is_rigid(motion))
+        return Error{"collider " + std::to_string(collider.index) +
+                     (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
+    ColliderPose& pose = s.colliders[collider.index];
+    pose.to = motion;
+    if (pose.anchor)
+        s.anchors[pose.anchor->index].to = motion;
+    uint32_t& flags = s.model.colliders[collider.index].flags;
+    if ((flags & VOILE_COLLIDER_MOVED) == 0 && motion != glm::mat4(1))
+    {
+        flags |= VOILE_COLLIDER_MOVED;
+        s.edits.colliders.push_back(collider.index);
+    }
+    return {};
+}
+
+Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance)
+{
+    State& s = *state_;
+    if (auto exists = check_exists(s.model, collider); !exists)
+        return exists.error();
+    if (!(distance >= 0) || !std::isfinite(distance))
+        return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
+    const auto limit = static_cast<double>(distance);
+    const FindSurface find = surface_finder(s.model, collider.index, limit);
+    const glm::dmat4 placement(s.model.placements[collider.index]);
+    const glm::dmat4 back = glm::inverse(placement);
+    const shared::ClothRecord& record = s.model.records[cloth.index];
+    std::vector<Hold> holds;
+    for (uint32_t i = 0; i < record.vertices; ++i)
+    {
+        const glm::dvec3 x(back * glm::dvec4(glm::dvec3(s.model.start[record.first_vertex + i]), 1));
+        if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
+            holds.push_back({.vertex = i, .place = glm::vec3(placement * glm::dvec4(*place, 1))});
+    }
+    if (holds.empty())
+        return invalid("cloth", name(cloth),
+                       "no vertex starts within " + std::to_string(distance) + " m of the collider");
+    ColliderPose& pose = s.colliders[collider.index];
+    if (!pose.anchor)
+    {
+        auto anchor = add_anchor(pose.from);
+        if (!anchor)
+            return anchor.error();
+        pose.anchor = anchor.value();
+        s.anchors[pose.anchor->index].to = pose.to;
+    }
+    for (Hold& hold : holds)
+        hold.anchor = pose.anchor;
+    return holds;
+}
+
+} // namespace cloth

@@ -1,0 +1,313 @@
+// Colliders that move: the substep seen from the collider's space, surfaces that carry cloth along, fast and thin ones
+// that must not miss, layers and sides, and what bad input gets.
+#include "cloth_harness.hpp"
+
+#include "cloth/mesh_checks.hpp"
+#include "engine/assets/shapes.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+glm::mat4 moved(const glm::vec3& way)
+{
+    return glm::translate(glm::mat4(1.f), way);
+}
+
+cloth::MeshCollider collider(const engine::Mesh& mesh)
+{
+    return {.positions = mesh.positions, .triangles = mesh.triangles};
+}
+
+// A sheet of cotton, flat at a height, without air.
+cloth::Grid sheet(uint32_t vertices, float size, float height)
+{
+    cloth::Grid grid;
+    grid.columns = grid.rows = vertices;
+    grid.width = grid.depth = size;
+    grid.transform = moved({0, height, 0});
+    cloth::Fabric fabric;
+    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
+    grid.material = fabric;
+    return grid;
+}
+
+const cloth::Fabric& fabric_of(const cloth::Grid& grid)
+{
+    return std::get<cloth::Fabric>(grid.material);
+}
+
+// Every kind of collider, with its top near y = 0.
+std::vector<cloth::Collider> all_kinds(const engine::Mesh& ball)
+{
+    cloth::BoxCollider box{.min = {-0.3f, -0.2f, -0.25f}, .max = {0.3f, 0.2f, 0.25f}};
+    box.transform = glm::rotate(moved({0, -0.3f, 0}), 0.4f, glm::vec3(0.6f, 0, 0.8f));
+    return {collider(ball), cloth::PlaneCollider{}, cloth::SphereCollider{.center = {0, -0.4f, 0}, .radius = 0.4f},
+            cloth::CapsuleCollider{.from = {-0.3f, -0.2f, 0}, .to = {0.3f, -0.25f, 0.1f}, .radius = 0.2f}, box};
+}
+
+} // namespace
+
+TEST_CASE("a collider that comes up to the cloth does what the cloth that comes down to it does")
+{
+    const engine::Mesh ball = engine::make_sphere({0, -0.4f, 0}, 0.4f, 16);
+    const glm::vec3 velocity(0.4f, 3, -0.2f); // m/s, of the collider
+    // The first touch is in the fourth frame. Later the sheet buckles, and roundings grow into other folds.
+    constexpr uint32_t k_frames = 5;
+    for (const cloth::Collider& kind : all_kinds(ball))
+    {
+        CAPTURE(kind.index());
+        std::vector<glm::vec4> ends[2];
+        for (int moving = 0; moving < 2; ++moving)
+        {
+            ClothHarness harness;
+            cloth::Grid grid = sheet(24, 0.8f, 0.15f);
+            grid.velocity = moving == 1 ? glm::vec3(0) : -velocity;
+            const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+            const cloth::ColliderId with = engine::take(harness.solver.add_collider(kind));
+            harness.upload();
+            for (uint32_t frame = 1; frame <= k_frames; ++frame)
+            {
+                const float time = static_cast<float>(frame) / 60;
+                if (moving == 1)
+                    CHECK(harness.solver.move_collider(with, moved(time * velocity)));
+                harness.step({.gravity = glm::vec3(0)});
+            }
+            float fastest = 0; // against the collider before it
+            for (const glm::vec4& v : harness.velocities(id))
+                fastest = std::max(fastest, glm::distance(glm::vec3(v), grid.velocity));
+            CHECK(fastest > 1);
+            ends[moving] = harness.positions(id);
+        }
+        const glm::vec3 way = velocity * (static_cast<float>(k_frames) / 60);
+        for (size_t i = 0; i < ends[0].size(); ++i)
+            CHECK(glm::distance(glm::vec3(ends[1][i]) - way, glm::vec3(ends[0][i])) < 1e-4f);
+    }
+}
+
+TEST_CASE("a turning table carries a patch round with it")
+{
+    // 0.5 rad/s at 0.3 m: the centripetal acceleration, 0.075 m/s^2, is far below mu g.
+    const engine::Mesh ground = engine::make_ground(2);
+    for (const bool mesh : {false, true})
+    {
+        CAPTURE(mesh);
+        ClothHarness harness;
+        cloth::Grid grid = sheet(9, 0.1f, 0);
+        auto& fabric = std::get<cloth::Fabric>(grid.material);
+        fabric.static_friction = 0.8f;
+        fabric.kinetic_friction = 0.7f;
+        grid.transform = moved({0.3f, fabric.thickness, 0});
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        const cloth::ColliderId table = engine::take(mesh ? harness.solver.add_collider(collider(ground))
+                                                          : harness.solver.add_collider(cloth::PlaneCollider{}));
+        harness.upload();
+        const auto start = harness.positions(id);
+        glm::mat4 turn(1.f);
+        for (uint32_t frame = 1; frame <= 120; ++frame)
+        {
+            turn = glm::rotate(glm::mat4(1.f), 0.5f * static_cast<float>(frame) / 60, glm::vec3(0, 1, 0));
+            CHECK(harness.solver.move_collider(table, turn));
+            harness.step({});
+        }
+        const auto end = harness.positions(id);
+        for (size_t i = 0; i < start.size(); ++i)
+        {
+            // It is at rest at first and must be brought up to 0.15 m/s: v^2 / (2 mu g) = 1.6 mm of slip.
+            const glm::vec3 expected(turn * glm::vec4(glm::vec3(start[i]), 1));
+            CHECK(glm::distance(expected, glm::vec3(end[i])) < 2.5e-3f);
+        }
+        // It stops with the table.
+        harness.step({}, 10);
+        CHECK(harness.statistics().kinetic_energy < 1e-6f);
+    }
+}
+
+TEST_CASE("a ball shot through a curtain carries it along")
+{
+    const glm::vec3 start(0, 0, -0.6f);
+    const engine::Mesh ball_mesh = engine::make_sphere(start, 0.2f, 16);
+    const cloth::SphereCollider ball{.center = start, .radius = 0.2f};
+    for (const cloth::Collider& kind : {cloth::Collider(ball), cloth::Collider(collider(ball_mesh))})
+        for (const float speed : {30.f, 100.f})
+        {
+            CAPTURE(kind.index());
+            CAPTURE(speed);
+            ClothHarness harness;
+            cloth::Grid grid = sheet(64, 1.5f, 0);
+            grid.transform = glm::rotate(glm::mat4(1.f), std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0)); // hangs
+            for (uint32_t column = 0; column < 64; ++column)
+                grid.held.push_back(column);
+            const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+            const cloth::ColliderId with = engine::take(harness.solver.add_collider(kind));
+            harness.upload();
+            const auto before = harness.positions(id);
+            // Until the ball has gone as far as the curtain is long, and pulls it out of its way.
+            for (float z = start.z; z < 0.5f;)
+            {
+                z = std::min(z + speed / 60, 0.5f);
+                REQUIRE(harness.solver.move_collider(with, moved({0, 0, z - start.z})));
+                harness.step({});
+                const auto now = harness.positions(id);
+                uint32_t passed = 0; // of the vertices that stood in the ball's way
+                for (size_t i = 0; i < now.size(); ++i)
+                {
+                    REQUIRE(std::isfinite(now[i].z));
+                    // The mesh lies within its ball by 1 - cos(pi / 32) of the radius, and a facet's width.
+                    REQUIRE(glm::distance(glm::vec3(now[i]), glm::vec3(0, 0, z)) > 0.2f * 0.98f);
+                    passed += z > 0 && glm::length(glm::vec2(before[i])) < 0.15f && now[i].z < z;
+                }
+                CHECK(passed == 0);
+            }
+            CHECK(harness.statistics().nan_vertices == 0);
+            CHECK(harness.statistics().penetrating_vertices == 0);
+        }
+}
+
+TEST_CASE("cloth that is held by a collider goes with it, however far it jumps")
+{
+    const engine::Mesh ball = engine::make_sphere({0, 0.3f, 0}, 0.3f, 16);
+    ClothHarness harness;
+    cloth::Grid grid = sheet(32, 0.8f, 0.61f);
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    const cloth::ColliderId with = engine::take(harness.solver.add_collider(collider(ball)));
+    (void)engine::take(harness.solver.add_collider(cloth::PlaneCollider{}));
+    const std::vector<cloth::Hold> holds = engine::take(harness.solver.holds_on_surface(id, with, 0.03f));
+    REQUIRE(holds.size() > 4);
+    REQUIRE(harness.solver.set_holds(id, holds));
+    harness.upload();
+    harness.step({}, 30);
+    glm::mat4 there(1.f);
+    for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(1, 1, 0.5f), glm::vec3(-0.3f, 0.4f, 0)})
+    {
+        there = glm::rotate(moved(way), way.y, glm::vec3(0, 1, 0));
+        REQUIRE(harness.solver.move_collider(with, there));
+        harness.step({});
+        const auto positions = harness.positions(id);
+        for (const cloth::Hold& hold : holds)
+            CHECK(glm::distance(glm::vec3(positions[hold.vertex]),
+                                glm::vec3(there * glm::vec4(hold.place.value_or(glm::vec3(0)), 1))) < 1e-5f);
+        CHECK(harness.statistics().nan_vertices == 0);
+        CHECK(harness.statistics().deepest_penetration < 1e-6f); // those held lie on the surface itself
+        harness.step({}, 30);
+        CHECK(harness.statistics().deepest_penetration < 1e-6f); // those held lie on the surface itself
+    }
+    harness.step({}, 120);
+    CHECK(harness.statistics().nan_vertices == 0);
+    CHECK(harness.statistics().kinetic_energy < 1);
+}
+
+TEST_CASE("a spinning mesh under a sheet drags it round and is never entered")
+{
+    const engine::Mesh ball = engine::make_sphere({0, 0.4f, 0}, 0.4f, 12); // a faceted one
+    const auto distance = engine::take(cloth::MeshDistance::create(collider(ball)));
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(40, 1.4f, 0.83f)));
+    const cloth::ColliderId with = engine::take(harness.solver.add_collider(collider(ball)));
+    harness.upload();
+    double deepest = 1;
+    for (int frame = 1; frame <= 90; ++frame)
+    {
+        const glm::mat4 motion = glm::rotate(glm::mat4(1.f), 4 * static_cast<float>(frame) / 60, glm::vec3(0, 1, 0));
+        REQUIRE(harness.solver.move_collider(with, motion));
+        harness.step({});
+        const glm::mat4 back = glm::inverse(motion);
+        for (const glm::vec4& p : harness.positions(id))
+            deepest = std::min(deepest, distance.nearest(glm::vec3(back * glm::vec4(glm::vec3(p), 1))).signed_distance);
+    }
+    CHECK(deepest > -2e-6);
+    const auto x = harness.positions(id);
+    const auto v = harness.velocities(id);
+    double turning = 0; // mean angular velocity about y, rad/s
+    for (size_t i = 0; i < x.size(); ++i)
+        turning +=
+            static_cast<double>((x[i].z * v[i].x - x[i].x * v[i].z) / (x[i].x * x[i].x + x[i].z * x[i].z + 0.01f)) /
+            static_cast<double>(x.size());
+    CHECK(turning > 0.5);
+}
+
+TEST_CASE("cloth meets the colliders of its layers alone")
+{
+    ClothHarness harness;
+    std::vector<cloth::ClothId> ids;
+    for (const uint32_t layers : {1u, 2u, 3u, 4u})
+    {
+        cloth::Grid grid = sheet(8, 0.2f, 0.05f);
+        grid.layers = layers;
+        ids.push_back(engine::take(harness.solver.add_cloth(grid)));
+    }
+    (void)engine::take(harness.solver.add_collider(cloth::PlaneCollider{.layers = 1}));
+    const engine::Mesh lower = engine::make_ground(2, -1);
+    cloth::MeshCollider second = collider(lower);
+    second.layers = 2;
+    (void)engine::take(harness.solver.add_collider(second));
+    harness.upload();
+    harness.step({}, 60);
+    const float thickness = fabric_of(sheet(8, 0.2f, 0)).thickness;
+    CHECK(std::abs(harness.positions(ids[0])[0].y - thickness) < 1e-4f);
+    CHECK(std::abs(harness.positions(ids[1])[0].y - (thickness - 1)) < 1e-4f);
+    CHECK(std::abs(harness.positions(ids[2])[0].y - thickness) < 1e-4f);
+    CHECK(harness.positions(ids[3])[0].y < -4);
+}
+
+TEST_CASE("a mesh pushes to the side that it is told")
+{
+    // A cloth inside a ball: a mesh with two sides keeps it in, one with one side lets it out. A cloth that falls on
+    // the back of an open ground: with one side it goes through.
+    const engine::Mesh ball = engine::make_sphere({0, 0, 0}, 0.5f, 24);
+    for (const cloth::Sides sides : {cloth::Sides::automatic, cloth::Sides::one, cloth::Sides::two})
+    {
+        CAPTURE(static_cast<int>(sides));
+        ClothHarness harness;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(16, 0.4f, -0.2f)));
+        cloth::MeshCollider with = collider(ball);
+        with.sides = sides;
+        (void)engine::take(harness.solver.add_collider(with));
+        cloth::Grid below = sheet(12, 0.3f, 1.2f);
+        below.layers = 2;
+        const cloth::ClothId falling = engine::take(harness.solver.add_cloth(below));
+        engine::Mesh ground = engine::make_ground(2, 1);
+        for (glm::uvec3& t : ground.triangles)
+            std::swap(t.y, t.z); // faces down
+        cloth::MeshCollider floor = collider(ground);
+        floor.sides = sides;
+        floor.layers = 2;
+        (void)engine::take(harness.solver.add_collider(floor));
+        harness.upload();
+        harness.step({}, 60);
+        float farthest = 0;
+        for (const glm::vec4& p : harness.positions(id))
+            farthest = std::max(farthest, glm::length(glm::vec3(p)));
+        const bool two = sides == cloth::Sides::two;
+        CHECK((farthest < 0.5f) == two);
+        CHECK((harness.positions(falling)[50].y < 0) == (sides == cloth::Sides::one));
+    }
+}
+
+TEST_CASE("what a collider cannot do is refused and changes nothing")
+{
+    ClothHarness harness;
+    cloth::Solver& solver = harness.solver;
+    const cloth::ColliderId ball = engine::take(solver.add_collider(cloth::SphereCollider{}));
+    const auto reason = [](const auto& result) { return result ? std::string("accepted") : result.error().message; };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(reason(solver.move_collider({7}, glm::mat4(1))) == "collider 7 does not exist");
+    CHECK(reason(solver.move_collider(ball, glm::mat4(nan))) == "collider 0: its motion is not finite");
+    CHECK(reason(solver.move_collider(ball, glm::mat4(2))) == "collider 0: its motion is not rigid");
+    CHECK(reason(solver.move_collider(ball, glm::scale(glm::mat4(1.f), glm::vec3(-1, 1, 1)))) ==
+          "collider 0: its motion is not rigid");
+    CHECK(reason(solver.add_collider(cloth::CapsuleCollider{.radius = -1})).find("radius is -1") != std::string::npos);
+    CHECK(reason(solver.add_collider(cloth::CapsuleCollider{.from = {nan, 0, 0}})) ==
+          "collider \"capsule\": an end of the capsule is not finite");
+    CHECK(reason(solver.add_collider(cloth::BoxCollider{.min = {0, 1, 0}, .max = {1, 1, 1}})) ==
+          "collider \"box\": the box has a side without length: min must be below max");
+    CHECK(reason(solver.add_collider(cloth::BoxCollider{.transform = glm::mat4(3)})) ==
+          "collider \"box\": the box's transform is not rigid");
+    CHECK(engine::take(solver.add_collider(cloth::PlaneCollider{})).index == 1);
+}
