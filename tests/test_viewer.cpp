@@ -293,6 +293,23 @@ TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and what is o
     CHECK(std::count(mesh.begin(), mesh.end(), '\n') >= 8);
 }
 
+TEST_CASE("a cloth that the substeps are too few for is told of")
+{
+    const TestFolder folder;
+    const auto errors = [&](const char* substeps)
+    {
+        std::ofstream(folder / "s.json") << R"({"step": {"substeps": )" << substeps
+                                         << R"(}, "cloths": [{"name": "stiff", "material": "denim",
+                                               "grid": {"vertices": [8, 8], "size": [0.1, 0.1]}}]})";
+        const Run run = run_viewer((folder / "s.json").string() + " --headless --frames 1 --size 64x36");
+        CHECK(run.exit_code == 0);
+        return run.errors;
+    };
+    CHECK(errors("2").find("note: cloth \"stiff\" needs ") != std::string::npos);
+    CHECK(errors("2").find(" substeps a frame and gets 2: it has ") != std::string::npos);
+    CHECK(errors("\"auto\"").find("note:") == std::string::npos);
+}
+
 TEST_CASE("what a cloth cannot be is told with the line of the scene")
 {
     const TestFolder folder;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace viewer
@@ -119,6 +120,23 @@ void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Boun
     scene.camera.position = scene.focus + distance * glm::normalize(glm::vec3(0.45f, 0.4f, 1));
 }
 
+// Tells of cloths that the substeps are too few for: they stretch more than their material says.
+void tell_softened(const Stage& stage, float duration)
+{
+    cloth::Step step = stage.world->step;
+    step.duration = duration;
+    for (const StageCloth& cloth : stage.cloths)
+    {
+        const cloth::Stability stability = stage.world->solver().stability(cloth.id, step);
+        if (stability.stiffness_share < 1)
+            std::fprintf(stderr,
+                         "viewer: note: cloth \"%s\" needs %u substeps a frame and gets %u: it has %.2g %% of its "
+                         "stiffness\n",
+                         cloth.name.c_str(), stability.needed, stability.used,
+                         100 * static_cast<double>(stability.stiffness_share));
+    }
+}
+
 } // namespace
 
 void advance(Stage& stage, double time, double duration)
@@ -168,6 +186,7 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
             return gpu::Error{added.error().message};
         add_to_scene(app, solid, glm::distance(box.min, box.max));
     }
+    tell_softened(stage, 1 / scene.step.rate);
     return stage;
 }
 
