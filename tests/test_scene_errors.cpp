@@ -155,6 +155,13 @@ TEST_CASE("words, names and pins of a cloth")
     CHECK(cloth_message("\"pins\": [{\"motion\": {}}]") == "dir/s.json:1: cloths[0].pins[0] has no \"at\"");
     CHECK(cloth_message("\"pins\": [{\"box\": {\"min\": [2, 0, 0], \"max\": [1, 1, 1]}}]") ==
           "dir/s.json:1: cloths[0].pins[0].box has a min above its max");
+    CHECK(
+        cloth_message("\"pins\": [{\"box\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1]}, \"stiffness\": 5}]") ==
+        "dir/s.json:1: cloths[0].pins[0] has \"box\" beside other keys; put it under \"at\": {\"at\": {\"box\": ...}, "
+        "...}");
+    CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"damping\": 5}]") ==
+          "dir/s.json:1: cloths[0].pins[0].damping is a spring's; it needs a \"stiffness\"");
+    CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"stiffness\": 9, \"damping\": 5}]") == "accepted");
     CHECK(message("{\"cloths\": [{\"mesh\": \"a.obj\", \"pins\": [\"edge:top\"]}]}") ==
           at + "\"edge:top\", but only a grid has corners and edges");
 }

@@ -206,14 +206,21 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     pin.line = field.line();
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
-    if (is_object && (has("at") || has("motion") || has("stiffness") || has("max_distance")))
+    if (is_object && (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance")))
     {
+        if (has("box"))
+        {
+            reader.fail(field, "has \"box\" beside other keys; put it under \"at\": {\"at\": {\"box\": ...}, ...}");
+            return pin;
+        }
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_place(reader, reader.required(field, "at"), grid, pin);
         reader.read(SceneReader::child(field, "stiffness"), k_not_negative, pin.stiffness);
         reader.read(SceneReader::child(field, "damping"), k_not_negative, pin.damping);
         reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
+        if (!reader.failed() && has("damping") && !has("stiffness"))
+            reader.fail(SceneReader::child(field, "damping"), "is a spring's; it needs a \"stiffness\"");
         if (const Field motion = SceneReader::child(field, "motion"))
             pin.motion = parse_motion(reader, motion);
         return pin;
