@@ -10,6 +10,7 @@
 namespace shader_types
 {
 using uint = uint32_t;
+using uvec3 = glm::uvec3;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;

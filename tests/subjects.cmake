@@ -3,6 +3,7 @@ add_dependencies(test_hello_cloth hello_cloth)
 voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES test_bvh.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_refit SOURCES test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
     SOURCES test_scene_file.cpp test_scene_errors.cpp test_options.cpp test_exports.cpp test_statistics_file.cpp
