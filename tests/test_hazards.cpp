@@ -4,6 +4,7 @@
 #include "cloth_harness.hpp"
 
 #include "kernels.hpp"
+#include "refit.hpp"
 
 #include "cloth_layout.h"
 #include "engine/assets/shapes.hpp"
@@ -200,4 +201,29 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     harness.solver.record(recorder, {.substeps = 2});
     buffers.submit();
     CHECK(buffers.count() == 5 * 5 + 2 + 1); // one a dispatch, and the one that follows the last
+}
+
+TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in its own command buffer")
+{
+    const cloth::RefitKernels kernels = engine::take(cloth::create_refit_kernels(context(), 16));
+    constexpr uint32_t k_triangles = 100;
+    constexpr VkDeviceSize k_bytes = 256 * sizeof(cloth::shared::PaddedBox);
+    constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const auto buffer = [&](const char* name)
+    { return engine::take(gpu::create_buffer(context(), name, k_bytes, k_usage, gpu::Memory::device)); };
+    const gpu::Buffer leaves = buffer("leaves");
+    const gpu::Buffer positions = buffer("positions");
+    const gpu::Buffer boxes = buffer("boxes");
+    for (const gpu::Buffer* filled : {&leaves, &positions})
+        run([&](VkCommandBuffer cmd) { context().fn.vkCmdFillBuffer(cmd, filled->handle(), 0, VK_WHOLE_SIZE, 0); });
+    gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context(), 1, 3));
+    const VkDescriptorSet set =
+        engine::take(pool.bind(kernels.leaves, {leaves.handle(), positions.handle(), boxes.handle()}));
+    OneDispatchEach buffers(tests::device());
+    gpu::Recorder recorder(context(), buffers.begin());
+    recorder.split_with(OneDispatchEach::next, &buffers);
+    for (int step = 0; step < 2; ++step)
+        cloth::record_refit(recorder, kernels, set, {.first_box = 1, .triangles = k_triangles});
+    buffers.submit();
+    CHECK(buffers.count() == 2 * cloth::refit_dispatches(kernels, k_triangles) + 1);
 }
