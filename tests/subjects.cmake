@@ -4,6 +4,7 @@ voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp tes
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES test_bvh.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} SHADERS visit_padded.comp)
 voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
     SOURCES test_scene_file.cpp test_scene_errors.cpp test_options.cpp test_exports.cpp test_statistics_file.cpp

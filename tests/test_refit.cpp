@@ -6,6 +6,8 @@
 #include "refit.hpp"
 
 #include "engine/gpu/upload.hpp"
+#include "test_refit_shaders.hpp"
+#include "visit_padded_layout.h"
 
 #include <algorithm>
 #include <array>
@@ -134,12 +136,66 @@ public:
         return boxes;
     }
 
+    // For each query box the slots that a traversal of the refitted boxes hands on, in its order.
+    std::vector<std::vector<uint32_t>> visit(const std::vector<PaddedBox>& queries, uint32_t triangles)
+    {
+        constexpr uint32_t k_group = 64;
+        const auto count = static_cast<uint32_t>(queries.size());
+        const tests::shared::VisitPush push{place_.first_box, k_first_leaf, triangles, count, triangles + 2};
+        engine::UploadBatch batch(context());
+        const gpu::Buffer asked = batch.buffer("queries", queries, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        const size_t words = size_t{count} * push.room;
+        const gpu::Buffer answers = engine::take(gpu::create_buffer(
+            context(), "answers", words * sizeof(uint32_t),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::device));
+        const gpu::Kernel kernel = engine::take(gpu::Kernel::create(
+            context(), {"visit padded", tests::shaders::k_visit_padded_comp, 3, sizeof(push), {k_group}}));
+        gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context(), 1, 3));
+        const VkDescriptorSet set =
+            engine::take(pool.bind(kernel, {boxes_.handle(), asked.handle(), answers.handle()}));
+        run(
+            [&](VkCommandBuffer cmd)
+            {
+                batch.record(cmd);
+                gpu::Recorder(context(), cmd).dispatch(kernel, set, count, k_group, push);
+            });
+        const std::vector<uint32_t> found = read<uint32_t>(answers.handle(), words);
+        std::vector<std::vector<uint32_t>> result;
+        for (auto answer = found.begin(); answer != found.end(); answer += push.room)
+        {
+            REQUIRE(*answer < push.room);
+            result.emplace_back(answer + 1, answer + 1 + *answer);
+        }
+        return result;
+    }
+
 private:
     cloth::RefitPlace place_;
     gpu::Buffer leaves_;
     gpu::Buffer positions_;
     gpu::Buffer boxes_;
 };
+
+// Boxes of all sizes, from points to what holds everything; some reach nothing.
+std::vector<PaddedBox> random_queries(size_t count)
+{
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> place(-1.5f, 1.5f);
+    std::uniform_real_distribution<float> exponent(-12, 1);
+    std::vector<PaddedBox> queries{{glm::vec3(-10), 0, glm::vec3(10), 0}};
+    while (queries.size() < count)
+    {
+        const glm::vec3 center(place(random), place(random), place(random));
+        const float size = std::exp2(exponent(random));
+        queries.push_back({center - size, 0, center + size, 0});
+    }
+    return queries;
+}
+
+bool overlap(const PaddedBox& a, const PaddedBox& b)
+{
+    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
 
 bool same_bits(const std::vector<PaddedBox>& a, const std::vector<PaddedBox>& b)
 {
@@ -230,5 +286,31 @@ TEST_CASE_FIXTURE(RefitFixture, "a refit follows vertices that change, and two o
         expect(tree, from.data(), to.data(), 0, 0, expected);
         CHECK(same_bits(boxes, expected));
         before = boxes;
+    }
+}
+
+TEST_CASE_FIXTURE(RefitFixture, "a traversal hands on every triangle whose box the query reaches, once")
+{
+    // No more triangles: a query that reaches them all must end within the 65,535 iterations, of all its loops
+    // together, after which llvmpipe ends a shader's loops.
+    for (const uint32_t count : {1u, 2u, 3u, 5u, 7u, 8u, 33u, 1000u, 4097u})
+    {
+        CAPTURE(count);
+        const Soup soup = random_soup(count);
+        const cloth::PaddedTree tree = cloth::build_padded_tree(soup.positions, soup.triangles);
+        upload(tree, moved(soup.positions, 1), moved(soup.positions, 2));
+        const std::vector<PaddedBox> boxes = refit(tree, 256);
+        const std::vector<PaddedBox> queries = random_queries(300);
+        const auto answers = visit(queries, count);
+        for (size_t i = 0; i < queries.size(); ++i)
+        {
+            std::vector<uint32_t> expected;
+            for (uint32_t slot = 0; slot < count; ++slot)
+                if (overlap(queries[i], boxes[tree.leaves.size() - 1 + slot]))
+                    expected.push_back(k_first_leaf + slot);
+            std::vector<uint32_t> found = answers[i];
+            std::sort(found.begin(), found.end());
+            CHECK(found == expected);
+        }
     }
 }
