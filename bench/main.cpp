@@ -49,6 +49,7 @@ void declare(CLI::App& app, Options& options)
 struct Chosen
 {
     std::vector<const bench::Case*> cases;
+    std::vector<const bench::RefitCase*> refits;
     std::vector<const bench::DrapeCase*> drapes;
 };
 
@@ -60,6 +61,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
     {
         if (const bench::Case* item = bench::find_case(name))
             chosen.cases.push_back(item);
+        else if (const bench::RefitCase* refit = bench::find_refit_case(name))
+            chosen.refits.push_back(refit);
         else if (const bench::DrapeCase* drape = bench::find_drape_case(name))
             chosen.drapes.push_back(drape);
         else
@@ -69,6 +72,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
         return chosen;
     for (const bench::Case& item : bench::cases())
         chosen.cases.push_back(&item);
+    for (const bench::RefitCase& item : bench::refit_cases())
+        chosen.refits.push_back(&item);
     if (!cpu)
         for (const bench::DrapeCase& item : bench::drape_cases())
             chosen.drapes.push_back(&item);
@@ -78,6 +83,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
 void list_cases()
 {
     for (const bench::Case& item : bench::cases())
+        std::printf("%-28s %s\n", item.name, item.purpose);
+    for (const bench::RefitCase& item : bench::refit_cases())
         std::printf("%-28s %s\n", item.name, item.purpose);
     for (const bench::DrapeCase& item : bench::drape_cases())
         std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
@@ -112,6 +119,15 @@ void run(const Options& options)
     {
         const bench::Measurement measurement = bench::measure(queue, *item, repetitions, options.workgroup);
         bench::print_row(*item, measurement, probe);
+        if (csv)
+            engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
+    }
+    if (!chosen.refits.empty())
+        bench::print_refit_header();
+    for (const bench::RefitCase* item : chosen.refits)
+    {
+        const bench::RefitMeasurement measurement = bench::measure_refit(queue, *item, repetitions);
+        bench::print_refit_row(*item, measurement, probe);
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
     }

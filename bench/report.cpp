@@ -30,11 +30,16 @@ std::string quoted(const std::string& text)
     return result + '"';
 }
 
+double share_of_copy(double bytes, double microseconds, const DeviceProbe& probe)
+{
+    return bytes / (microseconds * 1e-6) / probe.copy_bandwidth;
+}
+
 } // namespace
 
 double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe)
 {
-    return measurement.bytes / (measurement.gpu_median * 1e-6) / probe.copy_bandwidth;
+    return share_of_copy(measurement.bytes, measurement.gpu_median, probe);
 }
 
 void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe)
@@ -81,6 +86,23 @@ void print_drape_row(const DrapeCase& item, const DrapeMeasurement& m)
     std::fflush(stdout);
 }
 
+void print_refit_header()
+{
+    std::printf("\nThe refit of a deforming mesh's hierarchy. The floor is its bytes at the copy's bandwidth and its\n"
+                "dispatches as if they did nothing.\n\n");
+    std::printf("%-20s %8s %9s %10s %10s %10s %9s %10s %9s %9s\n", "case", "vertices", "triangles", "dispatches",
+                "median us", "p95 us", "MB moved", "floor us", "bandwidth", "build ms");
+    std::fflush(stdout);
+}
+
+void print_refit_row(const RefitCase& item, const RefitMeasurement& m, const DeviceProbe& probe)
+{
+    std::printf("%-20s %8u %9u %10u %10.1f %10.1f %9.3f %10.1f %8.1f%% %9.1f\n", item.name, m.vertices, m.triangles,
+                m.dispatches, m.gpu_median, m.gpu_p95, m.bytes * 1e-6, refit_floor(m, probe),
+                100 * share_of_copy(m.bytes, m.gpu_median, probe), m.build);
+    std::fflush(stdout);
+}
+
 gpu::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;
@@ -120,6 +142,18 @@ gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const Device
         << probe.empty_dispatch << ',' << item.name << ',' << m.vertices << ',' << m.triangles << ',' << m.substeps
         << ',' << m.dispatches << ',' << m.substeps << ",60,," << m.gpu_median * microseconds << ','
         << m.gpu_p95 * microseconds << ",,,,\n";
+    return append(row.str());
+}
+
+gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const DeviceProbe& probe, const RefitCase& item,
+                                  const RefitMeasurement& m, uint32_t repetitions) const
+{
+    std::ostringstream row;
+    row.precision(6);
+    row << quoted(device.name) << ',' << quoted(device.driver) << ',' << probe.copy_bandwidth << ','
+        << probe.empty_dispatch << ',' << item.name << ',' << m.vertices << ',' << m.triangles << ",1," << m.dispatches
+        << ",1," << repetitions << ",," << m.gpu_median << ',' << m.gpu_p95 << ',' << m.bytes << ','
+        << share_of_copy(m.bytes, m.gpu_median, probe) << ",,\n";
     return append(row.str());
 }
 

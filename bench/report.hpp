@@ -4,6 +4,7 @@
 #include "device_probe.hpp"
 #include "drape.hpp"
 #include "measure.hpp"
+#include "refit_case.hpp"
 
 #include <string>
 
@@ -16,6 +17,9 @@ void print_row(const Case& item, const Measurement& measurement, const DevicePro
 
 void print_drape_header();
 void print_drape_row(const DrapeCase& item, const DrapeMeasurement& measurement);
+
+void print_refit_header();
+void print_refit_row(const RefitCase& item, const RefitMeasurement& measurement, const DeviceProbe& probe);
 
 // Share of the copy bandwidth that a case reaches.
 double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe);
@@ -32,6 +36,9 @@ public:
     // A substep's part of a whole frame. Bytes and recording are not measured there and stay empty.
     gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const DrapeCase& item,
                              const DrapeMeasurement& measurement) const;
+    // A refit in a substep's place. Recording is not measured there and stays empty.
+    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const RefitCase& item,
+                             const RefitMeasurement& measurement, uint32_t repetitions) const;
 
 private:
     explicit CsvFile(std::string path) : path_(std::move(path)) {}
