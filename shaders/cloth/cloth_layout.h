@@ -37,6 +37,7 @@
 #define VOILE_COLLIDER_FRICTION 2u  // it has friction coefficients of its own
 #define VOILE_COLLIDER_ONE_SIDED 4u // a mesh that pushes to the side its triangles face; else to where a vertex came from
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
+#define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
 // The number of the substep in which a list of candidates was made, and their count: one word.
 #define VOILE_CANDIDATE_COUNT_BITS 4
 #define VOILE_CANDIDATE_COUNT_MASK 15u
@@ -173,11 +174,11 @@ struct ColliderRecord
     uint flags;
     float static_friction;
     float kinetic_friction;
-    vec3 box_min; // m; everything of a mesh is inside
-    uint first_node;
+    vec3 box_min; // m; everything of a mesh is inside. If it deforms: as it was added
+    uint first_node;     // or box, of a mesh that deforms
     vec3 box_max;
-    uint first_triangle;
-    uint triangles; // of a mesh, from first_triangle on
+    uint first_triangle; // or leaf
+    uint triangles;      // of a mesh, from first_triangle on
     uint layers;    // bits; it meets cloths that have one of them
     uint padding_0;
     uint padding_1;
@@ -190,12 +191,12 @@ struct ColliderMotion
 {
     vec4 rotation_from; // unit quaternions, world from the collider's space
     vec4 rotation_to;
-    vec3 center; // m, in the collider's space; it goes straight
-    uint padding_0;
+    vec3 center;     // m, in the collider's space; it goes straight
+    uint first_from; // of a mesh that deforms: its first vertex at the start of the step
     vec3 place_from; // m, of the centre in the world
-    uint padding_1;
+    uint first_to;   // and at its end
     vec3 place_to;
-    uint padding_2;
+    uint padding;
 };
 
 // Push constants of the integration passes.
@@ -241,6 +242,17 @@ struct HoldPush
 #define VOILE_EDIT_RESET 1     // back to the start
 #define VOILE_EDIT_TRANSFORM 2 // places by the matrix, velocities by its turning
 #define VOILE_EDIT_VELOCITY 3  // all velocities alike
+
+// Push constants of the pass that takes a deforming mesh's vertices from what the host gave.
+struct DeformPush
+{
+    mat4 transform;  // the collider's space from the mesh's
+    uint first_word; // of the input
+    uint stride;     // words
+    uint first_from; // where the vertices are now
+    uint first_to;   // where they go
+    uint vertices;
+};
 
 // Push constants of an edit of one cloth.
 struct EditPush

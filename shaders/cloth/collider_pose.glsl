@@ -1,9 +1,13 @@
 // Where a moving collider is at a time of the step. Its own space is the world as it was when the collider was added, so that
 // neither shape nor hierarchy changes when it moves: queries go there and answers come back.
 //
-// The including kernel declares collider_motions[].
+// The including kernel declares collider_motions[] and a constant COLLIDERS_MOVE: 0 where none moves, and what serves moving
+// ones is left out.
 #ifndef VOILE_COLLIDER_POSE_GLSL
 #define VOILE_COLLIDER_POSE_GLSL
+
+bool is_moved(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COLLIDER_MOVED) != 0; }
+bool is_deforming(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COLLIDER_DEFORMS) != 0; }
 
 struct Pose
 {

@@ -9,9 +9,11 @@
 // 1 = touches), predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
+#include "padded_layout.h"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const int METHOD = 1;
+layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
@@ -30,6 +32,9 @@ layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicte
 layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
 layout(set = 0, binding = 14, std430) buffer CandidateLeaves { uint candidate_leaves[]; };
 layout(set = 0, binding = 15, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -75,7 +80,7 @@ struct Passage
 Passage passage_of(uint c, uint flags, Motion motion)
 {
     Passage result;
-    result.moves = (flags & VOILE_COLLIDER_MOVED) != 0;
+    result.moves = is_moved(flags);
     result.from = motion.from;
     result.to = motion.x;
     if (result.moves)
@@ -88,10 +93,10 @@ Passage passage_of(uint c, uint flags, Motion motion)
     return result;
 }
 
-// By how much the surface moves in the substep, m, at a place in the collider's space.
-vec3 surface_way(Passage passage, vec3 place)
+// By how much the surface moves in the substep, m, at a place of its end in the collider's space. `way`: by deforming.
+vec3 surface_way(Passage passage, vec3 place, vec3 way)
 {
-    return passage.moves ? to_world(passage.end, place) - to_world(passage.start, place) : vec3(0);
+    return passage.moves ? to_world(passage.end, place) - to_world(passage.start, place - way) : way;
 }
 
 vec3 world_direction(Passage passage, vec3 direction)
@@ -140,7 +145,7 @@ void keep_out(inout Motion motion, uint layers)
         const Contact contact = path_contact(c, collider, passage.from, passage.to);
         if (!contact.found)
             continue;
-        const vec3 way = surface_way(passage, passage.from);
+        const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
         const vec3 n = world_direction(passage, contact.direction);
         motion.x = motion.from + way;
         motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
@@ -163,7 +168,7 @@ void meet(inout Motion motion, uint c, ClothContact cloth, inout bool touches, i
     stays_out = !touches && moved < contact.gap;
     touches = true;
     respond(motion, world_direction(passage, contact.direction), contact.gap,
-            surface_way(passage, passage.to - contact.gap * contact.direction), cloth.thickness,
+            surface_way(passage, passage.to - contact.gap * contact.direction, contact.way), cloth.thickness,
             pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
@@ -182,6 +187,7 @@ void main()
     bool stays_out = false;
     if (proposed.w > 0)
     {
+        query_progress = vec2(push.progress_from, push.progress_to);
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;
         contact.static_friction = cloths[cloth].static_friction;

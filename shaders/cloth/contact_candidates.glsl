@@ -6,12 +6,15 @@
 // substep traverses. Threads wait for the slowest among them: so that most substeps have no traversal at all, lists are
 // renewed together, every VOILE_RENEWAL substeps, by all vertices that have used up half of their margin.
 // A moving collider has the list of the place where the vertex was, in the collider's space, when the list was made; it holds
-// within the step in which that was.
+// within the step in which that was. So does the list of a deforming one, whose boxes cover all of the step.
 // The including kernel declares candidate_places[] and candidate_leaves[] and includes contact_query.glsl and
 // collider_pose.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
+
+// Set in a leaf of the list: it is a slot of a padded tree.
+#define VOILE_CANDIDATE_DEFORMS VOILE_BVH_LEAF_BIT
 
 struct Candidates
 {
@@ -21,6 +24,7 @@ struct Candidates
     vec3 place;   // m, world: the middle of what the list covers
     float cover;  // m, half the side of that box, with what contact reaches
     float made;   // progress of the step when the list was made; < 0: in a step before
+    uint kind;    // VOILE_CANDIDATE_DEFORMS, or 0: of the mesh that is traversed
 };
 Candidates candidates;
 
@@ -34,22 +38,33 @@ void take_leaf(uint first, uint count)
     }
     if (candidates.count < VOILE_CANDIDATES)
         candidate_leaves[candidates.vertex * (VOILE_CANDIDATES + 1) + 1 + candidates.count] =
-            (count - 1) << VOILE_BVH_COUNT_SHIFT | first;
+            candidates.kind | (count - 1) << VOILE_BVH_COUNT_SHIFT | first;
     candidates.count = min(candidates.count + 1, VOILE_CANDIDATES + 1);
 }
 
 #include "bvh.glsl"
+#include "padded.glsl"
+
+void traverse(ColliderRecord collider, vec3 box_min, vec3 box_max)
+{
+    const bool deforms = is_deforming(collider.flags);
+    candidates.kind = deforms ? VOILE_CANDIDATE_DEFORMS : 0;
+    if (deforms)
+        visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
+    else
+        visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+}
 
 // The middle of what the list covers in the space of collider c.
 vec3 covered_middle(uint c, uint flags)
 {
-    return (flags & VOILE_COLLIDER_MOVED) != 0 ? to_collider(pose_at(c, candidates.made), candidates.place)
+    return is_moved(flags) ? to_collider(pose_at(c, candidates.made), candidates.place)
                                                : candidates.place;
 }
 
 bool covers(uint c, uint flags, vec3 box_min, vec3 box_max)
 {
-    if (candidates.made < 0 && (flags & VOILE_COLLIDER_MOVED) != 0)
+    if (candidates.made < 0 && (is_moved(flags) || is_deforming(flags)))
         return false;
     const vec3 middle = covered_middle(c, flags);
     return all(lessThanEqual(middle - candidates.cover, box_min)) &&
@@ -60,37 +75,48 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
     if (candidates.count > VOILE_CANDIDATES || !covers(c, collider.flags, box_min, box_max))
     {
-        visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+        traverse(collider, box_min, box_max);
         return;
     }
+    const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_DEFORMS : 0;
     const uint list = candidates.vertex * (VOILE_CANDIDATES + 1) + 1;
     for (uint i = 0; i < candidates.count; ++i)
     {
         const uint leaf = candidate_leaves[list + i];
         const uint first = leaf & VOILE_BVH_FIRST_MASK;
-        if (first >= collider.first_triangle && first < collider.first_triangle + collider.triangles)
-            take_leaf(first, (leaf >> VOILE_BVH_COUNT_SHIFT) + 1);
+        if ((leaf & VOILE_CANDIDATE_DEFORMS) == kind && first >= collider.first_triangle &&
+            first < collider.first_triangle + collider.triangles)
+            take_leaf(first, (leaf >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK) + 1);
     }
 }
 
 // Whether every mesh that moves is either covered or out of reach. `way`: m, the farthest that one carries its surface here.
 bool serves_moving(uint layers, vec3 from, vec3 to, float reach, inout float way)
 {
+    if (COLLIDERS_MOVE == 0)
+        return true;
     bool serves = true;
     for (uint c = 0; c < push.colliders; ++c)
     {
         const uint flags = colliders[c].flags;
-        if ((flags & VOILE_COLLIDER_MOVED) == 0 || colliders[c].kind != VOILE_COLLIDER_MESH ||
+        if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH ||
             (colliders[c].layers & layers) == 0)
             continue;
-        const Pose start = pose_at(c, push.progress_from);
-        const vec3 a = to_collider(start, from);
-        const vec3 b = to_collider(pose_at(c, push.progress_to), to);
+        vec3 a = from;
+        vec3 b = to;
+        float gone = 0;
+        if (is_moved(flags))
+        {
+            const Pose start = pose_at(c, push.progress_from);
+            a = to_collider(start, from);
+            b = to_collider(pose_at(c, push.progress_to), to);
+            gone = distance(to_world(start, b), to);
+        }
         const vec3 box_min = min(a, b) - reach;
         const vec3 box_max = max(a, b) + reach;
-        if (!boxes_overlap(box_min, box_max, colliders[c].box_min, colliders[c].box_max))
+        if (!reaches(colliders[c], box_min, box_max))
             continue;
-        way = max(way, distance(to_world(start, b), to));
+        way = max(way, gone);
         serves = serves && covers(c, flags, box_min, box_max);
     }
     return serves;
@@ -107,8 +133,8 @@ void collect_leaves(uint layers)
         const vec3 middle = covered_middle(c, colliders[c].flags);
         const vec3 box_min = middle - candidates.cover;
         const vec3 box_max = middle + candidates.cover;
-        if (boxes_overlap(box_min, box_max, colliders[c].box_min, colliders[c].box_max))
-            visit_box(colliders[c].first_node, colliders[c].first_triangle, box_min, box_max);
+        if (reaches(colliders[c], box_min, box_max))
+            traverse(colliders[c], box_min, box_max);
     }
     candidates.collect = false;
 }
@@ -132,8 +158,8 @@ void find_candidates(uint vertex, uint layers, vec3 from, vec3 to, vec3 velocity
     const bool serves =
         all(lessThanEqual(abs(from - place.xyz), vec3(used))) && all(lessThanEqual(abs(to - place.xyz), vec3(used)));
     float way = 0;
-    const bool serves_all = serves_moving(layers, from, to, reach, way) && serves;
-    if (serves_all)
+    const bool serves_all = serves_moving(layers, from, to, reach, way);
+    if (serves && serves_all)
         return;
     const float speed = length(velocity) + way / push.step;
     const float margin = max(0.5 * thickness, 2 * speed * push.renewal_time) + 0.5 * distance(from, to) + way;

@@ -1,12 +1,14 @@
 // Where a vertex touches a collider.
 //
-// All of this is in the collider's space. The including kernel declares `bvh_nodes[]` and `bvh_triangles[]`, and defines
+// All of this is in the collider's space. The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`,
+// `padded_leaves[]` and `deforming_positions[]`, and defines
 //   void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 // after the include, which calls visit_triangle for all triangles of collider c that the box can reach.
 #ifndef VOILE_CONTACT_QUERY_GLSL
 #define VOILE_CONTACT_QUERY_GLSL
 
 #include "convex.glsl"
+#include "deforming.glsl"
 #include "triangle.glsl"
 
 // How the narrow phase finds the surface within the thickness.
@@ -24,7 +26,11 @@ struct Contact
     bool found;
     vec3 direction; // unit, from the surface to the side on which the vertex belongs
     float gap;      // m, distance of the vertex from the surface along `direction`; negative under the surface
+    vec3 way;       // m, by which the surface deforms there in the substep
 };
+
+// Of the substep as shares of the step: where deforming meshes are at its start and at its end.
+vec2 query_progress = vec2(1);
 
 // A vertex that moves from `from` to `to` within the substep, and what its traversal has found so far.
 struct MeshQuery
@@ -36,13 +42,18 @@ struct MeshQuery
     float thickness; // m
     bool one_sided;
     bool closed;
+    bool deforms;
+    uvec2 first_corner; // of a mesh that deforms: its first vertex at the start and at the end of the step
 
+    uint visited;    // the triangle that is being looked at
+    uint triangle;   // the nearest
     float distance;  // m to the nearest surface found; starts at the thickness
     float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
     vec3 point;      // on that surface
     vec3 face;       // unit normal of its triangle
+    uint crossing_triangle;
     float crossing;  // smallest parameter of from -> to at which the motion crosses a triangle; 2 = none
-    vec3 crossing_face;
+    vec3 crossing_face; // to the side that the motion comes from
     vec3 crossing_point;
 };
 MeshQuery query;
@@ -60,6 +71,7 @@ void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
     const bool better_facing = distance < query.distance + tie && alignment > query.alignment;
     if (nearer || better_facing)
     {
+        query.triangle = query.visited;
         query.distance = distance;
         query.alignment = alignment;
         query.point = point;
@@ -74,6 +86,7 @@ void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
     const float distance = abs(2 * t - 1) * query.thickness;
     if (t <= 1 && distance < query.distance)
     {
+        query.triangle = query.visited;
         query.distance = distance;
         query.point = query.to + (2 * t - 1) * reach;
         query.face = face;
@@ -82,15 +95,33 @@ void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
 
 void visit_triangle(uint index)
 {
-    const BvhTriangle triangle = bvh_triangles[index];
-    const vec3 face = normalize(cross(triangle.b - triangle.a, triangle.c - triangle.a));
-    const float t = segment_triangle(query.from, query.to - query.from, triangle.a, triangle.b, triangle.c);
+    vec3 from = query.from;
+    Triangle triangle;
+    if (query.deforms)
+    {
+        const MovingTriangle moving = moving_triangle(index, query.first_corner, query_progress);
+        triangle = moving.end;
+        from = carried(moving, from);
+    }
+    else
+    {
+        const BvhTriangle stored = bvh_triangles[index];
+        triangle = Triangle(stored.a, stored.b, stored.c);
+    }
+    const vec3 normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    const float area = length(normal);
+    if (area == 0)
+        return; // collapsed
+    const vec3 face = normal / area;
+    query.visited = index;
+    const float t = segment_triangle(from, query.to - from, triangle.a, triangle.b, triangle.c);
     // Leaving a solid through its surface is no fault.
-    if (t < query.crossing && !(query.one_sided && dot(query.to - query.from, face) >= 0))
+    if (t < query.crossing && !(query.one_sided && dot(query.to - from, face) >= 0))
     {
         query.crossing = t;
-        query.crossing_face = face;
-        query.crossing_point = query.from + t * (query.to - query.from);
+        query.crossing_triangle = index;
+        query.crossing_face = dot(from - query.to, face) >= 0 ? face : -face;
+        query.crossing_point = from + t * (query.to - from);
     }
     if (query.method == VOILE_METHOD_NORMAL_RAY)
         visit_normal_ray(triangle.a, triangle.b, triangle.c, face);
@@ -105,13 +136,30 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max);
 
+// Whether a box may reach something of a mesh.
+bool reaches(ColliderRecord collider, vec3 box_min, vec3 box_max)
+{
+    if (!is_deforming(collider.flags))
+        return boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
+    const PaddedBox root = padded_boxes[collider.first_node];
+    return boxes_overlap(box_min, box_max, root.min, root.max);
+}
+
+// By how much the surface deforms in the substep at a point of a triangle.
+vec3 deformation_way(uint triangle, vec3 point)
+{
+    if (!query.deforms)
+        return vec3(0);
+    return way_of(moving_triangle(triangle, query.first_corner, query_progress), point);
+}
+
 Contact crossing_contact()
 {
     Contact contact;
     contact.found = true;
-    contact.direction = dot(query.from - query.to, query.crossing_face) >= 0 ? query.crossing_face
-                                                                           : -query.crossing_face;
+    contact.direction = query.crossing_face;
     contact.gap = dot(query.to - query.crossing_point, contact.direction);
+    contact.way = deformation_way(query.crossing_triangle, query.crossing_point);
     return contact;
 }
 
@@ -119,6 +167,9 @@ Contact nearest_contact()
 {
     Contact contact;
     contact.found = query.distance < query.thickness;
+    if (!contact.found)
+        return contact;
+    contact.way = deformation_way(query.triangle, query.point);
     const vec3 offset = query.to - query.point;
     const bool inside = query.one_sided && dot(offset, query.face) < 0;
     // Behind an open mesh, but nearest to its border: beside it.
@@ -140,7 +191,7 @@ Contact nearest_contact()
     return contact;
 }
 
-void begin_query(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
+void begin_query(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
     query.method = method;
     query.from = from;
@@ -149,6 +200,9 @@ void begin_query(ColliderRecord collider, int method, vec3 from, vec3 to, vec3 n
     query.thickness = thickness;
     query.one_sided = (collider.flags & VOILE_COLLIDER_ONE_SIDED) != 0;
     query.closed = (collider.flags & VOILE_COLLIDER_CLOSED) != 0;
+    query.deforms = is_deforming(collider.flags);
+    if (query.deforms)
+        query.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
     query.distance = thickness;
     query.alignment = 2; // nothing ties with "nothing found"
     query.crossing = 2;
@@ -165,9 +219,9 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
 {
     const vec3 box_min = min(to - thickness, from);
     const vec3 box_max = max(to + thickness, from);
-    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+    if (!reaches(collider, box_min, box_max))
         return no_contact();
-    begin_query(collider, method, from, to, normal, thickness);
+    begin_query(c, collider, method, from, to, normal, thickness);
     visit_mesh(c, collider, box_min, box_max);
     if (query.crossing <= 1)
         return crossing_contact();
@@ -179,7 +233,7 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
 Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
 {
     const ConvexSurface end = convex_surface(collider, to);
-    Contact contact = Contact(end.distance < thickness, end.direction, end.distance);
+    Contact contact = Contact(end.distance < thickness, end.direction, end.distance, vec3(0));
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return contact;
     const float start = convex_surface(collider, from).distance;
@@ -191,7 +245,11 @@ Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickn
         return contact;
     const bool same_side = end.distance < thickness && dot(end.direction, surface.direction) > 0.5;
     if (!same_side)
-        contact = Contact(true, surface.direction, surface.distance + dot(to - entry, surface.direction));
+    {
+        contact.found = true;
+        contact.direction = surface.direction;
+        contact.gap = surface.distance + dot(to - entry, surface.direction);
+    }
     return contact;
 }
 
@@ -202,9 +260,9 @@ Contact path_contact(uint c, ColliderRecord collider, vec3 from, vec3 to)
         return no_contact();
     const vec3 box_min = min(from, to);
     const vec3 box_max = max(from, to);
-    if (!boxes_overlap(box_min, box_max, collider.box_min, collider.box_max))
+    if (!reaches(collider, box_min, box_max))
         return no_contact();
-    begin_query(collider, VOILE_METHOD_PATH_ALONE, from, to, vec3(0), 0);
+    begin_query(c, collider, VOILE_METHOD_PATH_ALONE, from, to, vec3(0), 0);
     visit_mesh(c, collider, box_min, box_max);
     if (query.crossing <= 1)
         return crossing_contact();

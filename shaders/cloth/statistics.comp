@@ -6,8 +6,10 @@
 // under the surface of a collider. Reads: cloths, chunks, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
+#include "padded_layout.h"
 
 layout(local_size_x_id = 0) in;
+const uint COLLIDERS_MOVE = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
@@ -21,6 +23,9 @@ layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex m
 layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(set = 0, binding = 11, std430) readonly buffer CandidateLeaves { uint candidate_leaves[]; };
+layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
@@ -34,9 +39,15 @@ void take_leaf(uint first, uint count)
         visit_triangle(t);
 }
 #include "bvh.glsl"
+#include "padded.glsl"
 
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
+    if (is_deforming(collider.flags))
+    {
+        visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
+        return;
+    }
     visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
 }
 
@@ -88,7 +99,7 @@ void measure_penetration(vec3 x, float thickness, uint layers, inout StatisticsR
         const ColliderRecord collider = colliders[c];
         if ((collider.layers & layers) == 0)
             continue;
-        const vec3 place = (collider.flags & VOILE_COLLIDER_MOVED) != 0 ? to_collider(pose_at(c, 1), x) : x;
+        const vec3 place = is_moved(collider.flags) ? to_collider(pose_at(c, 1), x) : x;
         const Contact contact =
             find_contact(c, collider, VOILE_METHOD_NEAREST_POINT, place, place, vec3(0), thickness);
         if (contact.found)

@@ -56,7 +56,8 @@ bool is_rigid(const glm::mat4& transform)
     return affine && glm::determinant(turn) > 0;
 }
 
-shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose)
+shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose,
+                                   std::span<const Deformation> deformations)
 {
     const glm::mat4 from = pose.from * model.placements[collider];
     const glm::mat4 to = pose.to * model.placements[collider];
@@ -70,6 +71,13 @@ shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const 
     motion.center = center_of(model.colliders[collider]);
     motion.place_from = glm::vec3(from * glm::vec4(motion.center, 1));
     motion.place_to = glm::vec3(to * glm::vec4(motion.center, 1));
+    for (size_t i = 0; i < model.deforming.size(); ++i)
+        if (model.deforming[i].collider == collider)
+        {
+            const Deformation& deformation = deformations[i];
+            motion.first_from = model.deforming[i].first(deformation.now);
+            motion.first_to = model.deforming[i].first(deformation.due ? 1 - deformation.now : deformation.now);
+        }
     return motion;
 }
 

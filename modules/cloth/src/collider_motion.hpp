@@ -1,7 +1,7 @@
 // How colliders move: poses of the host's as the GPU reads them.
 #pragma once
 
-#include "cloth/holds.hpp"
+#include "cloth/solver.hpp"
 #include "model.hpp"
 
 namespace cloth
@@ -15,10 +15,21 @@ struct ColliderPose
     std::optional<AnchorId> anchor{}; // of the holds on its surface
 };
 
+// Where the vertices of a deforming mesh are.
+struct Deformation
+{
+    uint32_t now = 0;                     // the half of its positions that holds them at the end of the last step
+    bool due = false;                     // new vertices were given: the next step goes to them, in the other half
+    std::vector<glm::vec3> positions;     // given by the host, m
+    std::optional<DeviceVertices> source; // or where they lie on the GPU
+};
+
 // Whether a transform turns and moves without scale or reflection: finite, columns of unit length and at right angles
 // within 1e-4.
 bool is_rigid(const glm::mat4& transform);
 
-shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose);
+// `deformations`: of model.deforming.
+shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose,
+                                   std::span<const Deformation> deformations);
 
 } // namespace cloth

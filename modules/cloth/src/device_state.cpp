@@ -30,6 +30,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.mesh_corners, "cloth mesh corners", data.lists.corners.size() * sizeof(shared::MeshCorner)},
         {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
         {&state.collider_motions, "cloth collider motions", model.colliders.size() * sizeof(shared::ColliderMotion)},
+        {&state.deforming_input, "cloth deforming input", model.deforming_positions.size() / 2 * k_most_stride},
+        {&state.deforming_positions, "cloth deforming positions", model.deforming_positions.size() * sizeof(glm::vec4)},
+        {&state.padded_leaves, "cloth padded leaves", model.padded_leaves.size() * sizeof(shared::PaddedLeaf)},
+        {&state.padded_boxes, "cloth padded boxes", model.padded_boxes * sizeof(shared::PaddedBox)},
         {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
         {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
         {&state.start, "cloth start", per_vertex},
@@ -150,7 +154,11 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                  s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
                  s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(), s.sums.velocities.handle(),
                  s.stage_a.velocities.handle(), s.candidate_places.handle(), s.candidate_leaves.handle(),
-                 s.collider_motions.handle()});
+                 s.collider_motions.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
+                 s.deforming_positions.handle()});
+    binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
+    binder.bind(s.refit, kernels.refit.leaves,
+                {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});
     binder.bind(s.normals_set, kernels.normals,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle()});
@@ -158,7 +166,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
                  s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
-                 s.candidate_leaves.handle()});
+                 s.candidate_leaves.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
+                 s.deforming_positions.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
     return binder.status;
 }
@@ -171,6 +180,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     DeviceState state;
     state.vertices = static_cast<uint32_t>(model.positions.size());
     state.chunk_count = static_cast<uint32_t>(data.chunks.chunks.size());
+    state.deforming_vertices = model.deforming_positions.size();
     state.rk4_chunks = data.chunks.rk4;
     state.anchor_capacity = data.anchors;
     state.hold_capacity = data.holds;
@@ -178,8 +188,8 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 21;
-    constexpr uint32_t k_most_bindings = 16;
+    constexpr uint32_t k_sets = 23;
+    constexpr uint32_t k_most_bindings = 19;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

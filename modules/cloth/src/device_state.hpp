@@ -27,6 +27,10 @@ struct DeviceState
     gpu::Buffer mesh_corners;
     gpu::Buffer colliders;
     gpu::Buffer collider_motions;
+    gpu::Buffer deforming_input;     // what the host gives for deforming meshes, as it gives it
+    gpu::Buffer deforming_positions; // of deforming meshes, twice each: where the step starts and where it ends
+    gpu::Buffer padded_leaves;
+    gpu::Buffer padded_boxes;
     gpu::Buffer nodes;
     gpu::Buffer triangles;
     gpu::Buffer start; // places at the start, and what density multiplies
@@ -60,11 +64,14 @@ struct DeviceState
     VkDescriptorSet strain_forth{}; // stage A to stage B
     VkDescriptorSet edit{};
     VkDescriptorSet contact{};
+    VkDescriptorSet deform{};
+    VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};
     VkDescriptorSet statistics{};
     VkDescriptorSet statistics_reduce{};
 
     uint32_t vertices = 0;
+    size_t deforming_vertices = 0;
     uint32_t chunk_count = 0;
     uint32_t rk4_chunks = 0; // the first ones
     uint32_t collider_count = 0;

@@ -15,19 +15,6 @@ constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADE
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
-// vkCmdUpdateBuffer takes at most 64 KiB at a time; sizes here are multiples of 4 bytes.
-void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
-{
-    constexpr size_t k_most = 65536;
-    while (!bytes.empty())
-    {
-        const auto piece = bytes.first(std::min(bytes.size(), k_most));
-        recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), buffer.handle(), offset, piece.size(), piece.data());
-        offset += piece.size();
-        bytes = bytes.subspan(piece.size());
-    }
-}
-
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values)
 {
@@ -50,9 +37,9 @@ void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
 {
     for (uint32_t i = 0; i < solver.colliders.size(); ++i)
     {
-        if ((solver.model.colliders[i].flags & VOILE_COLLIDER_MOVED) == 0)
+        if ((solver.model.colliders[i].flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) == 0)
             continue;
-        const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i]);
+        const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i], solver.deformations);
         update(recorder, solver.device->collider_motions, i * sizeof(motion), std::as_bytes(std::span(&motion, 1)));
     }
 }
@@ -85,6 +72,18 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
 
 } // namespace
 
+void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
+{
+    constexpr size_t k_most = 65536;
+    while (!bytes.empty())
+    {
+        const auto piece = bytes.first(std::min(bytes.size(), k_most));
+        recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), buffer.handle(), offset, piece.size(), piece.data());
+        offset += piece.size();
+        bytes = bytes.subspan(piece.size());
+    }
+}
+
 bool Solver::State::fits() const
 {
     return device && anchors.size() <= device->anchor_capacity && hold_lists.holds.size() <= device->hold_capacity &&
@@ -107,6 +106,9 @@ void Solver::State::update_passes()
     passes.pins = hold_lists.pins;
     passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
     passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
+    passes.moving = std::any_of(model.colliders.begin(), model.colliders.end(),
+                                [](const auto& collider)
+                                { return (collider.flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) != 0; });
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : model.records)
     {
@@ -129,17 +131,23 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     const uint32_t group = solver.options.workgroup_size;
     const auto moves = [](const auto& poses)
     { return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.from != pose.to; }); };
-    const Moved now{moves(solver.anchors), moves(solver.colliders)};
+    const bool deforms = std::any_of(solver.deformations.begin(), solver.deformations.end(),
+                                     [](const Deformation& deformation) { return deformation.due; });
+    const Moved now{moves(solver.anchors), moves(solver.colliders) || deforms};
     // Anchors that came to rest leave their pins with the velocity of the last step, colliders their surfaces.
     const Moved due{now.anchors || solver.anchors_moved || solver.edits.holds || solver.edits.pins,
-                    now.colliders || solver.colliders_moved || !solver.edits.colliders.empty()};
+                    now.colliders || solver.colliders_moved || solver.refit_due || !solver.edits.colliders.empty()};
     if (!due.anchors && !due.colliders && !solver.edits.any())
         return;
-    recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
-                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     update_buffers(recorder, solver, due);
+    record_deforming_input(recorder, solver);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
+    record_deforming_passes(recorder, solver);
     for (const shared::EditPush& edit : solver.edits.places)
         recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
     if (due.anchors || !solver.edits.places.empty())

@@ -42,10 +42,13 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
          {"cloth strain limit", shaders::k_limit_strain_comp, 10, sizeof(shared::StrainPush), {group, 0, layout}}},
         {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 4, k_edit_bytes, {group}}},
         {&kernels.contact,
-         {"cloth contact", shaders::k_contact_comp, 16, sizeof(shared::ContactPush), {group, method, layout}}},
+         {"cloth contact", shaders::k_contact_comp, 19, sizeof(shared::ContactPush), {group, method, layout, 0}}},
+        {&kernels.contact_moving,
+         {"cloth contact", shaders::k_contact_comp, 19, sizeof(shared::ContactPush), {group, method, layout, 1}}},
+        {&kernels.deform, {"cloth deform", shaders::k_deform_comp, 2, sizeof(shared::DeformPush), {group}}},
         {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},
         {&kernels.statistics,
-         {"cloth statistics", shaders::k_statistics_comp, 12, sizeof(shared::StatisticsPush), {group, 0, layout}}},
+         {"cloth statistics", shaders::k_statistics_comp, 15, sizeof(shared::StatisticsPush), {group, 0, layout}}},
         {&kernels.statistics_reduce,
          {"cloth statistics reduce",
           shaders::k_statistics_reduce_comp,
@@ -64,6 +67,10 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
             return kernel.error();
         *request.kernel = std::move(kernel.value());
     }
+    auto refit = create_refit_kernels(context);
+    if (!refit)
+        return refit.error();
+    kernels.refit = std::move(refit.value());
     return kernels;
 }
 

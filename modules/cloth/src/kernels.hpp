@@ -1,6 +1,8 @@
 // Kernels: the compute pipelines of a solver.
 #pragma once
 
+#include "refit.hpp"
+
 #include "gpu/kernel.hpp"
 
 #include <array>
@@ -13,7 +15,7 @@ struct SolverOptions;
 struct Kernels
 {
     std::array<gpu::Kernel, 4> stages; // the four stages of RK4
-    gpu::Kernel first_stage_on; // stage 1 in a substep that goes on with the shares found before
+    gpu::Kernel first_stage_on;        // stage 1 in a substep that goes on with the shares found before
     gpu::Kernel verlet;
     gpu::Kernel verlet_on;
     gpu::Kernel pins;
@@ -22,6 +24,9 @@ struct Kernels
     gpu::Kernel limit_strain;
     gpu::Kernel edit;
     gpu::Kernel contact;
+    gpu::Kernel contact_moving; // where colliders move or deform
+    gpu::Kernel deform;
+    RefitKernels refit;
     gpu::Kernel normals;
     gpu::Kernel statistics;
     gpu::Kernel statistics_reduce;

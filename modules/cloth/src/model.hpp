@@ -7,6 +7,7 @@
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "mesh_topology.hpp"
+#include "padded_layout.h"
 
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 
 namespace cloth
 {
+
+struct MeshInput;
 
 // A cloth as the solver remembers it: what its record follows from when its material changes.
 struct ClothModel
@@ -34,6 +37,20 @@ struct ClothModel
     std::vector<glm::vec2> texture_coordinates; // of a mesh
 };
 
+// A mesh collider whose vertices the host moves.
+struct DeformingMesh
+{
+    uint32_t collider = 0;
+    uint32_t vertices = 0;
+    uint32_t first_vertex = 0; // in deforming_positions; as many again follow them
+    glm::mat4 transform{1.f};  // the collider's space from the mesh's
+
+    [[nodiscard]] uint32_t first(uint32_t half) const { return first_vertex + half * vertices; }
+};
+
+// Bytes from one vertex to the next in what the host gives for a deforming mesh, at most.
+constexpr uint32_t k_most_stride = 64;
+
 struct Model
 {
     std::vector<ClothModel> cloths;
@@ -46,7 +63,11 @@ struct Model
     std::vector<shared::MeshCorner> mesh_corners;
     std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
     std::vector<shared::ColliderRecord> colliders;
-    std::vector<glm::mat4> placements; // of the colliders: world from their own space when they were added; rigid
+    std::vector<glm::mat4> placements;    // of the colliders: world from their own space when they were added; rigid
+    std::vector<DeformingMesh> deforming; // in the order of their colliders
+    std::vector<glm::vec4> deforming_positions;
+    std::vector<shared::PaddedLeaf> padded_leaves;
+    uint32_t padded_boxes = 0;
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
 
@@ -59,6 +80,7 @@ struct Model
     Result<ColliderId> add(const CapsuleCollider& collider);
     Result<ColliderId> add(const BoxCollider& collider);
     ColliderId append(const shared::ColliderRecord& record, const glm::mat4& placement);
+    ColliderId append_deforming(shared::ColliderRecord record, const MeshInput& mesh, const glm::mat4& transform);
 };
 
 // What the validation of cloths and colliders shares.

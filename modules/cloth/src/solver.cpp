@@ -95,6 +95,7 @@ Result<ColliderId> Solver::add_collider(const Collider& collider)
     if (result)
     {
         state_->colliders.emplace_back();
+        state_->deformations.resize(state_->model.deforming.size());
         state_->dirty = true;
     }
     return result;

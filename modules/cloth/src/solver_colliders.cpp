@@ -112,6 +112,7 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     {
         flags |= VOILE_COLLIDER_MOVED;
         s.edits.colliders.push_back(collider.index);
+        s.update_passes();
     }
     return {};
 }
@@ -123,6 +124,9 @@ Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId col
         return exists.error();
     if (!(distance >= 0) || !std::isfinite(distance))
         return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
+    if ((s.model.colliders[collider.index].flags & VOILE_COLLIDER_DEFORMS) != 0)
+        return Error{"holds on a surface: collider " + std::to_string(collider.index) +
+                     " deforms, and holds follow rigid motion only"};
     const auto limit = static_cast<double>(distance);
     const FindSurface find = surface_finder(s.model, collider.index, limit);
     const glm::dmat4 placement(s.model.placements[collider.index]);

@@ -36,6 +36,7 @@ struct Passes
     uint32_t pins = 0;
     uint32_t holds = 0; // others than pins
     uint32_t tethers = 0;
+    bool moving = false;         // colliders that move or deform
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
 };
@@ -59,8 +60,10 @@ struct Solver::State
     std::vector<Anchor> anchors{Anchor{}}; // the first is the world
     bool anchors_moved = false;            // in the last step
     std::vector<ColliderPose> colliders;
-    bool colliders_moved = false; // in the last step
-    uint32_t next_substep = 0;    // counted through all steps, below k_substeps_counted
+    bool colliders_moved = false;          // in the last step
+    std::vector<Deformation> deformations; // of model.deforming
+    bool refit_due = false;                // boxes do not fit: after an upload, and after a mesh came to rest
+    uint32_t next_substep = 0;             // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
     Edits edits;
     Passes passes;
@@ -85,6 +88,14 @@ struct Solver::State
     // What the next upload must have room for.
     [[nodiscard]] bool fits() const;
 };
+
+// Takes the vertices of deforming meshes into their positions: first the copies, then, once these are visible to
+// compute, the passes. Both do nothing where no mesh deforms.
+void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
+void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
+
+// vkCmdUpdateBuffer takes at most 64 KiB at a time, and multiples of 4 bytes.
+void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
 
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);

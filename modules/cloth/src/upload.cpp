@@ -95,13 +95,14 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 
     // Cloths that were there before go on from where they are; the others start from the model.
     const size_t kept = s.device ? s.device->vertices : 0;
+    const size_t kept_deforming = s.device ? s.device->deforming_vertices : 0;
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     const std::vector<glm::vec4> no_candidates(s.model.positions.size(), glm::vec4(0, 0, 0, -1));
     std::vector<shared::ColliderMotion> motions;
     for (uint32_t i = 0; i < s.colliders.size(); ++i)
-        motions.push_back(make_motion(s.model, i, s.colliders[i]));
+        motions.push_back(make_motion(s.model, i, s.colliders[i], s.deformations));
     const std::vector<uint32_t> empty_lists(no_candidates.size() * (VOILE_CANDIDATES + 1));
     struct Staged
     {
@@ -117,6 +118,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.mesh_corners, 0, bytes_of(data.lists.corners)},
         {next.colliders, 0, bytes_of(s.model.colliders)},
         {next.collider_motions, 0, bytes_of(motions)},
+        {next.deforming_positions, kept_deforming * sizeof(glm::vec4),
+         bytes_of(s.model.deforming_positions, kept_deforming)},
+        {next.padded_leaves, 0, bytes_of(s.model.padded_leaves)},
         {next.nodes, 0, bytes_of(s.model.nodes)},
         {next.triangles, 0, bytes_of(s.model.triangles)},
         {next.start, 0, bytes_of(s.model.start)},
@@ -136,6 +140,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         uploader.copy(s.device->state.positions, next.state.positions, kept_bytes);
         uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
         uploader.copy(s.device->normals, next.normals, kept_bytes);
+        uploader.copy(s.device->deforming_positions, next.deforming_positions, kept_deforming * sizeof(glm::vec4));
     }
 
     Upload upload;
@@ -146,6 +151,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.dirty = false;
     s.edits.records.clear();
     s.edits.colliders.clear();
+    s.refit_due = !s.model.deforming.empty();
     s.edits.holds = s.edits.tethers = false;
     s.edits.pins |= s.hold_lists.pins > 0; // anchors are not uploaded: the next step sets them
     s.update_passes();

@@ -97,7 +97,9 @@ struct MeshCollider
     glm::mat4 transform{1.f};                // world from mesh; affine
     std::optional<Friction> friction{};
     Sides sides = Sides::automatic;
-    uint32_t layers = 1; // bits; it meets the cloths that have one of them
+    bool deforms = false; // its vertices move: Solver::deform_collider. Its hierarchy is refitted on the GPU, and costs
+                          // more to traverse than that of a mesh that keeps its shape
+    uint32_t layers = 1;  // bits; it meets the cloths that have one of them
 };
 
 // Everything below the plane is solid.

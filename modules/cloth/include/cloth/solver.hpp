@@ -87,6 +87,14 @@ struct Step
     float air_density = 1.225f;      // kg/m^3
 };
 
+// Vertices in a buffer of the host's, three floats each. It needs TRANSFER_SRC usage.
+struct DeviceVertices
+{
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0; // bytes, of the first vertex; a multiple of 4
+    uint32_t stride = 12;    // bytes from one vertex to the next: 12 to 64, a multiple of 4
+};
+
 // What the substeps of a step mean for a cloth.
 struct Stability
 {
@@ -189,6 +197,15 @@ public:
     // there evenly, turning the shorter way; cloth feels its surface's velocity. Costs no refit. Errors: a collider
     // that does not exist, a motion that is not finite or not rigid.
     Result<void> move_collider(ColliderId collider, const glm::mat4& motion);
+
+    // Where the vertices of a deforming mesh are at the end of the next step, in the mesh's space; they go there
+    // straight. The step refits the hierarchy, and cloth feels the surface's velocity. Errors: a collider that does not
+    // deform, another number of vertices than it was added with, a position that is not finite.
+    Result<void> deform_collider(ColliderId collider, std::span<const glm::vec3> positions);
+    // The same from a buffer that the GPU has written, as by the host's skinning: the next record copies from it, and
+    // waits for compute and transfer writes recorded before. A vertex that is not finite stays where it was. Errors: a
+    // collider that does not deform, no buffer, an offset or stride out of range.
+    Result<void> deform_collider(ColliderId collider, const DeviceVertices& vertices);
 
     // Back to the start: places, velocities, masses. Holds stay as they are.
     void reset(ClothId cloth);

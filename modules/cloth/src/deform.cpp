@@ -1,0 +1,141 @@
+// Meshes that deform: their vertices from the host or from its buffers, and the refit of their hierarchies.
+#include "solver_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cloth
+{
+
+namespace
+{
+
+// Where a mesh's input lies, bytes.
+VkDeviceSize input_offset(const DeformingMesh& mesh)
+{
+    return VkDeviceSize{mesh.first_vertex} / 2 * k_most_stride;
+}
+
+uint32_t stride_of(const Deformation& deformation)
+{
+    return deformation.source ? deformation.source->stride : static_cast<uint32_t>(sizeof(glm::vec3));
+}
+
+void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh,
+                     const Deformation& deformation)
+{
+    const shared::DeformPush push{mesh.transform,
+                                  static_cast<uint32_t>(input_offset(mesh) / sizeof(float)),
+                                  stride_of(deformation) / static_cast<uint32_t>(sizeof(float)),
+                                  mesh.first(deformation.now),
+                                  mesh.first(1 - deformation.now),
+                                  mesh.vertices};
+    recorder.dispatch(solver.kernels.deform, solver.device->deform, mesh.vertices, solver.options.workgroup_size, push);
+}
+
+void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh,
+                  const Deformation& deformation)
+{
+    const shared::ColliderRecord& collider = solver.model.colliders[mesh.collider];
+    const uint32_t to = deformation.due ? 1 - deformation.now : deformation.now;
+    record_refit(recorder, solver.kernels.refit, solver.device->refit,
+                 {collider.first_node, collider.first_triangle, mesh.first(deformation.now), mesh.first(to),
+                  collider.triangles});
+}
+
+// The deforming mesh of a collider, or the reason why there is none.
+Result<size_t> find_deforming(const Model& model, ColliderId collider)
+{
+    for (size_t i = 0; i < model.deforming.size(); ++i)
+        if (model.deforming[i].collider == collider.index)
+            return i;
+    return Error{"collider " + std::to_string(collider.index) +
+                 (collider.index < model.colliders.size() ? " does not deform: it was added without \"deforms\""
+                                                          : " does not exist")};
+}
+
+} // namespace
+
+void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    for (size_t i = 0; i < solver.deformations.size(); ++i)
+    {
+        const DeformingMesh& mesh = solver.model.deforming[i];
+        const Deformation& deformation = solver.deformations[i];
+        const gpu::Buffer& input = solver.device->deforming_input;
+        if (!deformation.due)
+            continue;
+        if (!deformation.source)
+        {
+            update(recorder, input, input_offset(mesh), std::as_bytes(std::span(deformation.positions)));
+            continue;
+        }
+        const DeviceVertices& source = *deformation.source;
+        const VkDeviceSize bytes = VkDeviceSize{mesh.vertices - 1} * source.stride + sizeof(glm::vec3);
+        const VkBufferCopy region{source.offset, input_offset(mesh), bytes};
+        recorder.context().fn.vkCmdCopyBuffer(recorder.cmd(), source.buffer, input.handle(), 1, &region);
+    }
+}
+
+void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
+{
+    bool came_to_rest = false;
+    for (size_t i = 0; i < solver.deformations.size(); ++i)
+    {
+        const DeformingMesh& mesh = solver.model.deforming[i];
+        Deformation& deformation = solver.deformations[i];
+        if (deformation.due)
+            record_vertices(recorder, solver, mesh, deformation);
+        if (deformation.due || solver.refit_due)
+            record_boxes(recorder, solver, mesh, deformation);
+        came_to_rest |= deformation.due; // if it stays where it goes: the boxes of this step are too large for the next
+        if (deformation.due)
+            deformation.now = 1 - deformation.now;
+        deformation.due = false;
+    }
+    solver.refit_due = came_to_rest;
+}
+
+Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::vec3> positions)
+{
+    State& s = *state_;
+    const auto index = find_deforming(s.model, collider);
+    if (!index)
+        return index.error();
+    const DeformingMesh& mesh = s.model.deforming[index.value()];
+    const std::string name = "collider " + std::to_string(collider.index);
+    if (positions.size() != mesh.vertices)
+        return Error{name + ": " + std::to_string(positions.size()) + " positions, but it was added with " +
+                     std::to_string(mesh.vertices)};
+    for (size_t i = 0; i < positions.size(); ++i)
+        if (!finite(positions[i]))
+            return Error{name + ": position " + std::to_string(i) + " is not finite"};
+    Deformation& deformation = s.deformations[index.value()];
+    deformation.positions.assign(positions.begin(), positions.end());
+    deformation.source.reset();
+    deformation.due = true;
+    return {};
+}
+
+Result<void> Solver::deform_collider(ColliderId collider, const DeviceVertices& vertices)
+{
+    State& s = *state_;
+    const auto index = find_deforming(s.model, collider);
+    if (!index)
+        return index.error();
+    const std::string name = "collider " + std::to_string(collider.index);
+    if (vertices.buffer == VK_NULL_HANDLE)
+        return Error{name + ": no buffer of vertices"};
+    if (vertices.offset % 4 != 0)
+        return Error{name + ": the vertices' offset is " + std::to_string(vertices.offset) +
+                     " bytes, must be a multiple of 4"};
+    if (vertices.stride < sizeof(glm::vec3) || vertices.stride > k_most_stride || vertices.stride % 4 != 0)
+        return Error{name + ": the vertices' stride is " + std::to_string(vertices.stride) +
+                     " bytes, must be 12 to 64 and a multiple of 4"};
+    Deformation& deformation = s.deformations[index.value()];
+    deformation.source = vertices;
+    deformation.due = true;
+    return {};
+}
+
+} // namespace cloth
