@@ -69,7 +69,7 @@ PaddedBox merge(const PaddedBox& a, const PaddedBox& b)
 PaddedBox expect(const cloth::PaddedTree& tree, const glm::vec4* from, const glm::vec4* to, uint32_t level,
                  uint32_t box, std::vector<PaddedBox>& boxes)
 {
-    PaddedBox result;
+    PaddedBox result{};
     const uint32_t count = 1u << level;
     if (level == tree.levels)
     {
