@@ -2,6 +2,7 @@
 #include "cases.hpp"
 
 #include "heart.hpp"
+#include "icosphere.hpp"
 
 #include "engine/gpu/device.hpp"
 
@@ -151,6 +152,14 @@ void limit_strain(cloth::Fabric& fabric)
     fabric.strain_limit = 0.05f;
 }
 
+// The sheet of 128 x 128 on a sphere.
+template <uint32_t subdivisions>
+Cloths add_icosphere(cloth::Solver& solver)
+{
+    add_mesh(solver, "icosphere", case_icosphere(subdivisions));
+    return {engine::take(solver.add_cloth(drape_grid(128)))};
+}
+
 // Held by its first row, which moves; all other vertices tethered to it, or on a leash.
 template <bool tethers>
 Cloths add_held_sheet(cloth::Solver& solver)
@@ -170,6 +179,8 @@ Cloths add_held_sheet(cloth::Solver& solver)
 
 constexpr uint32_t k_contact_frames = 42; // 0.7 s: the cloth lies on the heart, its rim still falls
 constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart or the ground
+
+constexpr uint32_t k_sphere_frames = 90; // 1.5 s
 
 constexpr auto k_nearest = cloth::ContactMethod::nearest_point;
 constexpr auto k_interleaved = cloth::MeshLayout::interleaved;
@@ -204,6 +215,14 @@ constexpr Case k_cases[] = {
      k_interleaved, 0, 0, false, 12},
     {"mesh-128-isometric", "bending by the isometric model", add_mesh_sheet<false, true>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 18},
+    {"icosphere-1280", "the sheet of 128 x 128 after 1.5 s on a sphere of 1,280 triangles", add_icosphere<3>, k_nearest,
+     k_sphere_frames, true, k_interleaved, 0, 0, false, 0, 3},
+    {"icosphere-20480", "of 20,480", add_icosphere<5>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0, false, 0,
+     5},
+    {"icosphere-327680", "of 327,680", add_icosphere<7>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0, false,
+     0, 7},
+    {"icosphere-1310720", "of 1,310,720", add_icosphere<8>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0,
+     false, 0, 8},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };
@@ -230,6 +249,11 @@ cloth::Grid drape_grid(uint32_t side)
     grid.transform[3] = {0, 0.85f, 0, 1};
     grid.material = fabric;
     return grid;
+}
+
+engine::Mesh case_icosphere(uint32_t subdivisions)
+{
+    return make_icosphere({0, 0, 0}, 0.8f, subdivisions);
 }
 
 std::span<const Case> cases()

@@ -3,6 +3,9 @@
 
 #include "cloth/solver.hpp"
 
+#include "engine/assets/mesh.hpp"
+
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,8 +26,12 @@ struct Case
     float wind = 0; // m/s along x
     float gust = 0; // of the wind
     bool verlet = false;
-    uint32_t lists = 0; // entries of a mesh vertex's list of springs
+    uint32_t lists = 0;                  // entries of a mesh vertex's list of springs
+    std::optional<uint32_t> icosphere{}; // subdivisions of the one that the drape scene's sheet lies on
 };
+
+// That sphere, of radius 0.8 m.
+engine::Mesh case_icosphere(uint32_t subdivisions);
 
 std::span<const Case> cases();
 

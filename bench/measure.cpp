@@ -2,6 +2,9 @@
 #include "measure.hpp"
 
 #include "allocations.hpp"
+#include "icosphere.hpp"
+
+#include "engine/gpu/download.hpp"
 
 #include "gpu/recorder.hpp"
 
@@ -180,6 +183,16 @@ void time_recording(TimedQueue& queue, cloth::Solver& solver, uint32_t repetitio
     result.record_median = quantile(times, 0.5);
 }
 
+// Of the query that takes the thickness to every side, as traversals do that find no list of candidates.
+double measure_visits(TimedQueue& queue, const cloth::Solver& solver, cloth::ClothId cloth, uint32_t subdivisions)
+{
+    const cloth::VertexStreams streams = solver.vertices(cloth);
+    const auto positions =
+        engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
+    const float thickness = std::get<cloth::Fabric>(solver.material(cloth)).thickness;
+    return node_visits(case_icosphere(subdivisions), positions, thickness);
+}
+
 } // namespace
 
 Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, uint32_t workgroup_size)
@@ -204,6 +217,8 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, u
     result.bytes = bytes_a_substep(solver, item, result.measured);
     result.contacts = advance(queue, solver, item);
 
+    if (item.icosphere)
+        result.visits = measure_visits(queue, solver, cloths.front(), *item.icosphere);
     const Snapshot start(queue, solver, cloths);
     time_gpu(queue, solver, item, start, repetitions, result);
     check_finite(item, statistics(queue, solver), "after the measurement");

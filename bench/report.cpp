@@ -61,9 +61,12 @@ void print_header()
 
 void print_row(const Case& item, const Measurement& m, const DeviceProbe& probe)
 {
-    std::printf("%-28s %8u %9u %8u %10u %10.1f %10.1f %10.3f %8.1f%% %9.1f %6" PRIu64 "\n", item.name, m.vertices,
+    std::printf("%-28s %8u %9u %8u %10u %10.1f %10.1f %10.3f %8.1f%% %9.1f %6" PRIu64, item.name, m.vertices,
                 m.triangles, m.substeps, m.dispatches, m.gpu_median, m.gpu_p95, m.bytes * 1e-6,
                 100 * bandwidth_share(m, probe), m.record_median, m.record_allocations);
+    if (m.visits > 0)
+        std::printf("  %.1f nodes a traversal", m.visits);
+    std::printf("\n");
     std::fflush(stdout);
 }
 

@@ -14,6 +14,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const int METHOD = 1;
 layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
+layout(constant_id = 4) const uint COLLIDERS_CONVEX = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };

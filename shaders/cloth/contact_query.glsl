@@ -1,7 +1,8 @@
 // Where a vertex touches a collider.
 //
 // All of this is in the collider's space. The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`,
-// `padded_leaves[]` and `deforming_positions[]`, and defines
+// `padded_leaves[]` and `deforming_positions[]`, a constant COLLIDERS_CONVEX (0 where the only colliders with a formula are
+// planes), and defines
 //   void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 // after the include, which calls visit_triangle for all triangles of collider c that the box can reach.
 #ifndef VOILE_CONTACT_QUERY_GLSL
@@ -228,14 +229,17 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
     return nearest_contact();
 }
 
+Contact surface_contact(ConvexSurface surface, float thickness)
+{
+    return Contact(surface.distance < thickness, surface.direction, surface.distance, vec3(0));
+}
+
 // The nearest surface, or, where the way leads into the solid and would come out of another side of it, the plane on which
 // it went in.
 Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
 {
     const ConvexSurface end = convex_surface(collider, to);
-    Contact contact = Contact(end.distance < thickness, end.direction, end.distance, vec3(0));
-    if (collider.kind == VOILE_COLLIDER_PLANE)
-        return contact;
+    Contact contact = surface_contact(end, thickness);
     const float start = convex_surface(collider, from).distance;
     if (start <= 0 || start + end.distance >= distance(from, to))
         return contact;
@@ -274,6 +278,8 @@ Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
 {
     if (collider.kind == VOILE_COLLIDER_MESH)
         return mesh_contact(c, collider, method, from, to, normal, thickness);
+    if (COLLIDERS_CONVEX == 0 || collider.kind == VOILE_COLLIDER_PLANE)
+        return surface_contact(plane_surface(collider, to), thickness);
     return convex_contact(collider, from, to, thickness);
 }
 

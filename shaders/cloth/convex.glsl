@@ -38,10 +38,14 @@ ConvexSurface box_surface(vec3 center, vec3 half_size, vec3 p)
     return ConvexSurface(max(outside.x, max(outside.y, outside.z)), side * vec3(x, y, !x && !y));
 }
 
+ConvexSurface plane_surface(ColliderRecord collider, vec3 p)
+{
+    return ConvexSurface(dot(collider.shape.xyz, p) - collider.shape.w, collider.shape.xyz);
+}
+
+// Of the kinds that have another side.
 ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
 {
-    if (collider.kind == VOILE_COLLIDER_PLANE)
-        return ConvexSurface(dot(collider.shape.xyz, p) - collider.shape.w, collider.shape.xyz);
     if (collider.kind == VOILE_COLLIDER_SPHERE)
         return rounded_surface(p - collider.shape.xyz, collider.shape.w);
     if (collider.kind == VOILE_COLLIDER_CAPSULE)

@@ -10,6 +10,7 @@
 
 layout(local_size_x_id = 0) in;
 const uint COLLIDERS_MOVE = 1;
+const uint COLLIDERS_CONVEX = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };

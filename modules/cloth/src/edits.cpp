@@ -109,6 +109,10 @@ void Solver::State::update_passes()
     passes.moving = std::any_of(model.colliders.begin(), model.colliders.end(),
                                 [](const auto& collider)
                                 { return (collider.flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) != 0; });
+    passes.convex =
+        std::any_of(model.colliders.begin(), model.colliders.end(),
+                    [](const auto& collider)
+                    { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : model.records)
     {

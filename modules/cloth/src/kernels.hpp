@@ -23,7 +23,8 @@ struct Kernels
     gpu::Kernel tethers;
     gpu::Kernel limit_strain;
     gpu::Kernel edit;
-    gpu::Kernel contact;
+    gpu::Kernel contact;        // with meshes and planes
+    gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
     gpu::Kernel deform;
     RefitKernels refit;

@@ -37,6 +37,7 @@ struct Passes
     uint32_t holds = 0; // others than pins
     uint32_t tethers = 0;
     bool moving = false;         // colliders that move or deform
+    bool convex = false;         // colliders with a formula, other than planes
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
 };

@@ -135,8 +135,10 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.progress_a_substep = a_substep;
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
-    recorder_.dispatch(solver_.passes.moving ? kernels_.contact_moving : kernels_.contact, device_.contact,
-                       device_.chunk_count * group_, group_, push);
+    const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
+                                : solver_.passes.convex ? kernels_.contact_convex
+                                                        : kernels_.contact;
+    recorder_.dispatch(kernel, device_.contact, device_.chunk_count * group_, group_, push);
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
