@@ -110,10 +110,7 @@ void visit_triangle(uint index)
         triangle = Triangle(stored.a, stored.b, stored.c);
     }
     const vec3 normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
-    const float area = length(normal);
-    if (area == 0)
-        return; // collapsed
-    const vec3 face = normal / area;
+    const vec3 face = normal / max(length(normal), 1e-30); // 0 of a collapsed one
     query.visited = index;
     const float t = segment_triangle(from, query.to - from, triangle.a, triangle.b, triangle.c);
     // Leaving a solid through its surface is no fault.
