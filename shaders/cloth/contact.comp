@@ -58,7 +58,6 @@ struct ClothContact
     float thickness; // m
     float static_friction;
     float kinetic_friction;
-    uint layers;
     vec3 normal; // at the vertex, for VOILE_METHOD_NORMAL_RAY
 };
 
@@ -135,13 +134,11 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. Where the way from
 // its last place leads through one, it stays at that last place, as that surface carries it, so that no vertex is ever on the
 // wrong side of a mesh.
-void keep_out(inout Motion motion, uint layers)
+void keep_out(inout Motion motion)
 {
     for (uint c = 0; c < push.colliders; ++c)
     {
         const ColliderRecord collider = colliders[c];
-        if ((collider.layers & layers) == 0)
-            continue;
         const Passage passage = passage_of(c, collider.flags, motion);
         const Contact contact = path_contact(c, collider, passage.from, passage.to);
         if (!contact.found)
@@ -157,8 +154,6 @@ void keep_out(inout Motion motion, uint layers)
 void meet(inout Motion motion, uint c, ClothContact cloth, inout bool touches, inout bool stays_out)
 {
     const ColliderRecord collider = colliders[c];
-    if ((collider.layers & cloth.layers) == 0)
-        return;
     const Passage passage = passage_of(c, collider.flags, motion);
     const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
     const Contact contact = find_contact(c, collider, METHOD, passage.from, passage.to, normal, cloth.thickness);
@@ -189,17 +184,17 @@ void main()
     if (proposed.w > 0)
     {
         query_progress = vec2(push.progress_from, push.progress_to);
+        query_layers = cloths[cloth].layers;
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;
         contact.static_friction = cloths[cloth].static_friction;
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
-        contact.layers = cloths[cloth].layers;
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
-        find_candidates(i, contact.layers, motion.from, motion.x, motion.v, contact.thickness);
+        find_candidates(i, motion.from, motion.x, motion.v, contact.thickness);
         for (uint c = 0; c < push.colliders; ++c)
             meet(motion, c, contact, touches, stays_out);
         if (touches && !stays_out)
-            keep_out(motion, contact.layers);
+            keep_out(motion);
     }
     positions[i] = vec4(motion.x, proposed.w);
     velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);

@@ -91,7 +91,7 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 }
 
 // Whether every mesh that moves is either covered or out of reach. `way`: m, the farthest that one carries its surface here.
-bool serves_moving(uint layers, vec3 from, vec3 to, float reach, inout float way)
+bool serves_moving(vec3 from, vec3 to, float reach, inout float way)
 {
     if (COLLIDERS_MOVE == 0)
         return true;
@@ -99,8 +99,7 @@ bool serves_moving(uint layers, vec3 from, vec3 to, float reach, inout float way
     for (uint c = 0; c < push.colliders; ++c)
     {
         const uint flags = colliders[c].flags;
-        if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH ||
-            (colliders[c].layers & layers) == 0)
+        if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH)
             continue;
         vec3 a = from;
         vec3 b = to;
@@ -122,13 +121,13 @@ bool serves_moving(uint layers, vec3 from, vec3 to, float reach, inout float way
     return serves;
 }
 
-void collect_leaves(uint layers)
+void collect_leaves()
 {
     candidates.count = 0;
     candidates.collect = true;
     for (uint c = 0; c < push.colliders; ++c)
     {
-        if (colliders[c].kind != VOILE_COLLIDER_MESH || (colliders[c].layers & layers) == 0)
+        if (colliders[c].kind != VOILE_COLLIDER_MESH)
             continue;
         const vec3 middle = covered_middle(c, colliders[c].flags);
         const vec3 box_min = middle - candidates.cover;
@@ -140,7 +139,7 @@ void collect_leaves(uint layers)
 }
 
 // Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to` and what contact may add.
-void find_candidates(uint vertex, uint layers, vec3 from, vec3 to, vec3 velocity, float thickness)
+void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thickness)
 {
     const vec4 place = candidate_places[vertex]; // w: half the side of the box that the way must stay in; < 0: none
     const float reach = 2 * thickness;           // the distance that contact keeps, from either side
@@ -158,7 +157,7 @@ void find_candidates(uint vertex, uint layers, vec3 from, vec3 to, vec3 velocity
     const bool serves =
         all(lessThanEqual(abs(from - place.xyz), vec3(used))) && all(lessThanEqual(abs(to - place.xyz), vec3(used)));
     float way = 0;
-    const bool serves_all = serves_moving(layers, from, to, reach, way);
+    const bool serves_all = serves_moving(from, to, reach, way);
     if (serves && serves_all)
         return;
     const float speed = length(velocity) + way / push.step;
@@ -166,7 +165,7 @@ void find_candidates(uint vertex, uint layers, vec3 from, vec3 to, vec3 velocity
     candidates.place = 0.5 * (from + to);
     candidates.cover = margin + reach;
     candidates.made = push.progress_to;
-    collect_leaves(layers);
+    collect_leaves();
     candidate_places[vertex] = vec4(candidates.place, margin);
     candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] = push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
 }

@@ -32,6 +32,9 @@ struct Contact
 
 // Of the substep as shares of the step: where deforming meshes are at its start and at its end.
 vec2 query_progress = vec2(1);
+// Of the vertex's cloth. It is asked where boxes are: on some drivers a branch of its own around the queries costs them half
+// of their speed (bench/NOTES.md).
+uint query_layers = 0;
 
 // A vertex that moves from `from` to `to` within the substep, and what its traversal has found so far.
 struct MeshQuery
@@ -134,13 +137,15 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max);
 
-// Whether a box may reach something of a mesh.
+bool meets(ColliderRecord collider) { return (collider.layers & query_layers) != 0; }
+
+// Whether a box may reach something of a mesh that the cloth meets.
 bool reaches(ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
     if (!is_deforming(collider.flags))
-        return boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
+        return meets(collider) && boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
     const PaddedBox root = padded_boxes[collider.first_node];
-    return boxes_overlap(box_min, box_max, root.min, root.max);
+    return meets(collider) && boxes_overlap(box_min, box_max, root.min, root.max);
 }
 
 // By how much the surface deforms in the substep at a point of a triangle.
@@ -226,9 +231,9 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
     return nearest_contact();
 }
 
-Contact surface_contact(ConvexSurface surface, float thickness)
+Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float thickness)
 {
-    return Contact(surface.distance < thickness, surface.direction, surface.distance, vec3(0));
+    return Contact(surface.distance < thickness && meets(collider), surface.direction, surface.distance, vec3(0));
 }
 
 // The nearest surface, or, where the way leads into the solid and would come out of another side of it, the plane on which
@@ -236,7 +241,7 @@ Contact surface_contact(ConvexSurface surface, float thickness)
 Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
 {
     const ConvexSurface end = convex_surface(collider, to);
-    Contact contact = surface_contact(end, thickness);
+    Contact contact = surface_contact(collider, end, thickness);
     const float start = convex_surface(collider, from).distance;
     if (start <= 0 || start + end.distance >= distance(from, to))
         return contact;
@@ -247,7 +252,7 @@ Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickn
     const bool same_side = end.distance < thickness && dot(end.direction, surface.direction) > 0.5;
     if (!same_side)
     {
-        contact.found = true;
+        contact.found = meets(collider);
         contact.direction = surface.direction;
         contact.gap = surface.distance + dot(to - entry, surface.direction);
     }
@@ -276,7 +281,7 @@ Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
     if (collider.kind == VOILE_COLLIDER_MESH)
         return mesh_contact(c, collider, method, from, to, normal, thickness);
     if (COLLIDERS_CONVEX == 0 || collider.kind == VOILE_COLLIDER_PLANE)
-        return surface_contact(plane_surface(collider, to), thickness);
+        return surface_contact(collider, plane_surface(collider, to), thickness);
     return convex_contact(collider, from, to, thickness);
 }
 

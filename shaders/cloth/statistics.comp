@@ -92,14 +92,12 @@ void measure_mesh_springs(uint cloth, uint local, vec3 x, inout StatisticsRecord
     }
 }
 
-void measure_penetration(vec3 x, float thickness, uint layers, inout StatisticsRecord record)
+void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
 {
     float depth = 0;
     for (uint c = 0; c < push.colliders; ++c)
     {
         const ColliderRecord collider = colliders[c];
-        if ((collider.layers & layers) == 0)
-            continue;
         const vec3 place = is_moved(collider.flags) ? to_collider(pose_at(c, 1), x) : x;
         const Contact contact =
             find_contact(c, collider, VOILE_METHOD_NEAREST_POINT, place, place, vec3(0), thickness);
@@ -136,7 +134,8 @@ void main()
                 measure_grid_springs(self, x.xyz, record);
             else
                 measure_mesh_springs(cloth, self.local, x.xyz, record);
-            measure_penetration(x.xyz, cloths[cloth].thickness, cloths[cloth].layers, record);
+            query_layers = cloths[cloth].layers;
+            measure_penetration(x.xyz, cloths[cloth].thickness, record);
             if (push.colliders > 0)
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
