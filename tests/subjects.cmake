@@ -12,7 +12,8 @@ voile_add_test(test_viewer_parts
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES test_contact.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
-voile_add_test(test_viewer SOURCES test_viewer.cpp LIBRARIES voile_viewer_parts)
+voile_add_test(test_viewer SOURCES test_viewer.cpp test_viewer_solids.cpp
+               LIBRARIES voile_viewer_parts voile_scene_meshes voile::engine)
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_mesh_cloth SOURCES test_mesh_cloth.cpp test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)

@@ -194,6 +194,13 @@ TEST_CASE("colliders and camera")
     CHECK(collider_message(R"({"mesh": "a.obj", "rate": 30})") == at + ".rate needs \"frames\" beside it");
     CHECK(collider_message(R"({"frames": "a%d.obj", "motion": {"frames": "a%d.obj"}})") ==
           at + ".motion.frames is given twice: in the collider and in its motion");
+    CHECK(collider_message(R"({"mesh": "a.obj", "sides": "three"})") ==
+          at + ".sides is \"three\", which is not a number of sides (one, two)");
+    CHECK(collider_message(R"({"plane": {"y": 0}, "sides": "one"})") ==
+          at + ".sides is a mesh's; every other shape pushes outwards");
+    CHECK(collider_message(R"({"plane": {"y": 0}, "layers": [0, 32]})") ==
+          at + ".layers[1] is 32; it must be within 0 to 31");
+    CHECK(collider_message(R"({"plane": {"y": 0}, "layers": 2})") == at + ".layers is a number; expected an array");
     CHECK(scene_message(R"("camera": {"position": [0, 0, 0], "target": [0, 0, 0]})") ==
           "dir/s.json:1: camera has its target where its position is");
     CHECK(scene_message(R"("camera": {"position": [0, 0, 1], "target": [0, 0, 0], "fov": 180})") ==

@@ -34,7 +34,8 @@ constexpr const char* k_full_scene = R"({
              {"at": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}}],
     "velocity": [0, 0, -1],
     "integrator": "verlet",
-    "self_collision": false
+    "self_collision": false,
+    "layers": [0, 3]
   }, {"mesh": "m/shirt.PLY", "material": "silk"}],
   "colliders": [
     {"mesh": "../heart.obj", "transform": {"rotate": [0, 90, 0]}, "friction": {"static": 0.5, "kinetic": 0.4},
@@ -44,7 +45,7 @@ constexpr const char* k_full_scene = R"({
     {"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 0.2}},
     {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}},
     {"frames": "walk_%04d.obj", "rate": 30},
-    {"mesh": "walk.obj", "motion": {"frames": "w%d.obj", "rate": 24}}
+    {"mesh": "walk.obj", "motion": {"frames": "w%d.obj", "rate": 24}, "sides": "two", "layers": [31]}
   ],
   "camera": {"position": [0, 2, 5], "target": [0, 1, 0], "fov": 35}
 })";
@@ -89,6 +90,8 @@ TEST_CASE("every key of a cloth is read")
     CHECK(sheet.velocity == glm::vec3(0, 0, -1));
     CHECK(sheet.integrator == viewer::Integrator::verlet);
     CHECK_FALSE(sheet.self_collision);
+    CHECK(sheet.layers == 9u);
+    CHECK(scene.cloths[1].layers == 1u);
 
     CHECK(scene.cloths[1].name == "cloth_1");
     CHECK(std::get<fs::path>(scene.cloths[1].form) == "dir/m/shirt.PLY");
@@ -154,6 +157,10 @@ TEST_CASE("every kind of collider is read")
     CHECK(scene.colliders[5].frames->rate == 30.f);
     CHECK(std::get<viewer::MeshShape>(scene.colliders[5].shape).file.empty());
     CHECK(scene.colliders[6].frames->rate == 24.f);
+    CHECK(scene.colliders[6].sides == viewer::MeshSides::two);
+    CHECK(scene.colliders[6].layers == 1u << 31);
+    CHECK_FALSE(scene.colliders[0].sides.has_value());
+    CHECK(scene.colliders[0].layers == 1u);
 }
 
 TEST_CASE("what is not written has the defaults of the format")
@@ -204,6 +211,9 @@ TEST_CASE("a transform scales, then rotates about x, y, z, then translates")
     const viewer::MotionEntry motion{{1, 0, 0}, {0, 45, 0}, {0, 0, 1}};
     const glm::vec4 q = viewer::matrix(motion, 2.0) * glm::vec4(0, 0, 2, 1);
     CHECK(glm::length(glm::vec3(q) - glm::vec3(3, 0, 1)) < 1e-5f);
+    // What moves starts where it was placed, exactly.
+    const viewer::MotionEntry odd{{1, 2, 3}, {70, 80, -90}, {0.1f, 0.7f, -1.3f}, viewer::SwayEntry{{1, 1, 1}, 0.3f}};
+    CHECK(viewer::matrix(odd, 0) == glm::mat4(1));
 }
 
 TEST_CASE("the reference scene is that of the report")

@@ -42,6 +42,32 @@ TEST_CASE("bounds enclose all positions")
     CHECK(engine::bounds(mesh).max == glm::vec3(1, 5, 3));
 }
 
+TEST_CASE("a capsule and a box are closed, wound outwards and have the volume that they should")
+{
+    const glm::vec3 from(1, 2, 3);
+    const glm::vec3 to(1.6f, 2, 3.8f);
+    const engine::Mesh capsule = engine::make_capsule(from, to, 0.5f);
+    for (size_t i = 0; i < capsule.positions.size(); ++i)
+    {
+        const glm::vec3 p = capsule.positions[i];
+        const glm::vec3 nearest = from + glm::clamp(glm::dot(p - from, to - from), 0.f, 1.f) * (to - from);
+        REQUIRE(glm::distance(p, nearest + 0.5f * capsule.normals[i]) < 1e-5f);
+    }
+    CHECK(signed_volume(capsule) == doctest::Approx(std::numbers::pi * (0.25 + 0.5 / 3)).epsilon(0.005));
+    CHECK(signed_volume(engine::make_capsule(from, from, 0.5f)) ==
+          doctest::Approx(std::numbers::pi * 0.5 / 3).epsilon(0.005));
+
+    const engine::Mesh box = engine::make_box({-1, 0, 1}, {1, 3, 5});
+    CHECK(box.triangles.size() == 12);
+    CHECK(signed_volume(box) == doctest::Approx(24));
+    for (const glm::uvec3& t : box.triangles)
+    {
+        const glm::vec3 a = box.positions[t.x];
+        const glm::vec3 across = glm::cross(box.positions[t.y] - a, box.positions[t.z] - a);
+        CHECK(glm::dot(across, box.normals[t.x]) > 0);
+    }
+}
+
 TEST_CASE("a sphere is round, wound outwards and has radial normals")
 {
     const glm::vec3 center(1, 2, 3);

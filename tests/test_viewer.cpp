@@ -1,68 +1,27 @@
 // The viewer as its users run it: what it writes, and the one clear line that bad input gets.
 #include "test_folder.hpp"
+#include "viewer_run.hpp"
 
 #include "samples/viewer/json_tree.hpp"
 
 #include <doctest/doctest.h>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 namespace
 {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path)
-{
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
-
-struct Run
-{
-    int exit_code = -1;
-    std::string output;
-    std::string errors;
-};
-
-// `environment`: assignments before the command, as a shell takes them.
-Run run_viewer(const std::string& arguments, const std::string& environment = "")
-{
-    const std::string base = (fs::temp_directory_path() / ("voile_run_" + std::to_string(getpid()))).string();
-    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " VOILE_BINARY_DIR "/viewer " +
-                                arguments + " >" + base + ".out 2>" + base + ".err";
-    const int status = std::system(command.c_str());
-    Run run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(base + ".out"), text_of(base + ".err")};
-    fs::remove(base + ".out");
-    fs::remove(base + ".err");
-    return run;
-}
+using tests::check_refused;
+using tests::Run;
+using tests::run_viewer;
+using tests::text_of;
 
 // The reference scene in small.
 const std::string k_small = "reference --headless --size 64x36 --cloth-resolution 24 ";
-
-// Exit code 1 and a single line that holds every one of `parts`.
-void check_refused(const Run& run, const std::vector<std::string>& parts)
-{
-    CAPTURE(run.errors);
-    CHECK(run.exit_code == 1);
-    CHECK(run.errors.find("viewer: ") == 0);
-    CHECK(std::count(run.errors.begin(), run.errors.end(), '\n') == 1);
-    for (const std::string& part : parts)
-    {
-        CAPTURE(part);
-        CHECK(run.errors.find(part) != std::string::npos);
-    }
-}
 
 const std::string k_triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n";
 

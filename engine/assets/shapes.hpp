@@ -9,6 +9,12 @@ namespace engine
 // `rings` bands from pole to pole, twice as many segments around.
 Mesh make_sphere(const glm::vec3& center, float radius, uint32_t rings = 48);
 
+// Everything within `radius` of the segment between both points, which may be one. `rings` bands on both ends together.
+Mesh make_capsule(const glm::vec3& from, const glm::vec3& to, float radius, uint32_t rings = 48);
+
+// A box with flat faces.
+Mesh make_box(const glm::vec3& min, const glm::vec3& max);
+
 // A square in the plane y = `y`, centred under the origin, `half_size` m to each side, facing up.
 Mesh make_ground(float half_size, float y = 0);
 

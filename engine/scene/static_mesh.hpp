@@ -1,4 +1,4 @@
-// StaticMesh: a component that draws a mesh which does not change.
+// StaticMesh: a component that draws a mesh whose vertices do not change.
 #pragma once
 
 #include "engine/assets/mesh.hpp"
@@ -16,6 +16,9 @@ public:
     // Copies the mesh into device buffers through `uploads`.
     StaticMesh(UploadBatch& uploads, const Mesh& mesh, const Surface& surface, std::string label = "mesh",
                const glm::mat4& model = glm::mat4(1.f));
+
+    // Moves it, from the next frame that is recorded on.
+    void set_model(const glm::mat4& world_from_model) { drawable_.model = world_from_model; }
 
     void record_draw(VkCommandBuffer cmd, View& view) override;
 

@@ -140,6 +140,7 @@ gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& sce
     grid.depth = form.size.y;
     grid.transform = matrix(entry.transform);
     grid.velocity = entry.velocity;
+    grid.layers = entry.layers;
     grid.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
     auto material = make_cloth_material(
         scene, entry.material,
@@ -185,6 +186,7 @@ gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& sce
     cloth.triangles = mesh.triangles;
     cloth.transform = matrix(entry.transform);
     cloth.velocity = entry.velocity;
+    cloth.layers = entry.layers;
     cloth.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
     cloth.material = material.value();
     for (const glm::vec3& p : mesh.positions)

@@ -2,6 +2,7 @@
 #include "samples/viewer/colliders.hpp"
 
 #include "engine/assets/load_mesh.hpp"
+#include "engine/assets/shapes.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -41,46 +42,81 @@ engine::Bounds cloth_bounds(const ClothEntry& cloth)
     return transformed(box, matrix(cloth.transform));
 }
 
-gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
+// A turn and a move, once the scale is in the shape.
+glm::mat4 rigid(TransformEntry transform)
 {
-    const auto unsupported = [&](const char* what)
-    { return gpu::Error{place(scene, entry.line) + ": colliders: " + what + " is not supported yet"}; };
-    if (entry.motion)
-        return unsupported("\"motion\"");
-    if (entry.frames)
-        return unsupported("\"frames\"");
-    Solid solid;
-    solid.friction = entry.friction;
-    if (const auto* plane = std::get_if<PlaneShape>(&entry.shape))
-    {
-        solid.name = "plane";
-        solid.shape = *plane;
-    }
-    else if (const auto* sphere = std::get_if<SphereShape>(&entry.shape))
-    {
-        solid.name = "sphere";
-        solid.shape = *sphere;
-    }
-    else if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
+    transform.scale = 1;
+    return matrix(transform);
+}
+
+PlaneShape scaled(PlaneShape plane, float scale)
+{
+    return {scale * plane.y};
+}
+SphereShape scaled(const SphereShape& sphere, float scale)
+{
+    return {scale * sphere.center, scale * sphere.radius};
+}
+CapsuleShape scaled(const CapsuleShape& capsule, float scale)
+{
+    return {scale * capsule.from, scale * capsule.to, scale * capsule.radius};
+}
+BoxShape scaled(const BoxShape& box, float scale)
+{
+    return {scale * box.min, scale * box.max};
+}
+
+// The solver is told of both ends of a frame and takes the shorter way between them.
+gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
+{
+    const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
+    if (spin.x + spin.y + spin.z < 180 * scene.step.rate)
+        return {};
+    return gpu::Error{place(scene, entry.line) + ": colliders: the spin is half a turn a frame or more"};
+}
+
+gpu::Result<Solid> load_shape(const ColliderEntry& entry)
+{
+    if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
     {
         auto loaded = engine::load_mesh(mesh->file);
         if (!loaded)
             return loaded.error();
-        solid.name = mesh->file.stem().string();
-        solid.shape = std::move(loaded.value());
-        solid.transform = matrix(entry.transform);
+        return Solid{.name = mesh->file.stem().string(),
+                     .shape = std::move(loaded.value()),
+                     .transform = matrix(entry.transform)};
     }
-    else
-        return unsupported(std::holds_alternative<CapsuleShape>(entry.shape) ? "a capsule" : "a box");
+    const float scale = entry.transform.scale;
+    const glm::mat4 transform = rigid(entry.transform);
+    if (const auto* plane = std::get_if<PlaneShape>(&entry.shape))
+        return Solid{.name = "plane", .shape = scaled(*plane, scale), .transform = transform};
+    if (const auto* sphere = std::get_if<SphereShape>(&entry.shape))
+        return Solid{.name = "sphere", .shape = scaled(*sphere, scale), .transform = transform};
+    if (const auto* capsule = std::get_if<CapsuleShape>(&entry.shape))
+        return Solid{.name = "capsule", .shape = scaled(*capsule, scale), .transform = transform};
+    return Solid{.name = "box", .shape = scaled(std::get<BoxShape>(entry.shape), scale), .transform = transform};
+}
+
+gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
+{
+    if (entry.frames)
+        return gpu::Error{place(scene, entry.line) + ": colliders: \"frames\" is not supported yet"};
+    if (auto spin = check_spin(scene, entry); !spin)
+        return spin.error();
+    auto solid = load_shape(entry);
+    if (!solid)
+        return solid;
+    solid.value().friction = entry.friction;
+    solid.value().motion = entry.motion;
+    solid.value().sides = entry.sides;
+    solid.value().layers = entry.layers;
+    solid.value().line = entry.line;
     return solid;
 }
 
-// How high the ground is: of a plane or a level mesh.
-std::optional<float> ground_height(const Solid& solid)
+bool is_replaced(const Solid& solid)
 {
-    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        return plane->y;
-    return solid.is_ground() ? std::optional<float>(solid.bounds()->max.y) : std::nullopt;
+    return std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground();
 }
 
 // Where the scene's meshes stand, above the ground; without one, a cube below the cloths that they cover.
@@ -88,12 +124,12 @@ engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& so
 {
     std::optional<engine::Bounds> box;
     for (const Solid& solid : solids)
-        if (std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground())
+        if (is_replaced(solid))
             box = merge(box, *solid.bounds());
     if (box)
     {
         for (const Solid& solid : solids)
-            if (const auto height = ground_height(solid); height && *height < box->max.y)
+            if (const auto height = solid.ground_height(); height && *height < box->max.y)
                 box->min.y = std::max(box->min.y, *height);
         return *box;
     }
@@ -143,13 +179,58 @@ bool Solid::is_ground() const
     return size.y <= 1e-3f * std::max(size.x, size.z);
 }
 
+std::optional<float> Solid::ground_height() const
+{
+    if (const auto* plane = std::get_if<PlaneShape>(&shape))
+        return transform[1].y > 0.999f ? std::optional(transform[3].y + plane->y) : std::nullopt;
+    return is_ground() ? std::optional(bounds()->max.y) : std::nullopt;
+}
+
 std::optional<engine::Bounds> Solid::bounds() const
 {
+    const auto placed = [&](const glm::vec3& p) { return glm::vec3(transform * glm::vec4(p, 1)); };
     if (const auto* mesh = std::get_if<engine::Mesh>(&shape))
         return transformed(engine::bounds(*mesh), transform);
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        return engine::Bounds{sphere->center - sphere->radius, sphere->center + sphere->radius};
+        return engine::Bounds{placed(sphere->center) - sphere->radius, placed(sphere->center) + sphere->radius};
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+    {
+        const glm::vec3 from = placed(capsule->from);
+        const glm::vec3 to = placed(capsule->to);
+        return engine::Bounds{glm::min(from, to) - capsule->radius, glm::max(from, to) + capsule->radius};
+    }
+    if (const auto* box = std::get_if<BoxShape>(&shape))
+        return transformed({box->min, box->max}, transform);
     return std::nullopt;
+}
+
+std::optional<engine::Bounds> Solid::reach() const
+{
+    const auto still = bounds();
+    if (!still || !motion)
+        return still;
+    MotionEntry there = *motion;
+    there.velocity = glm::vec3(0);
+    const float spin = glm::length(there.spin);
+    const float period = std::max(spin > 0 ? 360 / spin : 0.f, there.sway ? there.sway->period : 0.f);
+    constexpr int k_samples = 64;
+    engine::Bounds all = *still;
+    for (int i = 0; i < k_samples; ++i)
+        all = merge(all, transformed(*still, matrix(there, static_cast<double>(period) * i / k_samples)));
+    return all;
+}
+
+engine::Mesh mesh_of(const Solid& solid, float half_size)
+{
+    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
+        return engine::make_ground(half_size, plane->y);
+    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
+        return engine::make_sphere(sphere->center, sphere->radius);
+    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
+        return engine::make_capsule(capsule->from, capsule->to, capsule->radius);
+    if (const auto* box = std::get_if<BoxShape>(&solid.shape))
+        return engine::make_box(box->min, box->max);
+    return std::get<engine::Mesh>(solid.shape);
 }
 
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b)
@@ -171,8 +252,10 @@ gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Option
         return solids;
 
     const engine::Bounds box = collider_box(scene, solids);
-    std::erase_if(solids, [](const Solid& solid)
-                  { return std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground(); });
+    const auto replaced = std::find_if(solids.begin(), solids.end(), is_replaced);
+    const auto motion = replaced != solids.end() ? replaced->motion : std::nullopt;
+    const uint32_t layers = replaced != solids.end() ? replaced->layers : ~0u;
+    std::erase_if(solids, is_replaced);
     for (size_t i = 0; i < options.colliders.size(); ++i)
     {
         auto mesh = engine::load_mesh(options.colliders[i]);
@@ -182,6 +265,8 @@ gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Option
         solid.name = options.colliders[i].stem().string();
         solid.transform = fit(engine::bounds(mesh.value()), part_of(box, i, options.colliders.size()));
         solid.shape = std::move(mesh.value());
+        solid.motion = motion;
+        solid.layers = layers;
         solids.push_back(std::move(solid));
     }
     return solids;

@@ -12,19 +12,31 @@ namespace viewer
 struct Solid
 {
     std::string name;
-    std::variant<engine::Mesh, PlaneShape, SphereShape> shape;
-    glm::mat4 transform{1.f}; // of a mesh
-    std::optional<FrictionEntry> friction;
+    std::variant<engine::Mesh, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
+    glm::mat4 transform{1.f}; // world from shape, at time 0; of all but a mesh rigid, their scale is in the shape
+    std::optional<FrictionEntry> friction{};
+    std::optional<MotionEntry> motion{};
+    std::optional<MeshSides> sides{};
+    uint32_t layers = 1;
+    uint32_t line = 0; // of the scene file; 0: of the command line
 
     // A mesh that is flat and level: drawn as ground, and no part of the collider box.
     [[nodiscard]] bool is_ground() const;
-    // Of meshes and spheres, in the scene. A plane has none.
+    // Of a plane or a mesh that is level.
+    [[nodiscard]] std::optional<float> ground_height() const;
+    // In the scene at time 0. A plane has none.
     [[nodiscard]] std::optional<engine::Bounds> bounds() const;
+    // Of all places that it spins and sways through; its velocity is not looked at.
+    [[nodiscard]] std::optional<engine::Bounds> reach() const;
 };
+
+// As it is drawn and measured, in the solid's own space. A plane is a square, `half_size` m to each side.
+engine::Mesh mesh_of(const Solid& solid, float half_size);
 
 // Loads all meshes. The files of --collider take the place of the scene's meshes (its ground stays): each is scaled
 // evenly, centred and set on the floor of the box that those filled, side by side where there are several. In a scene
-// without such a mesh the box lies below the cloths. Errors name the file.
+// without such a mesh the box lies below the cloths. They move, and meet cloth, as the first of the meshes did whose
+// place they take. Errors name the file.
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b);

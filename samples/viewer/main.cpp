@@ -68,10 +68,8 @@ engine::AppOptions app_options(const Options& options, const SceneFile& scene)
 }
 
 // One frame, captured if it is the one that was asked for. False when the window was closed.
-bool run_frame(engine::App& app, Stage& stage, uint64_t index, engine::Capture* capture, const Options& options)
+bool run_frame(engine::App& app, uint64_t index, engine::Capture* capture, const Options& options)
 {
-    const double time = static_cast<double>(index) * static_cast<double>(app.time_step());
-    advance(stage, time, static_cast<double>(app.time_step()));
     const bool capturing = capture != nullptr && options.capture == index;
     if (capturing)
         capture->begin();
@@ -102,7 +100,7 @@ void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatis
     {
         if (g_interrupted != 0)
             throw engine::StartupError("interrupted after " + std::to_string(i) + " frames; unfinished files are gone");
-        if (!run_frame(app, stage, i, capture, options))
+        if (!run_frame(app, i, capture, options))
             break;
         statistics.recorded(app.record_milliseconds());
         if (progress)

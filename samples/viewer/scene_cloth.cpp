@@ -237,7 +237,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     ClothEntry cloth;
     cloth.line = field.line();
     if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
-                               "integrator", "self_collision"}))
+                               "integrator", "self_collision", "layers"}))
         return cloth;
     cloth.name = "cloth_" + std::to_string(index);
     const Field name = SceneReader::child(field, "name");
@@ -270,6 +270,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
         cloth.integrator = static_cast<Integrator>(*word);
     reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);
+    parse_layers(reader, SceneReader::child(field, "layers"), cloth.layers);
     return cloth;
 }
 

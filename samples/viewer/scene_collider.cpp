@@ -177,6 +177,19 @@ MotionEntry parse_motion(SceneReader& reader, const Field& field)
     return read_motion(reader, field);
 }
 
+void parse_layers(SceneReader& reader, const Field& field, uint32_t& layers)
+{
+    if (!reader.array(field))
+        return;
+    layers = 0;
+    for (size_t i = 0; i < field.node->items.size(); ++i)
+    {
+        uint32_t layer = 0;
+        reader.read_integer(SceneReader::item(field, i), 0, 31, layer);
+        layers |= 1u << layer;
+    }
+}
+
 std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field)
 {
     std::string text;
@@ -194,8 +207,8 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     SceneReader& reader = context.reader;
     ColliderEntry collider;
     collider.line = field.line();
-    if (!reader.object(
-            field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames", "rate"}))
+    if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames",
+                               "rate", "sides", "layers"}))
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");
@@ -210,6 +223,12 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     collider.transform = parse_transform(reader, transform);
     if (const Field friction = SceneReader::child(field, "friction"); friction && !reader.failed())
         collider.friction = parse_friction(reader, friction);
+    parse_layers(reader, SceneReader::child(field, "layers"), collider.layers);
+    const Field sides = SceneReader::child(field, "sides");
+    if (const auto word = reader.read_word(sides, "a number of sides", {"one", "two"}))
+        collider.sides = static_cast<MeshSides>(*word);
+    if (collider.sides && !std::holds_alternative<MeshShape>(collider.shape))
+        reader.fail(sides, "is a mesh's; every other shape pushes outwards");
     return collider;
 }
 

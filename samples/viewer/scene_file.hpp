@@ -42,7 +42,7 @@ struct MotionEntry
 {
     glm::vec3 velocity{0.f}; // m/s
     glm::vec3 spin{0.f};     // degrees/s about x, then y, then z
-    glm::vec3 pivot{0.f};    // m, in the scene
+    glm::vec3 pivot{0.f};    // m, in the scene, at time 0
     std::optional<SwayEntry> sway{};
 };
 
@@ -155,6 +155,7 @@ struct ClothEntry
     glm::vec3 velocity{0.f};      // m/s at the start
     Integrator integrator = Integrator::rk4;
     bool self_collision = true;
+    uint32_t layers = 1; // bits; it meets the colliders that share one
     uint32_t line = 0;
 };
 
@@ -189,11 +190,20 @@ struct FrictionEntry
     float kinetic_friction = 0.f;
 };
 
+// To which side a mesh pushes. Where it is not written: a closed one outwards, an open one to where cloth comes from.
+enum class MeshSides
+{
+    one, // to where its triangles face
+    two  // to the side that cloth comes from
+};
+
 struct ColliderEntry
 {
     std::variant<MeshShape, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
     bool placed = false; // "transform" was written
     TransformEntry transform;
+    std::optional<MeshSides> sides; // with a mesh only
+    uint32_t layers = 1;            // bits; it meets the cloths that share one
     std::optional<FrictionEntry> friction;
     std::optional<MotionEntry> motion;
     std::optional<FrameSequence> frames; // with a mesh only
@@ -234,7 +244,7 @@ std::string place(const SceneFile& scene, uint32_t line);
 gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);
-// Where a point of the placed state is after `seconds`.
+// Where a point of the placed state is after `seconds`; at 0 the identity.
 glm::mat4 matrix(const MotionEntry& motion, double seconds);
 
 // Folders that are searched for scenes by name, in this order: those of the environment variable VOILE_SCENES

@@ -20,6 +20,8 @@ MaterialEntry parse_material(SceneReader& reader, const Field& field);
 PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid);
 TransformEntry parse_transform(SceneReader& reader, const Field& field);
 MotionEntry parse_motion(SceneReader& reader, const Field& field);
+// The bits of a list of numbers from 0 to 31; left as they are where the field is absent.
+void parse_layers(SceneReader& reader, const Field& field, uint32_t& layers);
 // A resolved path that ends in .obj or .ply.
 std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field);
 

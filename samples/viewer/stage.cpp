@@ -3,9 +3,6 @@
 
 #include "samples/viewer/cloths.hpp"
 
-#include "engine/assets/shapes.hpp"
-#include "engine/scene/static_mesh.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,35 +43,62 @@ std::optional<cloth::Friction> friction(const Solid& solid)
     return cloth::Friction{solid.friction->static_friction, solid.friction->kinetic_friction};
 }
 
-gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const Solid& solid)
+cloth::Sides sides(const Solid& solid)
 {
-    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        return solver.add_collider(
-            cloth::PlaneCollider{.name = solid.name, .offset = plane->y, .friction = friction(solid)});
-    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        return solver.add_collider(cloth::SphereCollider{
-            .name = solid.name, .center = sphere->center, .radius = sphere->radius, .friction = friction(solid)});
-    const auto& mesh = std::get<engine::Mesh>(solid.shape);
-    return solver.add_collider(cloth::MeshCollider{.name = solid.name,
-                                                   .positions = mesh.positions,
-                                                   .triangles = mesh.triangles,
-                                                   .transform = solid.transform,
-                                                   .friction = friction(solid)});
+    if (!solid.sides)
+        return cloth::Sides::automatic;
+    return *solid.sides == MeshSides::one ? cloth::Sides::one : cloth::Sides::two;
 }
 
-void add_to_scene(engine::App& app, const Solid& solid, float extent)
+cloth::PlaneCollider plane_collider(const PlaneShape& plane, const glm::mat4& transform)
 {
-    engine::Entity& entity = app.scene().add(solid.name);
+    cloth::PlaneCollider result;
+    result.normal = glm::normalize(glm::vec3(transform[1]));
+    result.offset = plane.y + glm::dot(result.normal, glm::vec3(transform[3]));
+    return result;
+}
+
+cloth::Collider collider_of(const Solid& solid)
+{
+    const auto placed = [&](const glm::vec3& p) { return glm::vec3(solid.transform * glm::vec4(p, 1)); };
     if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        entity.add<engine::StaticMesh>(app.uploads(), engine::make_ground(30 * extent, plane->y),
-                                       engine::ground_surface(), solid.name);
-    else if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        entity.add<engine::StaticMesh>(app.uploads(), engine::make_sphere(sphere->center, sphere->radius),
-                                       solid_surface(), solid.name);
-    else
-        entity.add<engine::StaticMesh>(app.uploads(), std::get<engine::Mesh>(solid.shape),
-                                       solid.is_ground() ? engine::ground_surface() : solid_surface(), solid.name,
-                                       solid.transform);
+        return plane_collider(*plane, solid.transform);
+    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
+        return cloth::SphereCollider{.center = placed(sphere->center), .radius = sphere->radius};
+    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
+        return cloth::CapsuleCollider{
+            .from = placed(capsule->from), .to = placed(capsule->to), .radius = capsule->radius};
+    if (const auto* box = std::get_if<BoxShape>(&solid.shape))
+        return cloth::BoxCollider{.min = box->min, .max = box->max, .transform = solid.transform};
+    const auto& mesh = std::get<engine::Mesh>(solid.shape);
+    return cloth::MeshCollider{
+        .positions = mesh.positions, .triangles = mesh.triangles, .transform = solid.transform, .sides = sides(solid)};
+}
+
+gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneFile& scene, const Solid& solid)
+{
+    cloth::Collider collider = collider_of(solid);
+    std::visit(
+        [&](auto& c)
+        {
+            c.name = solid.name;
+            c.friction = friction(solid);
+            c.layers = solid.layers;
+        },
+        collider);
+    auto added = solver.add_collider(collider);
+    if (!added)
+        return gpu::Error{(solid.line > 0 ? place(scene, solid.line) + ": " : "") + added.error().message};
+    return added;
+}
+
+engine::StaticMesh& add_to_scene(engine::App& app, const Solid& solid, float extent)
+{
+    const bool ground = solid.is_ground() || std::holds_alternative<PlaneShape>(solid.shape);
+    return app.scene()
+        .add(solid.name)
+        .add<engine::StaticMesh>(app.uploads(), mesh_of(solid, 30 * extent),
+                                 ground ? engine::ground_surface() : solid_surface(), solid.name, solid.transform);
 }
 
 // What the camera looks at and the shadow map covers: cloths, solids above ground, and the ground below them.
@@ -96,12 +120,10 @@ engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const std::ve
         box = merge(box, bounds_of(cloth.start));
     for (const Solid& solid : solids)
     {
-        if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-            box->min.y = std::min(box->min.y, plane->y);
-        else if (solid.is_ground())
-            box->min.y = std::min(box->min.y, solid.bounds()->min.y);
-        else
-            box = merge(box, *solid.bounds());
+        if (const auto height = solid.ground_height())
+            box->min.y = std::min(box->min.y, *height);
+        else if (const auto reach = solid.reach())
+            box = merge(box, *reach);
     }
     return *box;
 }
@@ -139,10 +161,12 @@ void tell_softened(const Stage& stage, float duration)
 
 } // namespace
 
-void advance(Stage& stage, double time, double duration)
+glm::mat4 Stage::pose(size_t solid) const
 {
-    for (const MovingPin& pin : stage.moving_pins)
-        engine::take(stage.world->solver().move_anchor(pin.anchor, matrix(pin.motion, time + duration)));
+    for (const MovingSolid& moving : motions->solids)
+        if (moving.solid == solid)
+            return moving.pose;
+    return glm::mat4(1);
 }
 
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
@@ -157,14 +181,15 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
     world.step.gust_length = scene.wind.gust_length;
     world.step.substeps = scene.step.substeps.value_or(0);
     world.collect_statistics = true;
+    stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
     {
         auto added = add_cloth(world.solver(), scene, entry, options);
         if (!added)
             return added.error();
-        stage.moving_pins.insert(stage.moving_pins.end(), added.value().moving_pins.begin(),
-                                 added.value().moving_pins.end());
-        stage.cloths.push_back({entry.name, added.value().id, std::move(added.value().start)});
+        stage.motions->pins.insert(stage.motions->pins.end(), added.value().moving_pins.begin(),
+                                   added.value().moving_pins.end());
+        stage.cloths.push_back({entry.name, added.value().id, std::move(added.value().start), entry.layers});
     }
     const engine::Bounds box = stage_bounds(stage.cloths, solids);
     frame_scene(app.scene(), scene, box);
@@ -182,9 +207,17 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
     }
     for (const Solid& solid : solids)
     {
-        if (const auto added = add_to_solver(world.solver(), solid); !added)
-            return gpu::Error{added.error().message};
-        add_to_scene(app, solid, glm::distance(box.min, box.max));
+        const auto added = add_to_solver(world.solver(), scene, solid);
+        if (!added)
+            return added.error();
+        engine::StaticMesh& body = add_to_scene(app, solid, glm::distance(box.min, box.max));
+        if (solid.motion)
+            stage.motions->solids.push_back({.solid = stage.colliders.size(),
+                                             .collider = added.value(),
+                                             .motion = *solid.motion,
+                                             .body = &body,
+                                             .placed = solid.transform});
+        stage.colliders.push_back(added.value());
     }
     tell_softened(stage, 1 / scene.step.rate);
     return stage;

@@ -3,6 +3,7 @@
 
 #include "samples/viewer/cloths.hpp"
 #include "samples/viewer/colliders.hpp"
+#include "samples/viewer/motions.hpp"
 
 #include "component/cloth_component.hpp"
 #include "engine/app/app.hpp"
@@ -15,20 +16,22 @@ struct StageCloth
     std::string name;
     cloth::ClothId id;
     std::vector<glm::vec3> start; // m, where its vertices are before the first step
+    uint32_t layers = 1;
 };
 
 struct Stage
 {
     cloth::component::ClothWorld* world = nullptr; // owned by the scene
+    Motions* motions = nullptr;                    // likewise
     std::vector<StageCloth> cloths;
-    std::vector<MovingPin> moving_pins;
+    std::vector<cloth::ColliderId> colliders; // one a solid
+
+    // From where a solid was added to where it is after the frames so far.
+    [[nodiscard]] glm::mat4 pose(size_t solid) const;
 };
 
 // Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the place in it.
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                              const Options& options);
-
-// Moves pins to where they are at the end of the frame that begins at `time` (s).
-void advance(Stage& stage, double time, double duration);
 
 } // namespace viewer

@@ -12,39 +12,109 @@ namespace viewer
 namespace
 {
 
-// How deep a point that started at `start` lies under a solid, m; 0 or less if it does not.
+// How deep a point that started at `start` lies under a solid, m; 0 or less if it does not. Both as seen from the solid
+// where it was at time 0.
 using Depth = std::function<double(const glm::dvec3& point, const glm::dvec3& start)>;
 
-gpu::Result<Depth> depth_of(const Solid& solid)
+double segment_distance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p)
+{
+    const glm::dvec3 along = b - a;
+    const double length2 = glm::dot(along, along);
+    const double t = length2 > 0 ? glm::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
+    return glm::distance(p, a + t * along);
+}
+
+// To the nearest face, from inside.
+double box_depth(const BoxShape& box, const glm::dvec3& p)
+{
+    const glm::dvec3 inside = glm::min(p - glm::dvec3(box.min), glm::dvec3(box.max) - p);
+    return std::min({inside.x, inside.y, inside.z});
+}
+
+// Of a shape with a formula, in its own space.
+double formula_depth(const Solid& solid, const glm::dvec3& p)
 {
     if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        return Depth([y = static_cast<double>(plane->y)](const glm::dvec3& p, const glm::dvec3&) { return y - p.y; });
+        return static_cast<double>(plane->y) - p.y;
     if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        return Depth([s = *sphere](const glm::dvec3& p, const glm::dvec3&)
-                     { return static_cast<double>(s.radius) - glm::distance(p, glm::dvec3(s.center)); });
+        return static_cast<double>(sphere->radius) - glm::distance(p, glm::dvec3(sphere->center));
+    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
+        return static_cast<double>(capsule->radius) -
+               segment_distance(glm::dvec3(capsule->from), glm::dvec3(capsule->to), p);
+    return box_depth(std::get<BoxShape>(solid.shape), p);
+}
+
+// A mesh whose inside is where it winds around a point.
+Depth winding_depth(const std::shared_ptr<const cloth::MeshDistance>& distance)
+{
+    return [distance](const glm::dvec3& p, const glm::dvec3&)
+    {
+        const bool inside = std::abs(distance->winding_number(p)) > 0.5;
+        return inside ? std::abs(distance->nearest(p).signed_distance) : 0;
+    };
+}
+
+// A mesh with two sides, of which the one where its triangles face is free, or the one where a vertex started.
+Depth side_depth(const std::shared_ptr<const cloth::MeshDistance>& distance, bool started)
+{
+    return [distance, started](const glm::dvec3& p, const glm::dvec3& start)
+    {
+        const auto now = distance->nearest(p);
+        const double side = started && distance->nearest(start).signed_distance < 0 ? -1 : 1;
+        return now.on_boundary ? 0 : -side * now.signed_distance;
+    };
+}
+
+gpu::Result<Depth> mesh_depth(const Solid& solid)
+{
     const auto& mesh = std::get<engine::Mesh>(solid.shape);
     auto created = cloth::MeshDistance::create(
         {.name = solid.name, .positions = mesh.positions, .triangles = mesh.triangles, .transform = solid.transform});
     if (!created)
         return created.error();
-    const auto distance = std::make_shared<cloth::MeshDistance>(std::move(created.value()));
-    if (distance->closed())
-        return Depth([distance](const glm::dvec3& p, const glm::dvec3&)
-                     { return -distance->nearest(p).signed_distance; });
-    if (!distance->has_sides())
-        return Depth(
-            [distance](const glm::dvec3& p, const glm::dvec3&)
-            {
-                const bool inside = std::abs(distance->winding_number(p)) > 0.5;
-                return inside ? std::abs(distance->nearest(p).signed_distance) : 0;
-            });
-    return Depth(
-        [distance](const glm::dvec3& p, const glm::dvec3& start)
-        {
-            const auto now = distance->nearest(p);
-            const double side = distance->nearest(start).signed_distance < 0 ? -1 : 1;
-            return now.on_boundary ? 0 : -side * now.signed_distance;
-        });
+    const auto distance = std::make_shared<const cloth::MeshDistance>(std::move(created.value()));
+    if (distance->closed() || solid.sides == MeshSides::one)
+        return side_depth(distance, solid.sides == MeshSides::two);
+    return distance->has_sides() ? side_depth(distance, true) : winding_depth(distance);
+}
+
+gpu::Result<Depth> depth_of(const Solid& solid)
+{
+    if (std::holds_alternative<engine::Mesh>(solid.shape))
+        return mesh_depth(solid);
+    return Depth([&solid, back = glm::inverse(glm::dmat4(solid.transform))](const glm::dvec3& p, const glm::dvec3&)
+                 { return formula_depth(solid, glm::dvec3(back * glm::dvec4(p, 1))); });
+}
+
+// A solid where it has come to.
+struct Obstacle
+{
+    Depth depth;
+    glm::dmat4 back{1.0}; // to where it was at time 0
+    uint32_t layers = 1;
+};
+
+gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::vector<Solid>& solids)
+{
+    std::vector<Obstacle> obstacles;
+    for (size_t i = 0; i < solids.size(); ++i)
+    {
+        auto depth = depth_of(solids[i]);
+        if (!depth)
+            return depth.error();
+        obstacles.push_back({std::move(depth.value()), glm::inverse(glm::dmat4(stage.pose(i))), solids[i].layers});
+    }
+    return obstacles;
+}
+
+double deepest_of(const std::vector<Obstacle>& obstacles, const StageCloth& cloth, size_t vertex, const glm::dvec3& p)
+{
+    double deepest = 0;
+    for (const Obstacle& obstacle : obstacles)
+        if ((obstacle.layers & cloth.layers) != 0)
+            deepest = std::max(
+                deepest, obstacle.depth(glm::dvec3(obstacle.back * glm::dvec4(p, 1)), glm::dvec3(cloth.start[vertex])));
+    return deepest;
 }
 
 } // namespace
@@ -52,26 +122,17 @@ gpu::Result<Depth> depth_of(const Solid& solid)
 gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
                                  const std::vector<FinalCloth>& state)
 {
-    std::vector<Depth> depths;
-    for (const Solid& solid : solids)
-    {
-        auto depth = depth_of(solid);
-        if (!depth)
-            return depth.error();
-        depths.push_back(std::move(depth.value()));
-    }
+    const auto obstacles = obstacles_of(stage, solids);
+    if (!obstacles)
+        return obstacles.error();
     Verification result;
     for (size_t i = 0; i < state.size(); ++i)
     {
         for (size_t v = 0; v < state[i].positions.size(); ++v)
         {
-            const glm::dvec3 start(stage.cloths[i].start[v]);
-            double deepest = 0;
-            for (const Depth& depth : depths)
-                deepest = std::max(deepest, depth(state[i].positions[v], start));
-            if (deepest > 0)
-                ++result.penetrating_vertices;
-            result.deepest_penetration = std::max(result.deepest_penetration, deepest);
+            const double depth = deepest_of(obstacles.value(), stage.cloths[i], v, glm::dvec3(state[i].positions[v]));
+            result.penetrating_vertices += depth > 0 ? 1 : 0;
+            result.deepest_penetration = std::max(result.deepest_penetration, depth);
         }
         result.self_intersections += cloth::count_self_intersections(state[i].positions, state[i].triangles);
     }

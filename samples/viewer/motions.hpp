@@ -1,0 +1,38 @@
+// What moves by rule in a scene: pins and solids.
+#pragma once
+
+#include "samples/viewer/cloths.hpp"
+
+#include "engine/scene/static_mesh.hpp"
+
+namespace viewer
+{
+
+// A solid that moves, in the solver and in the picture.
+struct MovingSolid
+{
+    size_t solid = 0; // its number among the stage's
+    cloth::ColliderId collider;
+    MotionEntry motion;
+    engine::StaticMesh* body = nullptr; // owned by the scene
+    glm::mat4 placed{1.f};              // world from the body's mesh, at time 0
+    glm::mat4 pose{1.f};                // from where it was added to where it is after the frames so far
+};
+
+// Each frame, moves them to where they are at the frame's end: the solver goes there during its step, and the picture
+// shows what the step led to. Works in `update`, so that nothing moves while nothing is simulated.
+class Motions : public engine::Component
+{
+public:
+    explicit Motions(cloth::Solver& solver) : solver_(solver) {}
+
+    std::vector<MovingPin> pins;
+    std::vector<MovingSolid> solids;
+
+    void update(const engine::FrameInfo& frame) override;
+
+private:
+    cloth::Solver& solver_;
+};
+
+} // namespace viewer
