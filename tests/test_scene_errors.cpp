@@ -229,8 +229,14 @@ TEST_CASE("files: missing ones are named, with what asked for them")
                         ": there is no frame 0 and no frame 1");
     folder.write("f01.obj", "");
     folder.write("f02.obj", "");
-    folder.write("f04.obj", "");
     CHECK(load() == "accepted");
+    for (const char* other : {"f1.obj", "f003.obj", "f04.ply", "fxx.obj", "f-5.obj"})
+        folder.write(other, ""); // no frames of this sequence
+    CHECK(load() == "accepted");
+    folder.write("f05.obj", "");
+    CHECK(load() ==
+          file + ":2: colliders[0].frames: " + (folder / "f03.obj").string() + " is missing, but f05.obj is there");
+    fs::remove(folder / "f05.obj");
     const auto frames = viewer::frame_files({folder / "f%02d.obj", 30.f});
     REQUIRE(frames);
     REQUIRE(frames.value().size() == 2);

@@ -23,6 +23,8 @@ enum class MeshVertices
     corners,   // each combination of position, texture coordinate and normal in use: for drawing
     positions, // each position of the file, used or not, in its order: for what must hang together, as cloth does.
                // Normals are computed; of several texture coordinates the first counts
+    faces, // as positions, and no triangle depends on where they are: polygons are cut from their first corner, none
+           // is dropped. No normals, no texture coordinates. For meshes that must have the faces of another
 };
 
 struct Bounds

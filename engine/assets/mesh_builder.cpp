@@ -213,10 +213,26 @@ Mesh assemble_positions(const Polygons& polygons, const std::vector<Triangle>& t
     return mesh;
 }
 
+Mesh assemble_faces(Polygons polygons)
+{
+    Mesh mesh;
+    const Corner* face = polygons.corners.data();
+    for (const uint32_t size : polygons.face_sizes)
+    {
+        for (uint32_t i = 2; i < size; ++i)
+            mesh.triangles.emplace_back(face[0].position, face[i - 1].position, face[i].position);
+        face += size;
+    }
+    mesh.positions = std::move(polygons.positions);
+    return mesh;
+}
+
 } // namespace
 
 gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report, MeshVertices vertices)
 {
+    if (vertices == MeshVertices::faces)
+        return assemble_faces(std::move(polygons));
     MeshReport changes;
     std::vector<Triangle> triangles = cut_faces(polygons, changes);
     const size_t count = triangles.size();

@@ -34,7 +34,8 @@ struct Polygons
 
 // Cuts the faces into triangles, drops those that are degenerate or duplicate, computes the normals unless every corner
 // has one, and makes one vertex of each combination of position, texture coordinate and normal in use, in the order of
-// the positions; or one of each position. `report` may be null. Error: "NAME: REASON" if no triangle is left.
+// the positions; or one of each position. With MeshVertices::faces it cuts alone. `report` may be null. Error: "NAME:
+// REASON" if no triangle is left.
 gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report,
                              MeshVertices vertices = MeshVertices::corners);
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -162,6 +163,25 @@ fs::path frame_path(const fs::path& pattern, uint32_t number)
     return pattern.parent_path() / name.replace(percent, end - percent + 1, digits);
 }
 
+// The numbers for which there is a file.
+std::set<uint32_t> frame_numbers(const fs::path& pattern)
+{
+    std::set<uint32_t> numbers;
+    const size_t percent = pattern.filename().string().find('%');
+    std::error_code problem;
+    const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : ".";
+    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem))
+    {
+        const std::string name = entry->path().filename().string();
+        uint32_t number = 0;
+        if (percent < name.size() &&
+            std::from_chars(name.data() + percent, name.data() + name.size(), number).ec == std::errc{} &&
+            frame_path(pattern, number).filename() == name && entry->is_regular_file(problem))
+            numbers.insert(number);
+    }
+    return numbers;
+}
+
 } // namespace
 
 gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
@@ -217,16 +237,19 @@ gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {
     if (frame_path(sequence.pattern, 0) == frame_path(sequence.pattern, 1))
         return gpu::Error{one_line(sequence.pattern.string() + ": has no %d or %04d for the frame's number")};
+    const std::set<uint32_t> numbers = frame_numbers(sequence.pattern);
+    if (!numbers.contains(0) && !numbers.contains(1))
+        return gpu::Error{one_line(sequence.pattern.string() + ": there is no frame 0 and no frame 1")};
     std::vector<fs::path> files;
-    std::error_code problem;
-    for (const uint32_t first : {0u, 1u})
+    for (uint32_t number = numbers.contains(0) ? 0 : 1; number <= *numbers.rbegin(); ++number)
     {
-        for (uint32_t number = first; fs::is_regular_file(frame_path(sequence.pattern, number), problem); ++number)
-            files.push_back(frame_path(sequence.pattern, number));
-        if (!files.empty())
-            return files;
+        files.push_back(frame_path(sequence.pattern, number));
+        if (!numbers.contains(number))
+            return gpu::Error{one_line(files.back().string() + " is missing, but " +
+                                       frame_path(sequence.pattern, *numbers.upper_bound(number)).filename().string() +
+                                       " is there")};
     }
-    return gpu::Error{one_line(sequence.pattern.string() + ": there is no frame 0 and no frame 1")};
+    return files;
 }
 
 glm::mat4 matrix(const TransformEntry& transform)

@@ -239,8 +239,8 @@ gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
 // "FILE:LINE", the beginning of a message about an entry.
 std::string place(const SceneFile& scene, uint32_t line);
 
-// The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the first that is missing.
-// An error if there are none, or if the pattern has no place for a number.
+// The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the last. An error if there
+// are none, if one between them is missing, or if the pattern has no place for a number.
 gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);

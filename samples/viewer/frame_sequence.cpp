@@ -1,0 +1,79 @@
+// Reading and blending the meshes of a sequence.
+#include "samples/viewer/frame_sequence.hpp"
+
+#include "engine/assets/load_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer
+{
+namespace
+{
+
+// What a file has other than the first; empty if nothing. Faces are compared as the files have them: how a polygon is
+// cut well depends on its form, which changes.
+std::string difference(const engine::Mesh& faces, const engine::Mesh& first)
+{
+    const auto counts = [](size_t here, size_t there, const char* what)
+    { return "has " + std::to_string(here) + " " + what + ", but the first has " + std::to_string(there); };
+    if (faces.positions.size() != first.positions.size())
+        return counts(faces.positions.size(), first.positions.size(), "vertices");
+    if (faces.triangles.size() != first.triangles.size())
+        return counts(faces.triangles.size(), first.triangles.size(), "triangles");
+    const auto [here, there] = std::mismatch(faces.triangles.begin(), faces.triangles.end(), first.triangles.begin());
+    if (here == faces.triangles.end())
+        return "";
+    const auto corners = [](const glm::uvec3& t)
+    { return std::to_string(t.x) + " " + std::to_string(t.y) + " " + std::to_string(t.z); };
+    return "joins vertices " + corners(*here) + " (counted from 0) where the first joins " + corners(*there);
+}
+
+} // namespace
+
+gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry)
+{
+    const auto files = frame_files(entry);
+    if (!files)
+        return files.error();
+    MeshSequence sequence;
+    sequence.rate_ = static_cast<double>(entry.rate);
+    auto first = engine::load_mesh(files.value().front(), nullptr, engine::MeshVertices::positions);
+    if (!first)
+        return first.error();
+    sequence.first_ = std::move(first.value());
+    engine::Mesh first_faces;
+    for (const std::filesystem::path& file : files.value())
+    {
+        auto faces = engine::load_mesh(file, nullptr, engine::MeshVertices::faces);
+        if (!faces)
+            return faces.error();
+        if (sequence.frames_.empty())
+            first_faces = faces.value();
+        const std::string other = difference(faces.value(), first_faces);
+        if (!other.empty())
+            return gpu::Error{file.string() + ": " + other + " (" + files.value().front().filename().string() + ")"};
+        sequence.frames_.push_back(std::move(faces.value().positions));
+    }
+    return sequence;
+}
+
+double MeshSequence::duration() const
+{
+    return static_cast<double>(frames_.size() - 1) / rate_;
+}
+
+void MeshSequence::positions_at(double seconds, std::vector<glm::vec3>& positions) const
+{
+    const auto last = static_cast<double>(frames_.size() - 1);
+    const double place = std::clamp(seconds * rate_, 0.0, last);
+    const auto from = static_cast<size_t>(place);
+    const std::vector<glm::vec3>& a = frames_[from];
+    const std::vector<glm::vec3>& b = frames_[std::min(from + 1, frames_.size() - 1)];
+    const auto share = static_cast<float>(place - std::floor(place));
+    positions.resize(a.size());
+    for (size_t i = 0; i < a.size(); ++i)
+        positions[i] = glm::mix(a[i], b[i], share);
+}
+
+} // namespace viewer

@@ -1,0 +1,34 @@
+// A mesh that deforms: the files of a sequence, one topology, and where its vertices are at a time.
+#pragma once
+
+#include "samples/viewer/scene_file.hpp"
+
+#include "engine/assets/mesh.hpp"
+
+namespace viewer
+{
+
+class MeshSequence
+{
+public:
+    // Reads all files. A vertex is a position of the file, in its order. Errors name the file: one that is missing or
+    // cannot be read, another number of vertices or other triangles than the first has.
+    static gpu::Result<MeshSequence> load(const FrameSequence& entry);
+
+    // The first file's: the mesh at time 0.
+    [[nodiscard]] const engine::Mesh& first() const { return first_; }
+    [[nodiscard]] size_t frames() const { return frames_.size(); }
+    [[nodiscard]] double duration() const; // s, from the first file to the last
+
+    // One a vertex. Frame f is there at f / rate s; between two, vertices go along straight lines. Before the first it
+    // is the first, and after the last the last: a sequence that jumps back to its beginning would tear what touches
+    // it.
+    void positions_at(double seconds, std::vector<glm::vec3>& positions) const;
+
+private:
+    engine::Mesh first_;
+    std::vector<std::vector<glm::vec3>> frames_; // positions
+    double rate_ = 60;                           // frames per second
+};
+
+} // namespace viewer
