@@ -1,4 +1,5 @@
 // The meshes that the sample scenes are made with.
+#include "samples/scenes/gem.hpp"
 #include "samples/scenes/heart.hpp"
 
 #include "mesh_checks.hpp"
@@ -160,4 +161,26 @@ TEST_CASE("the ground is a flat grid that faces up")
         const glm::vec3 a = ground.positions[t.x];
         REQUIRE(glm::cross(ground.positions[t.y] - a, ground.positions[t.z] - a).y > 0);
     }
+}
+
+TEST_CASE("the gem is closed once its faces are joined, wound outwards, and lies between its two radii")
+{
+    engine::Mesh gem = scenes::make_gem();
+    CHECK(gem.triangles.size() == 80);
+    std::vector<glm::vec3> points; // each place once
+    for (glm::uvec3& t : gem.triangles)
+        for (int i = 0; i < 3; ++i)
+        {
+            const auto found = std::find(points.begin(), points.end(), gem.positions[t[i]]);
+            t[i] = static_cast<uint32_t>(found - points.begin());
+            if (found == points.end())
+                points.push_back(
+                    gem.positions[static_cast<size_t>(&t - gem.triangles.data()) * 3 + static_cast<size_t>(i)]);
+        }
+    gem.positions = points;
+    CHECK(points.size() == 42);
+    CHECK(is_closed(gem));
+    CHECK(signed_volume(gem) > 0.15); // a ball of 0.36 m has 0.195
+    for (const glm::vec3& p : points)
+        CHECK(std::min(std::abs(glm::length(p) - 0.4f), std::abs(glm::length(p) - 0.36f)) < 1e-6f);
 }

@@ -56,11 +56,12 @@ public:
                 engine::take(engine::load_mesh(folder_ / "s.obj"))};
     }
 
-    engine::Picture picture(const std::string& text, uint32_t frame)
+    engine::Picture picture(const std::string& text, uint32_t frame, const std::string& options = "")
     {
         const auto file = folder_.write("s.json", text);
-        const Run run = run_viewer(file.string() + " --headless --size 320x180 --frames " + std::to_string(frame + 1) +
-                                   " --every " + std::to_string(frame) + " --out " + folder_.path().string());
+        const Run run =
+            run_viewer(file.string() + " --headless --size 320x180 --frames " + std::to_string(frame + 1) +
+                       " --every " + std::to_string(frame) + " --out " + folder_.path().string() + " " + options);
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
         std::string number = std::to_string(frame);
@@ -200,4 +201,12 @@ TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
     const Result result = runs.run(text, 40, "--verify --collider " + (runs.folder() / "box.obj").string());
     CHECK(bounds(result).max.y == doctest::Approx(0.2).epsilon(0.03));
     CHECK(result.deepest < 1e-5);
+}
+
+TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay outside")
+{
+    const Run run = run_viewer("moving --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("verified: 0 penetrating vertices") != std::string::npos);
 }

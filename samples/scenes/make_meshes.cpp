@@ -1,4 +1,5 @@
 // make_meshes OUTPUT_DIR: writes the meshes of the sample scenes as OBJ.
+#include "gem.hpp"
 #include "heart.hpp"
 
 #include "engine/assets/obj.hpp"
@@ -23,7 +24,8 @@ int run(const std::filesystem::path& folder)
     std::filesystem::create_directories(folder);
     const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
                        save(folder / "ground.obj", scenes::make_ground()) &&
-                       save(folder / "drape_heart.obj", scenes::make_drape_heart());
+                       save(folder / "drape_heart.obj", scenes::make_drape_heart()) &&
+                       save(folder / "gem.obj", scenes::make_gem());
     return saved ? 0 : 1;
 }
 
