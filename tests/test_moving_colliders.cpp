@@ -7,6 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -288,6 +289,40 @@ TEST_CASE("a mesh pushes to the side that it is told")
         CHECK((farthest < 0.5f) == two);
         CHECK((harness.positions(falling)[50].y < 0) == (sides == cloth::Sides::one));
     }
+}
+
+TEST_CASE("the boxes of a hierarchy cover the mesh at every level, and lie within those above")
+{
+    ClothHarness harness;
+    const engine::Mesh ball = engine::make_sphere({1, 2, 3}, 0.5f, 8);
+    const cloth::ColliderId with = engine::take(harness.solver.add_collider(collider(ball)));
+    const cloth::ColliderId plane = engine::take(harness.solver.add_collider(cloth::PlaneCollider{}));
+    CHECK(harness.solver.hierarchy_boxes(plane, 3).empty());
+    cloth::MeshCollider deforming = collider(ball);
+    deforming.deforms = true;
+    CHECK(harness.solver.hierarchy_boxes(engine::take(harness.solver.add_collider(deforming)), 3).empty());
+    const auto within = [](const glm::vec3& min, const glm::vec3& max, const cloth::BoundingBox& box)
+    { return glm::all(glm::lessThanEqual(box.min, min)) && glm::all(glm::lessThanEqual(max, box.max)); };
+    std::vector<cloth::BoundingBox> above = harness.solver.hierarchy_boxes(with, 0);
+    REQUIRE(above.size() == 1);
+    CHECK(glm::distance(above[0].min, glm::vec3(0.5f, 1.5f, 2.5f)) < 1e-5f);
+    for (uint32_t level = 1; level <= 48; ++level)
+    {
+        const std::vector<cloth::BoundingBox> boxes = harness.solver.hierarchy_boxes(with, level);
+        CHECK(boxes.size() <= 2 * above.size());
+        for (const cloth::BoundingBox& box : boxes)
+            CHECK(std::any_of(above.begin(), above.end(),
+                              [&](const cloth::BoundingBox& outer) { return within(box.min, box.max, outer); }));
+        for (const glm::uvec3& t : ball.triangles)
+        {
+            const glm::vec3 min = glm::min(ball.positions[t.x], glm::min(ball.positions[t.y], ball.positions[t.z]));
+            const glm::vec3 max = glm::max(ball.positions[t.x], glm::max(ball.positions[t.y], ball.positions[t.z]));
+            REQUIRE(std::any_of(boxes.begin(), boxes.end(),
+                                [&](const cloth::BoundingBox& box) { return within(min, max, box); }));
+        }
+        above = boxes;
+    }
+    CHECK(above.size() >= ball.triangles.size() / 4); // the leaves
 }
 
 TEST_CASE("what a collider cannot do is refused and changes nothing")

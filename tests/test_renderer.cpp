@@ -167,6 +167,107 @@ TEST_CASE("edges are antialiased")
     CHECK(levels > 20);
 }
 
+namespace
+{
+
+// Draws lines and dots from buffers of its own.
+class Marks : public engine::Component
+{
+public:
+    Marks(engine::UploadBatch& uploads, const std::vector<glm::vec4>& from, const std::vector<glm::vec4>& to)
+        : from_(uploads.buffer("from", from, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+          to_(uploads.buffer("to", to, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT))
+    {
+        lines.from = dots.positions = from_.handle();
+        lines.to = dots.flags = to_.handle();
+        lines.count = dots.count = static_cast<uint32_t>(from.size());
+    }
+
+    engine::Lines lines;
+    engine::Dots dots;
+    bool as_dots = false;
+
+    void record_draw(VkCommandBuffer cmd, engine::View& view) override
+    {
+        as_dots ? view.draw(cmd, dots) : view.draw(cmd, lines);
+    }
+
+private:
+    gpu::Buffer from_;
+    gpu::Buffer to_;
+};
+
+bool is_red(const engine::Picture& picture, uint32_t x, uint32_t y)
+{
+    const glm::ivec3 p = pixel(picture, x, y);
+    return p.r > 200 && p.g < 60 && p.b < 60;
+}
+
+// A camera that shows the plane z = 0, 90 pixels a metre, its origin in the middle.
+void look_at_plane(Stage& stage)
+{
+    stage.scene.camera = {.position = {0, 0, 10}, .target = {0, 0, 0}, .fov = 2 * glm::degrees(std::atan(0.1f))};
+}
+
+} // namespace
+
+TEST_CASE("lines go from end to end, as wide as they are told, and hide behind surfaces")
+{
+    Stage stage;
+    look_at_plane(stage);
+    auto& marks = stage.scene.add("marks").add<Marks>(
+        stage.uploads, std::vector<glm::vec4>{{-1, 0.5f, 0, 7}, {0, -0.5f, 50, 0}, {0, 0, 20, 0}},
+        std::vector<glm::vec4>{{1, 0.5f, 0, 0}, {0, -0.5f, 0, 0}, {0, 0, 30, 0}});
+    marks.lines.color = {1, 0, 0};
+    marks.lines.width = 4;
+    stage.scene.add("wall").add<engine::StaticMesh>(stage.uploads, engine::make_box({0.5f, -1, 0.1f}, {2, 1, 0.2f}),
+                                                    engine::Surface{});
+    const engine::Picture picture = stage.draw();
+    for (const uint32_t x : {80u, 120u, 160u, 200u})
+    {
+        CHECK(is_red(picture, x, 44));
+        CHECK(is_red(picture, x, 45));
+        CHECK_FALSE(is_red(picture, x, 41));
+        CHECK_FALSE(is_red(picture, x, 48));
+    }
+    CHECK_FALSE(is_red(picture, 60, 45));  // before its beginning
+    CHECK_FALSE(is_red(picture, 220, 45)); // behind the wall
+    // The second comes from behind the camera; the third is wholly behind it and draws nothing.
+    CHECK(is_red(picture, 160, 150));
+    CHECK_FALSE(is_red(picture, 160, 90));
+    // Directions with a length, moved as a whole.
+    marks.lines.length = 0.5f;
+    marks.lines.count = 1;
+    marks.lines.model[3] = {0, -0.5f, 0, 1};
+    const engine::Picture moved = stage.draw();
+    CHECK(is_red(moved, 75, 87));
+    CHECK_FALSE(is_red(moved, 120, 45));
+}
+
+TEST_CASE("dots are round, of one size, and show those whose flags are asked for")
+{
+    Stage stage;
+    look_at_plane(stage);
+    auto& marks = stage.scene.add("marks").add<Marks>(
+        stage.uploads, std::vector<glm::vec4>{{-1, 0, 0, 0}, {0, 0, 0, 0}, {1, 0, -90, 0}},
+        std::vector<glm::vec4>{{0, 0, 0, 1}, {0, 0, 0, 2}, {0, 0, 0, 3}});
+    marks.as_dots = true;
+    marks.dots.color = {1, 0, 0};
+    marks.dots.size = 12;
+    for (const uint32_t mask : {0u, 1u, 2u})
+    {
+        CAPTURE(mask);
+        marks.dots.mask = mask;
+        const engine::Picture picture = stage.draw();
+        CHECK(is_red(picture, 70, 90) == (mask != 2));
+        CHECK(is_red(picture, 160, 90) == (mask != 1));
+        CHECK(is_red(picture, 169, 90)); // far away, and as large
+        CHECK(is_red(picture, 173, 90));
+        CHECK_FALSE(is_red(picture, 173, 95)); // a corner of its square
+        CHECK_FALSE(is_red(picture, 178, 90));
+    }
+}
+
 TEST_CASE("the golden picture")
 {
     Stage stage;

@@ -203,6 +203,45 @@ TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
     CHECK(result.deepest < 1e-5);
 }
 
+TEST_CASE("--debug shows boxes that move with their mesh, contacts where cloth touches, and normals")
+{
+    Runs runs;
+    engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({-0.3f, 0.3f, 0}, 0.2f, 16)));
+    const auto is_like = [](const engine::Picture& picture, size_t pixel, const glm::ivec3& color)
+    {
+        const uint8_t* p = &picture.rgba[4 * pixel];
+        return std::abs(p[0] - color.r) + std::abs(p[1] - color.g) + std::abs(p[2] - color.b) < 60;
+    };
+    // The pixels of a colour: how many, and the mean of their columns.
+    const auto find = [&](const engine::Picture& picture, const glm::ivec3& color)
+    {
+        glm::vec2 found(0);
+        for (size_t i = 0; i < picture.rgba.size() / 4; ++i)
+            if (is_like(picture, i, color))
+                found += glm::vec2(1, i % picture.width);
+        return glm::vec2(found.x, found.y / std::max(found.x, 1.f));
+    };
+    const glm::ivec3 boxes(38, 137, 243);
+    const glm::ivec3 contacts(255, 225, 38);
+    const glm::ivec3 normals(89, 231, 137);
+    const std::string ball = R"({"mesh": "ball.obj", "motion": {"velocity": [1.2, 0, 0]}}, {"plane": {"y": 0}})";
+    const std::string text = scene(ball, R"(, "velocity": [0, -4, 0])", 0.9f);
+
+    const engine::Picture bare = runs.picture(text, 18);
+    CHECK(find(bare, boxes).x < 5);
+    CHECK(find(bare, contacts).x < 5);
+    CHECK(find(bare, normals).x < 5);
+    const engine::Picture start = runs.picture(text, 1, "--debug boxes:0 --debug contacts");
+    const engine::Picture later = runs.picture(text, 18, "--debug boxes:0 --debug contacts --validate");
+    CHECK(find(start, boxes).x > 100);
+    CHECK(find(start, contacts).x == 0); // it has not fallen far enough
+    CHECK(find(later, contacts).x > 8);
+    // 17 frames at 1.2 m/s are 0.34 m: at 4.1 m and 40 degrees, 61 pixels a metre or a little more.
+    CHECK(find(later, boxes).y - find(start, boxes).y == doctest::Approx(0.34 * 62).epsilon(0.15));
+    CHECK(find(runs.picture(text, 18, "--debug boxes:5"), boxes).x > find(later, boxes).x);
+    CHECK(find(runs.picture(text, 1, "--debug normals --validate"), normals).x > 30);
+}
+
 TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay outside")
 {
     const Run run = run_viewer("moving --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");

@@ -42,7 +42,7 @@ struct VertexInput
     {
         for (uint32_t i = 0; i < streams.size(); ++i)
         {
-            bindings.push_back({i, streams[i].stride, VK_VERTEX_INPUT_RATE_VERTEX});
+            bindings.push_back({i, streams[i].stride, streams[i].rate});
             attributes.push_back({i, i, streams[i].format, 0});
         }
     }

@@ -15,6 +15,7 @@ struct VertexStream
 {
     VkFormat format = VK_FORMAT_UNDEFINED;
     uint32_t stride = 0; // bytes
+    VkVertexInputRate rate = VK_VERTEX_INPUT_RATE_VERTEX;
 };
 
 struct GraphicsPipelineDescription

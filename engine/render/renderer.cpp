@@ -3,6 +3,7 @@
 
 #include "engine/render/frame_bindings.hpp"
 #include "engine/render/graphics_pipeline.hpp"
+#include "engine/render/pass_view.hpp"
 
 #include "gpu/recorder.hpp"
 
@@ -72,43 +73,6 @@ Image create_shadow_map(const gpu::Context& context, uint32_t resolution)
 constexpr std::array<VertexStream, 3> k_streams{
     {{VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32_SFLOAT, 8}}};
 
-// Draws with one pipeline; what the renderer hands to components.
-class PassView : public View
-{
-public:
-    PassView(Kind kind, const glm::mat4& clip_from_world, const gpu::Context& context, VkPipelineLayout layout)
-        : View(kind, clip_from_world), context_(context), layout_(layout)
-    {
-    }
-
-    void draw(VkCommandBuffer cmd, const Drawable& drawable) override
-    {
-        const gpu::LabelScope scope(context_, cmd, drawable.label);
-        const Surface& surface = drawable.surface;
-        const shared::DrawPush push{drawable.model,
-                                    surface.base_color,
-                                    surface.roughness,
-                                    surface.two_sided ? surface.back_color : surface.base_color,
-                                    surface.metallic,
-                                    surface.sheen,
-                                    surface.weave_scale,
-                                    surface.pattern_scale,
-                                    static_cast<uint32_t>(surface.kind)};
-        context_.fn.vkCmdPushConstants(cmd, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                       sizeof(push), &push);
-        const std::array buffers{drawable.positions, drawable.normals, drawable.texture_coordinates};
-        const std::array offsets{drawable.position_offset, drawable.normal_offset, drawable.texture_coordinate_offset};
-        const uint32_t streams = kind() == Kind::shadow ? 1 : 3;
-        context_.fn.vkCmdBindVertexBuffers(cmd, 0, streams, buffers.data(), offsets.data());
-        context_.fn.vkCmdBindIndexBuffer(cmd, drawable.indices, drawable.index_offset, VK_INDEX_TYPE_UINT32);
-        context_.fn.vkCmdDrawIndexed(cmd, drawable.index_count, 1, 0, 0, 0);
-    }
-
-private:
-    const gpu::Context& context_;
-    VkPipelineLayout layout_;
-};
-
 glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_radius)
 {
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
@@ -161,11 +125,13 @@ struct Renderer::State
     Owned<VkPipeline> shadow_pipeline;
     Owned<VkPipeline> surface_pipeline;
     Owned<VkPipeline> sky_pipeline;
+    MarkPipelines marks;
 
     State(const Device& device, const RendererOptions& wanted)
         : context(device.context()), options(wanted), targets(context, wanted.extent),
           shadow_map(create_shadow_map(context, wanted.shadow_resolution)),
-          bindings(device, wanted.slots, shadow_map.view())
+          bindings(device, wanted.slots, shadow_map.view()),
+          marks(context, bindings.layout(), k_color_format, k_depth_format, k_samples)
     {
         create_pipelines();
     }
@@ -173,7 +139,7 @@ struct Renderer::State
     void create_pipelines();
     [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene) const;
     void record_shadow_map(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
-    void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
+    void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms);
     void transition_targets(VkCommandBuffer cmd) const;
 };
 
@@ -235,8 +201,8 @@ void Renderer::State::record_shadow_map(VkCommandBuffer cmd, const Scene& scene,
     rendering.pDepthAttachment = &depth;
     context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
     set_viewport(context, cmd, shadow_map.extent());
-    context.fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, shadow_pipeline.get());
-    PassView view(View::Kind::shadow, uniforms.shadow_from_world, context, bindings.layout());
+    PassView view(View::Kind::shadow, uniforms.shadow_from_world, context,
+                  {.layout = bindings.layout(), .surfaces = shadow_pipeline.get()});
     scene.record_draw(cmd, view);
     context.fn.vkCmdEndRenderingKHR(cmd);
     record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
@@ -258,7 +224,7 @@ void Renderer::State::transition_targets(VkCommandBuffer cmd) const
                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT_KHR, k_depth_stages, k_depth_access});
 }
 
-void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const
+void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms)
 {
     transition_targets(cmd);
     VkRenderingAttachmentInfoKHR color{};
@@ -280,8 +246,9 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     rendering.pDepthAttachment = &depth;
     context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
     set_viewport(context, cmd, options.extent);
-    context.fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, surface_pipeline.get());
-    PassView view(View::Kind::camera, uniforms.clip_from_world, context, bindings.layout());
+    PassView view(
+        View::Kind::camera, uniforms.clip_from_world, context,
+        {.layout = bindings.layout(), .surfaces = surface_pipeline.get(), .marks = &marks, .extent = options.extent});
     scene.record_draw(cmd, view);
     {
         const gpu::LabelScope scope(context, cmd, "sky");

@@ -64,6 +64,36 @@ struct Drawable
     const char* label = "mesh"; // shown in captures; a literal or a string that outlives the frame
 };
 
+// Straight lines that show what is no surface, over surfaces that they lie on. Only cameras draw them.
+struct Lines
+{
+    VkBuffer from = VK_NULL_HANDLE; // 16 bytes a line: x y z (m) and a float that is ignored
+    VkBuffer to = VK_NULL_HANDLE;   // likewise the other end; with a length, the unit vector to it
+    VkDeviceSize from_offset = 0;   // bytes
+    VkDeviceSize to_offset = 0;     // bytes
+    uint32_t count = 0;
+    float length = 0; // m
+    float width = 2;  // pixels
+    glm::vec3 color{1.f};
+    glm::mat4 model{1.f}; // world from model
+    const char* label = "lines";
+};
+
+// Round dots, likewise.
+struct Dots
+{
+    VkBuffer positions = VK_NULL_HANDLE; // 16 bytes a dot: x y z (m) and a float that is ignored
+    VkBuffer flags = VK_NULL_HANDLE;     // 16 bytes a dot; the last float is a sum of bits
+    VkDeviceSize position_offset = 0;    // bytes
+    VkDeviceSize flag_offset = 0;        // bytes
+    uint32_t count = 0;
+    uint32_t mask = 0; // shows those that have one of these bits; 0: all
+    float size = 6;    // pixels
+    glm::vec3 color{1.f};
+    glm::mat4 model{1.f}; // world from model
+    const char* label = "dots";
+};
+
 // One view of the scene being drawn: a shadow map's or the camera's. Implemented by the renderer, which owns
 // the pipelines; components say what to draw and never which pipeline draws it.
 class View
@@ -78,6 +108,8 @@ public:
     View(Kind kind, const glm::mat4& clip_from_world) : kind_(kind), clip_from_world_(clip_from_world) {}
     virtual ~View() = default;
     virtual void draw(VkCommandBuffer cmd, const Drawable& drawable) = 0;
+    virtual void draw(VkCommandBuffer cmd, const Lines& lines) = 0;
+    virtual void draw(VkCommandBuffer cmd, const Dots& dots) = 0;
 
     [[nodiscard]] Kind kind() const { return kind_; }
     [[nodiscard]] const glm::mat4& clip_from_world() const { return clip_from_world_; }

@@ -1,4 +1,5 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
+#include "samples/viewer/debug_view.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/progress.hpp"
 #include "samples/viewer/verify.hpp"
@@ -161,6 +162,8 @@ int run_scene(const Options& options)
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
     Stage stage = engine::take(set_stage(app, scene, solids, options));
+    if (options.debug.any())
+        app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
     FrameOutputs outputs = engine::take(FrameOutputs::create(app, stage, scene, options));
     RunStatistics measured;
     const engine::IdleGuard idle(app.device());

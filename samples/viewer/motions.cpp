@@ -6,6 +6,14 @@
 namespace viewer
 {
 
+glm::mat4 Motions::pose(size_t solid) const
+{
+    for (const MovingSolid& moving : solids)
+        if (moving.solid == solid)
+            return moving.pose;
+    return glm::mat4(1);
+}
+
 void Motions::update(const engine::FrameInfo& frame)
 {
     const double end = frame.time + static_cast<double>(frame.time_step);

@@ -29,6 +29,9 @@ public:
     std::vector<MovingPin> pins;
     std::vector<MovingSolid> solids;
 
+    // From where a solid was added to where it is after the frames so far.
+    [[nodiscard]] glm::mat4 pose(size_t solid) const;
+
     void update(const engine::FrameInfo& frame) override;
 
 private:

@@ -23,6 +23,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr uint32_t k_largest_side = 16384;      // pixels
+constexpr uint32_t k_deepest_box = 48;          // the deepest level of a hierarchy
 constexpr uint32_t k_most_frames = 100'000'000; // 19 days of simulated time
 
 // CLI11 would write "[scene(0x)]", for what it was told about repetitions.
@@ -40,7 +41,7 @@ struct Typed
 {
     std::vector<std::string> scenes;
     std::vector<std::string> frames, size, out, every, video, stats, export_file, resolution, colliders, device,
-        capture;
+        capture, debug;
 };
 
 constexpr const char* k_description = "Simulates cloth on the GPU and shows it, in a window or as files.";
@@ -92,6 +93,11 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
                    "Writes the last state as OBJ or PLY, or every frame as a PC2 point cache;\n"
                    "one file a cloth, with its name added when there are several")
         ->type_name("FILE.obj|.ply|.pc2")
+        ->group(group);
+    app.add_option("--debug", typed.debug,
+                   "Draws over the picture the boxes of the meshes' hierarchies (level 4 where\n"
+                   "none is named), the vertices in contact, or the vertex normals; repeatable")
+        ->type_name("boxes[:LEVEL]|contacts|normals")
         ->group(group);
     app.add_flag("--verify", options.verify,
                  "Adds exact checks of the final state to the statistics:\npenetration and self-intersection")
@@ -226,6 +232,26 @@ void convert_colliders(Converter& convert, const std::vector<std::string>& value
     }
 }
 
+void convert_debug(Converter& convert, const std::vector<std::string>& values, DebugOptions& debug)
+{
+    constexpr uint32_t k_boxes_level = 4;
+    const std::string boxes = "boxes:";
+    for (const std::string& value : values)
+    {
+        convert.check_value("--debug", value);
+        if (value == "contacts")
+            debug.contacts = true;
+        else if (value == "normals")
+            debug.normals = true;
+        else if (value == "boxes")
+            debug.boxes = k_boxes_level;
+        else if (value.starts_with(boxes))
+            debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
+        else
+            convert.fail("--debug", "\"" + value + "\" is not boxes, boxes:LEVEL, contacts or normals");
+    }
+}
+
 void check_together(Converter& convert, const Typed& typed, const Options& options)
 {
     if (!typed.every.empty() && !options.out)
@@ -261,6 +287,7 @@ gpu::Result<Options> convert_all(const Typed& typed, Options options)
     convert_colliders(convert, typed.colliders, options);
     options.device = convert.single("--device", typed.device);
     options.capture = convert.integer("--capture", typed.capture, 0, k_most_frames);
+    convert_debug(convert, typed.debug, options.debug);
     check_together(convert, typed, options);
     if (convert.error)
         return gpu::Error{*convert.error};

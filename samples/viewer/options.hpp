@@ -21,6 +21,16 @@ enum class ExportFormat
     point_cache
 };
 
+// What is drawn over the picture.
+struct DebugOptions
+{
+    std::optional<uint32_t> boxes; // a level of the hierarchies of mesh colliders, 0..48
+    bool contacts = false;
+    bool normals = false;
+
+    [[nodiscard]] bool any() const { return boxes || contacts || normals; }
+};
+
 struct Options
 {
     std::string scene = "reference"; // a path or a name: see find_scene
@@ -41,6 +51,7 @@ struct Options
     bool validate = false;
     std::optional<uint32_t> capture; // frame, from 0
     bool verify = false;
+    DebugOptions debug;
 
     // Not empty: print this on standard output and leave with exit code 0 (--help, --version).
     std::string message;

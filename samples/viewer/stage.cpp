@@ -161,14 +161,6 @@ void tell_softened(const Stage& stage, float duration)
 
 } // namespace
 
-glm::mat4 Stage::pose(size_t solid) const
-{
-    for (const MovingSolid& moving : motions->solids)
-        if (moving.solid == solid)
-            return moving.pose;
-    return glm::mat4(1);
-}
-
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                              const Options& options)
 {

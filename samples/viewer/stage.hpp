@@ -25,9 +25,6 @@ struct Stage
     Motions* motions = nullptr;                    // likewise
     std::vector<StageCloth> cloths;
     std::vector<cloth::ColliderId> colliders; // one a solid
-
-    // From where a solid was added to where it is after the frames so far.
-    [[nodiscard]] glm::mat4 pose(size_t solid) const;
 };
 
 // Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the place in it.

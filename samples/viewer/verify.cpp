@@ -102,7 +102,8 @@ gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::v
         auto depth = depth_of(solids[i]);
         if (!depth)
             return depth.error();
-        obstacles.push_back({std::move(depth.value()), glm::inverse(glm::dmat4(stage.pose(i))), solids[i].layers});
+        obstacles.push_back(
+            {std::move(depth.value()), glm::inverse(glm::dmat4(stage.motions->pose(i))), solids[i].layers});
     }
     return obstacles;
 }

@@ -144,6 +144,13 @@ struct BoxCollider
 
 using Collider = std::variant<MeshCollider, PlaneCollider, SphereCollider, CapsuleCollider, BoxCollider>;
 
+// A box along the axes of the space that it is told in.
+struct BoundingBox
+{
+    glm::vec3 min{0.f}; // m
+    glm::vec3 max{0.f};
+};
+
 // Names of what was added; only valid in the solver that gave them.
 struct ClothId
 {

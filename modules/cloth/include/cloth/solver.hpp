@@ -207,6 +207,11 @@ public:
     // collider that does not deform, no buffer, an offset or stride out of range.
     Result<void> deform_collider(ColliderId collider, const DeviceVertices& vertices);
 
+    // The boxes of a mesh collider's hierarchy at a level, where it was added: 0 has one around the whole mesh, each
+    // further one their halves; a leaf stands for itself at all levels below it. For looking at. Empty for a collider
+    // without a mesh, and for one that deforms, whose boxes are on the GPU alone.
+    [[nodiscard]] std::vector<BoundingBox> hierarchy_boxes(ColliderId collider, uint32_t level) const;
+
     // Back to the start: places, velocities, masses. Holds stay as they are.
     void reset(ClothId cloth);
     // Moves a cloth at once: places by the transform, velocities by its turning. Pins that have a place go back to it.

@@ -1,0 +1,109 @@
+// Boxes, contacts and normals as lines and dots.
+#include "samples/viewer/debug_view.hpp"
+
+#include <algorithm>
+
+namespace viewer
+{
+namespace
+{
+
+constexpr glm::vec3 k_box_color{0.02f, 0.25f, 0.9f}; // linear, as all of them
+constexpr glm::vec3 k_contact_color{1.f, 0.75f, 0.02f};
+constexpr glm::vec3 k_normal_color{0.1f, 0.8f, 0.25f};
+constexpr float k_normal_length = 0.02f; // of the cloth's longest side
+constexpr uint32_t k_touches = 1;        // in the w of a velocity, see cloth::VertexStreams
+
+// The twelve edges of a box.
+void add_edges(const cloth::BoundingBox& box, std::vector<glm::vec4>& from, std::vector<glm::vec4>& to)
+{
+    const auto corner = [&](int bits)
+    {
+        return glm::vec4((bits & 1) != 0 ? box.max.x : box.min.x, (bits & 2) != 0 ? box.max.y : box.min.y,
+                         (bits & 4) != 0 ? box.max.z : box.min.z, 0);
+    };
+    for (int bits = 0; bits < 8; ++bits)
+        for (const int axis : {1, 2, 4})
+            if ((bits & axis) == 0)
+            {
+                from.push_back(corner(bits));
+                to.push_back(corner(bits | axis));
+            }
+}
+
+float longest_side(const std::vector<glm::vec3>& places)
+{
+    glm::vec3 low = places.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& p : places)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
+}
+
+} // namespace
+
+DebugView::DebugView(engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
+                     const DebugOptions& options)
+    : world_(*stage.world), motions_(*stage.motions), options_(options)
+{
+    for (const StageCloth& cloth : stage.cloths)
+        cloths_.push_back({cloth.id, k_normal_length * longest_side(cloth.start)});
+    if (options.boxes)
+        for (size_t i = 0; i < solids.size(); ++i)
+            add_boxes(app, stage, i, *options.boxes);
+}
+
+void DebugView::add_boxes(engine::App& app, const Stage& stage, size_t solid, uint32_t level)
+{
+    std::vector<glm::vec4> from;
+    std::vector<glm::vec4> to;
+    for (const cloth::BoundingBox& box : world_.solver().hierarchy_boxes(stage.colliders[solid], level))
+        add_edges(box, from, to);
+    if (from.empty()) // no mesh
+        return;
+    Boxes& boxes = boxes_.emplace_back();
+    boxes.solid = solid;
+    boxes.from = app.uploads().buffer("box edges, from", from, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    boxes.to = app.uploads().buffer("box edges, to", to, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    boxes.edges = static_cast<uint32_t>(from.size());
+}
+
+void DebugView::record_draw(VkCommandBuffer cmd, engine::View& view)
+{
+    for (const Boxes& boxes : boxes_)
+        view.draw(cmd, engine::Lines{.from = boxes.from.handle(),
+                                     .to = boxes.to.handle(),
+                                     .count = boxes.edges,
+                                     .color = k_box_color,
+                                     .model = motions_.pose(boxes.solid),
+                                     .label = "boxes"});
+    for (const Cloth& cloth : cloths_)
+    {
+        const cloth::VertexStreams streams = world_.solver().vertices(cloth.id);
+        if (options_.normals)
+            view.draw(cmd, engine::Lines{.from = streams.positions,
+                                         .to = streams.normals,
+                                         .from_offset = streams.offset,
+                                         .to_offset = streams.offset,
+                                         .count = streams.vertices,
+                                         .length = cloth.normal_length,
+                                         .width = 1.5f,
+                                         .color = k_normal_color,
+                                         .label = "normals"});
+        if (options_.contacts)
+            view.draw(cmd, engine::Dots{.positions = streams.positions,
+                                        .flags = streams.velocities,
+                                        .position_offset = streams.offset,
+                                        .flag_offset = streams.offset,
+                                        .count = streams.vertices,
+                                        .mask = k_touches,
+                                        .color = k_contact_color,
+                                        .label = "contacts"});
+    }
+}
+
+} // namespace viewer

@@ -1,0 +1,41 @@
+// --debug: what the solver works with, drawn over the picture.
+#pragma once
+
+#include "samples/viewer/stage.hpp"
+
+namespace viewer
+{
+
+// Boxes of the hierarchies of mesh colliders, moving with them; vertices that touch a collider; vertex normals. The
+// latter two are drawn from the solver's own buffers. Lives as long as the stage's solver and motions.
+class DebugView : public engine::Component
+{
+public:
+    DebugView(engine::App& app, const Stage& stage, const std::vector<Solid>& solids, const DebugOptions& options);
+
+    void record_draw(VkCommandBuffer cmd, engine::View& view) override;
+
+private:
+    struct Boxes // of one solid
+    {
+        size_t solid = 0;
+        gpu::Buffer from; // of their edges
+        gpu::Buffer to;
+        uint32_t edges = 0;
+    };
+    struct Cloth
+    {
+        cloth::ClothId id;
+        float normal_length = 0; // m
+    };
+
+    void add_boxes(engine::App& app, const Stage& stage, size_t solid, uint32_t level);
+
+    cloth::component::ClothWorld& world_;
+    const Motions& motions_;
+    DebugOptions options_;
+    std::vector<Boxes> boxes_;
+    std::vector<Cloth> cloths_;
+};
+
+} // namespace viewer

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One dot an instance, as wide in pixels as it is told; none where its flags lack the bits that are asked for.
+#include "marks.glsl"
+
+layout(location = 0) in vec4 position;
+layout(location = 1) in vec4 value; // w: flags, a whole number
+layout(location = 0) out vec2 out_offset;
+
+void main()
+{
+    out_offset = vec2((0x2a >> gl_VertexIndex & 1) != 0 ? 1 : -1, (0x34 >> gl_VertexIndex & 1) != 0 ? 1 : -1);
+    const bool shown = push.mask == 0 || (uint(value.w) & push.mask) != 0;
+    gl_Position = shown ? project_mark(position.xyz) : vec4(2, 2, 2, 1);
+    if (shown)
+        gl_Position.xy += 0.5 * push.size * out_offset * push.pixel * gl_Position.w;
+}
