@@ -1,4 +1,5 @@
 // The hierarchy against brute force: its structure, rays, nearest points, and the signed distance built on it.
+#include "bvh_checks.hpp"
 #include "bvh_query.hpp"
 #include "cloth/mesh_checks.hpp"
 
@@ -106,6 +107,20 @@ uint32_t check_child(const cloth::Bvh& bvh, uint32_t child, const glm::vec3& min
     return depth + 1;
 }
 
+// Which nodes are come by, left before right; leaves' triangles must follow each other.
+void walk(const cloth::Bvh& bvh, uint32_t child, std::vector<uint32_t>& order, uint32_t& triangles)
+{
+    if ((child & VOILE_BVH_LEAF_BIT) != 0)
+    {
+        REQUIRE((child & VOILE_BVH_FIRST_MASK) == triangles);
+        triangles += ((child >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1;
+        return;
+    }
+    order.push_back(child);
+    walk(bvh, bvh.nodes.at(child).left, order, triangles);
+    walk(bvh, bvh.nodes.at(child).right, order, triangles);
+}
+
 std::optional<cloth::RayHit> brute_hit(const Soup& soup, const glm::dvec3& origin, const glm::dvec3& direction,
                                        double limit)
 {
@@ -157,6 +172,48 @@ TEST_CASE("every triangle lies in one leaf, every box inside its parent's, and n
             CHECK(bvh.depth <= VOILE_BVH_MAX_DEPTH);
             CHECK(seen == std::vector<uint32_t>(seen.size(), 1));
         }
+}
+
+TEST_CASE("however many threads build a hierarchy, and whatever they share out, it is the same to the bit")
+{
+    std::vector<Soup> meshes = soups();
+    meshes.push_back(random_soup(30000, 0.02f, 8));
+    const engine::Mesh sphere = engine::make_sphere({0, 0, 0}, 1, 96);
+    meshes.push_back({"finer sphere", sphere.positions, sphere.triangles});
+    Soup lopsided = random_soup(20000, 0.02f, 9); // a few triangles far away: small subtrees beside large ones
+    for (int i = 0; i < 3; ++i)
+        add_triangle(lopsided, {1e4f, 0, 0}, {1e4f, 1, 0}, {1e4f, 0, static_cast<float>(i)});
+    lopsided.name = "lopsided";
+    meshes.push_back(lopsided);
+    for (const Soup& soup : meshes)
+        for (const uint32_t leaf : {1u, 2u, 4u})
+        {
+            CAPTURE(soup.name);
+            CAPTURE(leaf);
+            constexpr uint32_t k_all = 1u << 30;
+            const cloth::Bvh whole = cloth::build_bvh(soup.positions, soup.triangles, {leaf, 1, k_all});
+            const cloth::BvhOptions shared_out[] = {{leaf, 1, 64}, {leaf, 2, 1}, {leaf, 3, 500}, {leaf, 8, 64}, {leaf}};
+            for (const cloth::BvhOptions& options : shared_out)
+            {
+                CAPTURE(options.threads);
+                CAPTURE(options.triangles_per_subtree);
+                CHECK(same_bits(cloth::build_bvh(soup.positions, soup.triangles, options), whole));
+            }
+        }
+}
+
+TEST_CASE("the nodes of a hierarchy are depth first")
+{
+    const Soup soup = random_soup(20000, 0.02f, 10);
+    const cloth::Bvh bvh =
+        cloth::build_bvh(soup.positions, soup.triangles, {.threads = 4, .triangles_per_subtree = 300});
+    std::vector<uint32_t> order;
+    uint32_t triangles = 0;
+    walk(bvh, 0, order, triangles);
+    REQUIRE(order.size() == bvh.nodes.size());
+    for (uint32_t i = 0; i < order.size(); ++i)
+        REQUIRE(order[i] == i);
+    CHECK(triangles == bvh.triangles.size());
 }
 
 TEST_CASE("random rays hit what brute force hits")

@@ -1,10 +1,14 @@
-// Building a hierarchy by binned SAH.
+// Building a hierarchy by binned SAH, on all cores.
 #include "bvh.hpp"
 
+#include "bvh_split.hpp"
+#include "parallel.hpp"
+
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <limits>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
 
 namespace cloth
 {
@@ -12,236 +16,278 @@ namespace cloth
 namespace
 {
 
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
-constexpr uint32_t k_bins = 16;
+constexpr size_t k_piece = 16384; // primitives that one thread makes at a time
 
-struct Box
+// A range that becomes a node with everything below. A large one is split into two that any thread may take up; others
+// are built by one thread. How many nodes come before is known once all are built: until then their indices are
+// relative.
+struct Subtree
 {
-    glm::vec3 min{k_infinity};
-    glm::vec3 max{-k_infinity};
-
-    void add(const glm::vec3& p)
-    {
-        min = glm::min(min, p);
-        max = glm::max(max, p);
-    }
-
-    void add(const Box& other)
-    {
-        min = glm::min(min, other.min);
-        max = glm::max(max, other.max);
-    }
-
-    [[nodiscard]] float half_area() const
-    {
-        const glm::vec3 d = max - min;
-        return d.x < 0 ? 0 : d.x * d.y + d.y * d.z + d.z * d.x;
-    }
+    PrimitiveRange range;
+    uint32_t depth = 1;                   // of its topmost node, the root's is 1
+    std::unique_ptr<Subtree> left, right; // of a large one
+    std::vector<shared::BvhNode> nodes;   // of others, depth first, indices from 0
+    uint32_t deepest = 0;                 // node of `nodes`
+    uint32_t link = 0;                    // how the parent refers to it: a leaf, or, at last, its first node's index
 };
 
-struct Primitive
+bool is_leaf(const Subtree& subtree)
 {
-    Box box;
-    glm::vec3 centroid; // of the box
-    uint32_t triangle;
-};
+    return (subtree.link & VOILE_BVH_LEAF_BIT) != 0;
+}
 
-struct Split
+shared::BvhNode make_node(const Box& left_box, uint32_t left, const Box& right_box, uint32_t right)
 {
-    int axis = -1;    // none
-    uint32_t bin = 0; // the first bin of the right side
-    float cost = k_infinity;
-};
-
-// Which bin of its node a centroid falls into.
-struct Binning
-{
-    glm::vec3 origin;
-    glm::vec3 scale{0.f}; // 0 along an axis without extent
-
-    explicit Binning(const Box& centroids) : origin(centroids.min)
-    {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const float extent = centroids.max[axis] - centroids.min[axis];
-            const float bins = static_cast<float>(k_bins) * (1 - 1e-6f);
-            scale[axis] = extent > 0 && bins / extent < k_infinity ? bins / extent : 0;
-        }
-    }
-
-    [[nodiscard]] uint32_t bin(const glm::vec3& centroid, int axis) const
-    {
-        return std::min(static_cast<uint32_t>((centroid[axis] - origin[axis]) * scale[axis]), k_bins - 1);
-    }
-};
+    return {left_box.min, left, left_box.max, 0, right_box.min, right, right_box.max, 0};
+}
 
 class Builder
 {
 public:
-    Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, uint32_t leaf_size)
-        : positions_(positions), triangles_(triangles), leaf_size_(leaf_size)
+    Builder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, const BvhOptions& options)
+        : positions_(positions), triangles_(triangles), leaf_size_(std::clamp(options.triangles_per_leaf, 1u, 4u)),
+          subtree_size_(std::max(options.triangles_per_subtree, leaf_size_)), threads_(options.threads),
+          primitives_(std::make_unique_for_overwrite<Primitive[]>(triangles.size())),
+          scratch_(std::make_unique_for_overwrite<Primitive[]>(triangles.size()))
     {
-        primitives_.reserve(triangles.size());
-        for (uint32_t t = 0; t < triangles.size(); ++t)
-        {
-            Primitive primitive{{}, {}, t};
-            for (int corner = 0; corner < 3; ++corner)
-                primitive.box.add(positions[triangles[t][corner]]);
-            primitive.centroid = 0.5f * (primitive.box.min + primitive.box.max);
-            primitives_.push_back(primitive);
-        }
     }
 
     Bvh build()
     {
-        bvh_.triangles.reserve(primitives_.size());
-        bvh_.nodes.reserve(primitives_.size());
-        if (primitives_.size() <= leaf_size_)
-        {
-            const Box box = bounds(primitives_);
-            const uint32_t leaf = add_leaf(primitives_);
-            bvh_.nodes.push_back({box.min, leaf, box.max, 0, glm::vec3(k_infinity), leaf, glm::vec3(-k_infinity), 0});
-            bvh_.depth = 1;
-        }
-        else
-            add_node(primitives_, 1);
+        bvh_.triangles.resize(triangles_.size());
+        Subtree root;
+        root.range = make_primitives();
+        waiting_.push_back(&root);
+        run_together(thread_count(threads_, triangles_.size() / subtree_size_ + 1), [this] { work(); });
+        assemble(root);
         return std::move(bvh_);
     }
 
 private:
-    using Range = std::span<Primitive>;
+    // Boxes of pieces are joined in order: which zero a minimum of 0 and -0 is must not depend on chance.
+    PrimitiveRange make_primitives()
+    {
+        PrimitiveRange all{{primitives_.get(), triangles_.size()}, {}, {}};
+        std::vector<PrimitiveRange> pieces((triangles_.size() + k_piece - 1) / k_piece);
+        parallel_for(
+            triangles_.size(), k_piece,
+            [&](size_t first, size_t last)
+            {
+                PrimitiveRange piece;
+                for (size_t t = first; t < last; ++t)
+                    piece.add(primitives_[t] = make_primitive(static_cast<uint32_t>(t)));
+                pieces[first / k_piece] = piece;
+            },
+            threads_);
+        for (const PrimitiveRange& piece : pieces)
+        {
+            all.box.add(piece.box);
+            all.centroids.add(piece.centroids);
+        }
+        return all;
+    }
 
-    static Box bounds(Range range)
+    [[nodiscard]] Primitive make_primitive(uint32_t t) const
     {
         Box box;
-        for (const Primitive& primitive : range)
-            box.add(primitive.box);
-        return box;
+        for (int corner = 0; corner < 3; ++corner)
+            box.add(positions_[triangles_[t][corner]]);
+        return {box.min, t, box.max, 0};
     }
 
-    uint32_t add_leaf(Range range)
+    // What each thread does: takes up subtrees until there are none, and none can come.
+    void work()
     {
-        const auto first = static_cast<uint32_t>(bvh_.triangles.size());
-        for (const Primitive& primitive : range)
+        Splitter splitter;
+        std::unique_lock lock(mutex_);
+        for (;;)
         {
-            const glm::uvec3& t = triangles_[primitive.triangle];
-            bvh_.triangles.push_back({positions_[t.x], primitive.triangle, positions_[t.y], 0, positions_[t.z], 0});
+            changed_.wait(lock, [this] { return !waiting_.empty() || unfinished_ == 0; });
+            if (unfinished_ == 0)
+                return;
+            Subtree& subtree = *waiting_.front(); // the largest ones come first
+            waiting_.pop_front();
+            lock.unlock();
+            process(splitter, subtree);
+            lock.lock();
+            finish(subtree);
         }
-        return VOILE_BVH_LEAF_BIT | static_cast<uint32_t>(range.size() - 1) << VOILE_BVH_COUNT_SHIFT | first;
     }
 
-    uint32_t add_child(Range range, uint32_t depth)
+    void process(Splitter& splitter, Subtree& subtree)
     {
-        return range.size() <= leaf_size_ ? add_leaf(range) : add_node(range, depth);
+        try
+        {
+            if (subtree.range.primitives.size() > subtree_size_)
+                split(splitter, subtree);
+            else if (subtree.depth > 1 && subtree.range.primitives.size() <= leaf_size_)
+                subtree.link = add_leaf(subtree.range);
+            else
+                add_nodes(splitter, subtree);
+        }
+        catch (...) // out of memory: the others are not to wait for it
+        {
+            const std::lock_guard lock(mutex_);
+            unfinished_ = 0;
+            changed_.notify_all();
+            throw;
+        }
+    }
+
+    void finish(Subtree& subtree)
+    {
+        if (unfinished_ == 0) // another thread failed
+            return;
+        --unfinished_;
+        if (subtree.left)
+        {
+            waiting_.push_back(subtree.left.get());
+            waiting_.push_back(subtree.right.get());
+            unfinished_ += 2;
+        }
+        changed_.notify_all();
+    }
+
+    void split(Splitter& splitter, Subtree& subtree)
+    {
+        const Splitter::Halves halves = splitter.split(subtree.range, scratch(subtree.range), subtree.depth);
+        subtree.left = std::make_unique<Subtree>();
+        subtree.right = std::make_unique<Subtree>();
+        subtree.left->range = halves.left;
+        subtree.right->range = halves.right;
+        subtree.left->depth = subtree.right->depth = subtree.depth + 1;
+    }
+
+    void add_nodes(Splitter& splitter, Subtree& subtree)
+    {
+        const PrimitiveRange& range = subtree.range;
+        subtree.nodes.reserve(range.primitives.size());
+        if (range.primitives.size() > leaf_size_)
+        {
+            add_node(splitter, subtree, range, subtree.depth);
+            return;
+        }
+        const uint32_t leaf = add_leaf(range); // the whole mesh is one
+        subtree.nodes.push_back(make_node(range.box, leaf, {}, leaf));
+        subtree.deepest = 1;
     }
 
     // `depth` counts this node. Returns its index.
-    uint32_t add_node(Range range, uint32_t depth)
+    uint32_t add_node(Splitter& splitter, Subtree& subtree, const PrimitiveRange& range, uint32_t depth)
     {
-        bvh_.depth = std::max(bvh_.depth, depth);
-        const auto index = static_cast<uint32_t>(bvh_.nodes.size());
-        bvh_.nodes.emplace_back();
-        const size_t middle = partition(range, depth);
-        const Range left = range.first(middle);
-        const Range right = range.subspan(middle);
-        const Box left_box = bounds(left);
-        const Box right_box = bounds(right);
-        const uint32_t left_child = add_child(left, depth + 1);
-        const uint32_t right_child = add_child(right, depth + 1);
-        bvh_.nodes[index] = {left_box.min, left_child, left_box.max, 0, right_box.min, right_child, right_box.max, 0};
+        subtree.deepest = std::max(subtree.deepest, depth);
+        const auto index = static_cast<uint32_t>(subtree.nodes.size());
+        subtree.nodes.emplace_back();
+        const Splitter::Halves halves = splitter.split(range, scratch(range), depth);
+        const uint32_t left = add_child(splitter, subtree, halves.left, depth + 1);
+        const uint32_t right = add_child(splitter, subtree, halves.right, depth + 1);
+        subtree.nodes[index] = make_node(halves.left.box, left, halves.right.box, right);
         return index;
     }
 
-    // Reorders the range into two sides that are not empty; returns where the right one begins.
-    size_t partition(Range range, uint32_t depth) const
+    uint32_t add_child(Splitter& splitter, Subtree& subtree, const PrimitiveRange& range, uint32_t depth)
     {
-        Box centroids;
-        for (const Primitive& primitive : range)
-            centroids.add(primitive.centroid);
-        // A balanced subtree of this many triangles still fits below; past that, balance matters more than cost.
-        const bool deep = depth + static_cast<uint32_t>(std::bit_width(range.size())) >= VOILE_BVH_MAX_DEPTH;
-        const Binning binning(centroids);
-        const Split split = deep ? Split{} : best_split(range, binning);
-        if (split.axis >= 0)
-        {
-            const auto right = std::stable_partition(range.begin(), range.end(),
-                                                     [&](const Primitive& p)
-                                                     { return binning.bin(p.centroid, split.axis) < split.bin; });
-            return static_cast<size_t>(right - range.begin());
-        }
-        return halve(range, centroids);
+        return range.primitives.size() <= leaf_size_ ? add_leaf(range) : add_node(splitter, subtree, range, depth);
     }
 
-    static size_t halve(Range range, const Box& centroids)
+    // The primitives are in the order of the leaves where they are.
+    uint32_t add_leaf(const PrimitiveRange& range)
     {
-        const glm::vec3 extent = centroids.max - centroids.min;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-        const size_t middle = range.size() / 2;
-        std::nth_element(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(middle), range.end(),
-                         [axis](const Primitive& a, const Primitive& b) {
-                             return a.centroid[axis] != b.centroid[axis] ? a.centroid[axis] < b.centroid[axis]
-                                                                         : a.triangle < b.triangle;
-                         });
-        return middle;
+        const size_t first = offset(range);
+        for (size_t i = 0; i < range.primitives.size(); ++i)
+        {
+            const uint32_t index = range.primitives[i].triangle;
+            const glm::uvec3& t = triangles_[index];
+            bvh_.triangles[first + i] = {positions_[t.x], index, positions_[t.y], 0, positions_[t.z], 0};
+        }
+        return VOILE_BVH_LEAF_BIT | static_cast<uint32_t>(range.primitives.size() - 1) << VOILE_BVH_COUNT_SHIFT |
+               static_cast<uint32_t>(first);
     }
 
-    static Split best_split(Range range, const Binning& binning)
+    [[nodiscard]] size_t offset(const PrimitiveRange& range) const
     {
-        Split best;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            if (binning.scale[axis] == 0)
-                continue;
-            std::array<Box, k_bins> boxes;
-            std::array<uint32_t, k_bins> counts{};
-            for (const Primitive& primitive : range)
-            {
-                const uint32_t bin = binning.bin(primitive.centroid, axis);
-                boxes[bin].add(primitive.box);
-                ++counts[bin];
-            }
-            sweep(boxes, counts, axis, best);
-        }
-        return best;
+        return static_cast<size_t>(range.primitives.data() - primitives_.get());
     }
 
-    // The cheapest of the planes between bins along one axis, if it beats `best`.
-    static void sweep(const std::array<Box, k_bins>& boxes, const std::array<uint32_t, k_bins>& counts, int axis,
-                      Split& best)
+    [[nodiscard]] std::span<Primitive> scratch(const PrimitiveRange& range) const
     {
-        std::array<float, k_bins> right_costs{};
-        Box box;
-        uint32_t count = 0;
-        for (uint32_t bin = k_bins - 1; bin > 0; --bin)
+        return {scratch_.get() + offset(range), range.primitives.size()};
+    }
+
+    void assemble(Subtree& root)
+    {
+        uint32_t nodes = 0;
+        std::vector<const Subtree*> built;
+        place(root, nodes, built);
+        bvh_.nodes.resize(nodes);
+        join(root);
+        parallel_for(
+            built.size(), 1, [&](size_t first, size_t) { copy(*built[first]); }, threads_);
+    }
+
+    // Gives every subtree the index of its first node, depth first.
+    void place(Subtree& subtree, uint32_t& next, std::vector<const Subtree*>& built)
+    {
+        if (is_leaf(subtree))
+            return;
+        subtree.link = next;
+        if (subtree.left)
         {
-            box.add(boxes[bin]);
-            count += counts[bin];
-            right_costs[bin] = count > 0 ? box.half_area() * static_cast<float>(count) : k_infinity;
+            ++next;
+            place(*subtree.left, next, built);
+            place(*subtree.right, next, built);
+            return;
         }
-        box = {};
-        count = 0;
-        for (uint32_t bin = 1; bin < k_bins; ++bin)
+        next += static_cast<uint32_t>(subtree.nodes.size());
+        bvh_.depth = std::max(bvh_.depth, subtree.deepest);
+        built.push_back(&subtree);
+    }
+
+    // The nodes above what single threads built.
+    void join(const Subtree& subtree)
+    {
+        if (!subtree.left)
+            return;
+        const Subtree& left = *subtree.left;
+        const Subtree& right = *subtree.right;
+        bvh_.nodes[subtree.link] = make_node(left.range.box, left.link, right.range.box, right.link);
+        bvh_.depth = std::max(bvh_.depth, subtree.depth);
+        join(left);
+        join(right);
+    }
+
+    void copy(const Subtree& subtree)
+    {
+        const auto absolute = [&](uint32_t child)
+        { return (child & VOILE_BVH_LEAF_BIT) != 0 ? child : child + subtree.link; };
+        for (size_t i = 0; i < subtree.nodes.size(); ++i)
         {
-            box.add(boxes[bin - 1]);
-            count += counts[bin - 1];
-            const float cost = count > 0 ? box.half_area() * static_cast<float>(count) + right_costs[bin] : k_infinity;
-            if (cost < best.cost)
-                best = {axis, bin, cost};
+            shared::BvhNode& node = bvh_.nodes[subtree.link + i] = subtree.nodes[i];
+            node.left = absolute(node.left);
+            node.right = absolute(node.right);
         }
     }
 
     std::span<const glm::vec3> positions_;
     std::span<const glm::uvec3> triangles_;
     uint32_t leaf_size_;
-    std::vector<Primitive> primitives_;
+    uint32_t subtree_size_;
+    uint32_t threads_; // at most; 0: one a core
+    std::unique_ptr<Primitive[]> primitives_;
+    std::unique_ptr<Primitive[]> scratch_;
     Bvh bvh_;
+
+    std::mutex mutex_; // of the following
+    std::condition_variable changed_;
+    std::deque<Subtree*> waiting_;
+    size_t unfinished_ = 1; // subtrees that wait or are worked on; 0 too where one failed
 };
 
 } // namespace
 
 Bvh build_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, const BvhOptions& options)
 {
-    return Builder(positions, triangles, std::clamp(options.triangles_per_leaf, 1u, 4u)).build();
+    return Builder(positions, triangles, options).build();
 }
 
 } // namespace cloth
