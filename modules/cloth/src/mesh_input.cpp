@@ -4,9 +4,6 @@
 #include "model.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <unordered_map>
 
 namespace cloth
 {
@@ -60,50 +57,6 @@ Result<void> validate_triangles(const std::string& what, const std::string& name
                                "triangle " + std::to_string(t) + " refers to position " +
                                    std::to_string(triangles[t][corner]) + " of " + std::to_string(positions.size()));
     return {};
-}
-
-std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
-{
-    struct Hash
-    {
-        size_t operator()(const glm::vec3& p) const
-        {
-            uint32_t bits[3];
-            std::memcpy(bits, &p, sizeof(bits));
-            return (size_t{bits[0]} * 73856093u) ^ (size_t{bits[1]} * 19349663u) ^ (size_t{bits[2]} * 83492791u);
-        }
-    };
-    std::unordered_map<glm::vec3, uint32_t, Hash> first;
-    first.reserve(positions.size());
-    std::vector<uint32_t> result(positions.size());
-    for (uint32_t i = 0; i < positions.size(); ++i)
-        result[i] = first.try_emplace(positions[i] + 0.f, i).first->second; // + 0: -0 and 0 are one place
-    return result;
-}
-
-Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-{
-    const std::vector<uint32_t> welded = weld(positions);
-    // A directed edge as a key; a closed mesh has every one once, and its reverse once.
-    std::vector<uint64_t> edges;
-    edges.reserve(3 * triangles.size());
-    Closedness result;
-    for (const glm::uvec3& t : triangles)
-    {
-        for (int corner = 0; corner < 3; ++corner)
-            edges.push_back(uint64_t{welded[t[corner]]} << 32 | welded[t[(corner + 1) % 3]]);
-        const glm::dvec3 a = positions[t.x];
-        const glm::dvec3 b = positions[t.y];
-        const glm::dvec3 c = positions[t.z];
-        result.volume += glm::dot(a, glm::cross(b, c)) / 6;
-    }
-    std::sort(edges.begin(), edges.end());
-    const bool unique = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-    result.closed =
-        unique && std::all_of(edges.begin(), edges.end(),
-                              [&](uint64_t edge)
-                              { return std::binary_search(edges.begin(), edges.end(), edge << 32 | edge >> 32); });
-    return result;
 }
 
 Result<MeshInput> prepare_mesh(const MeshCollider& collider)

@@ -28,7 +28,8 @@ Result<void> validate_triangles(const std::string& what, const std::string& name
 std::vector<uint32_t> weld(std::span<const glm::vec3> positions);
 
 // Whether every edge is shared by exactly two triangles that run along it in opposite directions. Vertices at the same
-// place count as one. `volume` (m^3) is then what the mesh encloses, negative for an inside-out one.
+// place count as one; no triangle may have two corners there. `volume` (m^3) is what a closed mesh encloses, negative
+// for an inside-out one; 0 for an open one.
 struct Closedness
 {
     bool closed = false;
