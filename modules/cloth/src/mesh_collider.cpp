@@ -1,7 +1,7 @@
 // Mesh colliders: their hierarchy and record.
 #include "model.hpp"
 
-#include "bvh.hpp"
+#include "bvh_cache.hpp"
 #include "mesh_input.hpp"
 #include "padded_tree.hpp"
 #include "refit.hpp"
@@ -45,7 +45,8 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
         record.flags |= VOILE_COLLIDER_ONE_SIDED;
     if (collider.deforms)
         return append_deforming(record, mesh.value(), collider.transform);
-    const Bvh bvh = build_bvh(mesh.value().positions, mesh.value().triangles);
+    const auto hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles);
+    const Bvh& bvh = *hierarchy;
     record.first_node = static_cast<uint32_t>(nodes.size());
     record.first_triangle = static_cast<uint32_t>(triangles.size());
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());

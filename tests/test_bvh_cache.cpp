@@ -1,0 +1,189 @@
+// The cache of hierarchies: what is found again and what is not, its size, and its use by several threads.
+#include "bvh_cache.hpp"
+#include "bvh_checks.hpp"
+#include "model.hpp"
+
+#include "engine/assets/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <thread>
+
+namespace
+{
+
+constexpr uint64_t k_plenty = uint64_t{1} << 30;
+
+engine::Mesh sphere(float radius)
+{
+    return engine::make_sphere({0, 0, 0}, radius, 12);
+}
+
+std::shared_ptr<const cloth::Bvh> get(cloth::BvhCache& cache, const engine::Mesh& mesh)
+{
+    return cache.get(mesh.positions, mesh.triangles);
+}
+
+uint64_t bytes_of(const cloth::Bvh& bvh)
+{
+    return sizeof(bvh) + bvh.nodes.size() * sizeof(bvh.nodes[0]) + bvh.triangles.size() * sizeof(bvh.triangles[0]);
+}
+
+} // namespace
+
+TEST_CASE("a mesh that is asked for again is not built again, and what comes is what building gives")
+{
+    cloth::BvhCache cache(k_plenty);
+    const engine::Mesh mesh = sphere(1);
+    const auto first = get(cache, mesh);
+    const engine::Mesh twin = mesh; // in other memory
+    const auto second = get(cache, twin);
+    CHECK(first == second);
+    CHECK(same_bits(*second, cloth::build_bvh(mesh.positions, mesh.triangles)));
+    CHECK(cache.counts().builds == 1);
+    CHECK(cache.counts().hits == 1);
+    CHECK(cache.counts().entries == 1);
+    CHECK(cache.counts().bytes == bytes_of(*first));
+}
+
+TEST_CASE("any change of a mesh is built anew")
+{
+    cloth::BvhCache cache(k_plenty);
+    const engine::Mesh mesh = sphere(1);
+    (void)get(cache, mesh);
+    engine::Mesh changed = mesh;
+    SUBCASE("a coordinate in its last bit")
+    {
+        float& x = changed.positions[changed.triangles.back().z].x;
+        x = std::nextafter(x, 2.f);
+    }
+    SUBCASE("a zero of the other sign")
+    {
+        changed.positions[changed.triangles[0].x].x = 0.f;
+        (void)get(cache, changed);
+        changed.positions[changed.triangles[0].x].x = -0.f;
+    }
+    SUBCASE("a triangle turned")
+    {
+        std::swap(changed.triangles[5].y, changed.triangles[5].z);
+    }
+    SUBCASE("a triangle less")
+    {
+        changed.triangles.pop_back();
+    }
+    SUBCASE("two triangles exchanged")
+    {
+        std::swap(changed.triangles[3], changed.triangles[40]);
+    }
+    const cloth::BvhCache::Counts before = cache.counts();
+    const auto bvh = get(cache, changed);
+    CHECK(cache.counts().builds == before.builds + 1);
+    CHECK(cache.counts().hits == before.hits);
+    CHECK(same_bits(*bvh, cloth::build_bvh(changed.positions, changed.triangles)));
+}
+
+TEST_CASE("what is found is compared with the mesh, should two keys be equal")
+{
+    const engine::Mesh mesh = sphere(1);
+    const cloth::Bvh bvh = cloth::build_bvh(mesh.positions, mesh.triangles);
+    CHECK(cloth::built_from(bvh, mesh.positions, mesh.triangles));
+    for (const int corner : {0, 1, 2})
+    {
+        engine::Mesh moved = mesh;
+        moved.positions[moved.triangles.back()[corner]].y += 1e-3f;
+        CHECK_FALSE(cloth::built_from(bvh, moved.positions, moved.triangles));
+    }
+    engine::Mesh shorter = mesh;
+    shorter.triangles.pop_back();
+    CHECK_FALSE(cloth::built_from(bvh, shorter.positions, shorter.triangles));
+}
+
+TEST_CASE("the cache keeps to its limit and lets go of what was used longest ago")
+{
+    const engine::Mesh meshes[] = {sphere(1), sphere(2), sphere(3)};
+    const uint64_t one = bytes_of(cloth::build_bvh(meshes[0].positions, meshes[0].triangles));
+    cloth::BvhCache cache(one * 5 / 2); // two of them, which differ by a few nodes
+    const auto kept = get(cache, meshes[0]);
+    (void)get(cache, meshes[1]);
+    (void)get(cache, meshes[0]);
+    (void)get(cache, meshes[2]); // 1 goes: 0 was used since
+    CHECK(cache.counts().entries == 2);
+    CHECK(cache.counts().bytes <= one * 5 / 2);
+    CHECK(cache.counts().builds == 3);
+    (void)get(cache, meshes[0]);
+    CHECK(cache.counts().builds == 3);
+    (void)get(cache, meshes[1]);
+    CHECK(cache.counts().builds == 4);
+
+    cache.set_limit(one / 2);
+    CHECK(cache.counts().entries == 0);
+    CHECK(cache.counts().bytes == 0);
+    (void)get(cache, meshes[0]); // larger than all there may be: not kept, and no reason to fail
+    CHECK(cache.counts().entries == 0);
+    CHECK(same_bits(*kept, cloth::build_bvh(meshes[0].positions, meshes[0].triangles))); // whoever has it keeps it
+}
+
+TEST_CASE("several threads may ask at once, while others change the limit")
+{
+    cloth::BvhCache cache(k_plenty);
+    const std::vector<engine::Mesh> meshes{sphere(1), sphere(2), sphere(3), sphere(4)};
+    std::vector<cloth::Bvh> expected;
+    for (const engine::Mesh& mesh : meshes)
+        expected.push_back(cloth::build_bvh(mesh.positions, mesh.triangles));
+    constexpr uint32_t k_threads = 4;
+    constexpr uint32_t k_rounds = 50;
+    std::vector<uint32_t> wrong(k_threads);
+    {
+        std::vector<std::jthread> threads;
+        for (uint32_t thread = 0; thread < k_threads; ++thread)
+            threads.emplace_back(
+                [&, thread]
+                {
+                    for (uint32_t i = 0; i < k_rounds; ++i)
+                    {
+                        const size_t mesh = (i * (thread + 1) + thread) % meshes.size();
+                        wrong[thread] += same_bits(*get(cache, meshes[mesh]), expected[mesh]) ? 0 : 1;
+                        if (thread == 0)
+                            cache.set_limit(bytes_of(expected[0]) * (i % 6));
+                    }
+                });
+    }
+    CHECK(wrong == std::vector<uint32_t>(k_threads));
+    CHECK(cache.counts().builds + cache.counts().hits == k_threads * k_rounds);
+}
+
+TEST_CASE("colliders of all solvers share a cache; a changed vertex or transform builds anew")
+{
+    cloth::BvhCache& cache = cloth::bvh_cache();
+    cloth::set_hierarchy_cache_limit(0);
+    cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+    engine::Mesh mesh = sphere(0.7f);
+    const auto collider = [&] { return cloth::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}; };
+    const uint64_t before = cache.counts().builds;
+    const auto builds = [&] { return cache.counts().builds - before; };
+
+    cloth::Model one;
+    REQUIRE(one.add(collider()));
+    CHECK(builds() == 1);
+    REQUIRE(one.add(collider()));
+    cloth::Model other;
+    REQUIRE(other.add(collider()));
+    CHECK(builds() == 1);
+    CHECK(one.colliders.size() == 2);
+    CHECK(one.nodes.size() == 2 * other.nodes.size());
+
+    mesh.positions[7].x += 0.01f;
+    REQUIRE(other.add(collider()));
+    CHECK(builds() == 2);
+    cloth::MeshCollider moved = collider();
+    moved.transform[3].x = 1;
+    REQUIRE(other.add(moved));
+    CHECK(builds() == 3);
+
+    cloth::set_hierarchy_cache_limit(0);
+    CHECK(cache.counts().entries == 0);
+    REQUIRE(other.add(collider()));
+    CHECK(builds() == 4);
+    cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+}
