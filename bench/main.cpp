@@ -1,4 +1,5 @@
 // cloth_bench: what the solver costs on a device, one line a case. Without a window.
+#include "add_mesh.hpp"
 #include "cases.hpp"
 #include "device_probe.hpp"
 #include "measure.hpp"
@@ -51,6 +52,7 @@ struct Chosen
     std::vector<const bench::Case*> cases;
     std::vector<const bench::RefitCase*> refits;
     std::vector<const bench::DrapeCase*> drapes;
+    std::vector<const bench::AddCase*> adds;
 };
 
 // All that are named; without a name all, the drape scene only on a GPU: a CPU device would take hours over it.
@@ -65,6 +67,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
             chosen.refits.push_back(refit);
         else if (const bench::DrapeCase* drape = bench::find_drape_case(name))
             chosen.drapes.push_back(drape);
+        else if (const bench::AddCase* add = bench::find_add_case(name))
+            chosen.adds.push_back(add);
         else
             throw engine::StartupError("--case " + name + ": there is no such case; --list shows them");
     }
@@ -77,6 +81,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
     if (!cpu)
         for (const bench::DrapeCase& item : bench::drape_cases())
             chosen.drapes.push_back(&item);
+    for (const bench::AddCase& item : bench::add_cases())
+        chosen.adds.push_back(&item);
     return chosen;
 }
 
@@ -88,6 +94,8 @@ void list_cases()
         std::printf("%-28s %s\n", item.name, item.purpose);
     for (const bench::DrapeCase& item : bench::drape_cases())
         std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
+    for (const bench::AddCase& item : bench::add_cases())
+        std::printf("%-28s adding a mesh collider: %s\n", item.name, item.purpose);
 }
 
 void list_devices()
@@ -140,6 +148,10 @@ void run(const Options& options)
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement));
     }
+    if (!chosen.adds.empty())
+        bench::print_add_header();
+    for (const bench::AddCase* item : chosen.adds)
+        bench::print_add_row(*item, bench::measure_add(device, *item));
 }
 
 // CLI11's own words run over several lines.

@@ -106,6 +106,22 @@ void print_refit_row(const RefitCase& item, const RefitMeasurement& m, const Dev
     std::fflush(stdout);
 }
 
+void print_add_header()
+{
+    std::printf(
+        "\nSolver::add_collider of a mesh, milliseconds of the host: built, and from the cache of hierarchies.\n\n"
+        "%-20s %9s %12s %12s %12s\n",
+        "case", "triangles", "built median", "least", "again median");
+    std::fflush(stdout);
+}
+
+void print_add_row(const AddCase& item, const AddMeasurement& m)
+{
+    std::printf("%-20s %9zu %12.1f %12.1f %12.1f\n", item.name, m.triangles, m.built_median, m.built_least,
+                m.again_median);
+    std::fflush(stdout);
+}
+
 gpu::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;

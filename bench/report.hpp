@@ -1,6 +1,7 @@
 // What the benchmark prints, and the CSV file that it appends to.
 #pragma once
 
+#include "add_mesh.hpp"
 #include "device_probe.hpp"
 #include "drape.hpp"
 #include "measure.hpp"
@@ -20,6 +21,10 @@ void print_drape_row(const DrapeCase& item, const DrapeMeasurement& measurement)
 
 void print_refit_header();
 void print_refit_row(const RefitCase& item, const RefitMeasurement& measurement, const DeviceProbe& probe);
+
+// The host's work; it has no rows in the CSV file.
+void print_add_header();
+void print_add_row(const AddCase& item, const AddMeasurement& measurement);
 
 // Share of the copy bandwidth that a case reaches.
 double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe);

@@ -1,0 +1,97 @@
+// Adding mesh colliders.
+#include "add_mesh.hpp"
+
+#include "heart.hpp"
+#include "timed_queue.hpp"
+
+#include "cloth/solver.hpp"
+#include "engine/assets/shapes.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace bench
+{
+
+namespace
+{
+
+// 2 million triangles, open: hills of 0.3 m on 10 m x 10 m.
+engine::Mesh make_terrain()
+{
+    constexpr uint32_t k_side = 1000; // squares
+    engine::Mesh mesh;
+    for (uint32_t row = 0; row <= k_side; ++row)
+        for (uint32_t column = 0; column <= k_side; ++column)
+        {
+            const float x = 0.01f * static_cast<float>(column);
+            const float z = 0.01f * static_cast<float>(row);
+            const float y = 0.3f * std::sin(3 * x) * std::cos(2 * z) + 0.02f * std::sin(41 * x + 17 * z);
+            mesh.positions.emplace_back(x, y, z);
+        }
+    for (uint32_t row = 0; row < k_side; ++row)
+        for (uint32_t column = 0; column < k_side; ++column)
+        {
+            const uint32_t a = row * (k_side + 1) + column;
+            const uint32_t b = a + k_side + 1;
+            mesh.triangles.emplace_back(a, b, a + 1);
+            mesh.triangles.emplace_back(a + 1, b, b + 1);
+        }
+    return mesh;
+}
+
+// 2 million triangles, closed: every edge has to be looked at.
+engine::Mesh make_ball()
+{
+    return engine::make_sphere({0, 0, 0}, 1, 708);
+}
+
+constexpr AddCase k_cases[] = {
+    {"add-heart", "the reference scene's heart", scenes::make_reference_heart, 50},
+    {"add-terrain", "an open mesh of 2 million triangles", make_terrain, 7},
+    {"add-ball", "a closed mesh of 2 million triangles", make_ball, 7},
+};
+
+// Milliseconds.
+double time_add(const engine::Device& device, const cloth::MeshCollider& collider)
+{
+    cloth::Solver solver = engine::take(cloth::Solver::create(device.context().handles, {}));
+    const auto begin = std::chrono::steady_clock::now();
+    (void)engine::take(solver.add_collider(collider));
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+} // namespace
+
+std::span<const AddCase> add_cases()
+{
+    return k_cases;
+}
+
+const AddCase* find_add_case(std::string_view name)
+{
+    const auto* found =
+        std::find_if(std::begin(k_cases), std::end(k_cases), [&](const AddCase& item) { return name == item.name; });
+    return found != std::end(k_cases) ? found : nullptr;
+}
+
+AddMeasurement measure_add(const engine::Device& device, const AddCase& item)
+{
+    const engine::Mesh mesh = item.make();
+    const cloth::MeshCollider collider{.positions = mesh.positions, .triangles = mesh.triangles};
+    std::vector<double> built;
+    std::vector<double> again;
+    for (uint32_t i = 0; i < item.repetitions; ++i)
+    {
+        cloth::set_hierarchy_cache_limit(0);
+        cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+        built.push_back(time_add(device, collider));
+        again.push_back(time_add(device, collider));
+    }
+    cloth::set_hierarchy_cache_limit(0); // later measurements are to have the memory
+    cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+    return {mesh.triangles.size(), quantile(built, 0.5), quantile(built, 0), quantile(again, 0.5)};
+}
+
+} // namespace bench
