@@ -54,8 +54,10 @@ vec3 nearest_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
     const float va = d3 * d6 - d5 * d4;
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
         return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-    const float inverse = 1 / (va + vb + vc);
-    return a + vb * inverse * ab + vc * inverse * ac;
+    // By the normal and not by the areas va, vb, vc: in a long thin triangle these are differences of large numbers, and
+    // the offset from a place that they give would lean along the triangle.
+    const vec3 normal = cross(ab, ac);
+    return p - dot(ap, normal) / dot(normal, normal) * normal;
 }
 
 #endif
