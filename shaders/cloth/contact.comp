@@ -47,9 +47,10 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 
 struct Motion
 {
-    vec3 from; // m, before the substep
-    vec3 x;    // m, now
-    vec3 v;    // m/s
+    vec3 from;   // m, before the substep
+    vec3 x;      // m, now
+    vec3 v;      // m/s
+    float drift; // s; a change of the velocity moves the vertex by as much times that change within the substep
 };
 
 // What contact needs of the vertex's cloth.
@@ -128,7 +129,7 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
     }
     const vec3 change = -min(kinetic_friction * normal_impulse / speed, 1) * v_t;
     motion.v += change;
-    motion.x += 0.5 * push.step * change; // the impulse acted throughout the substep
+    motion.x += motion.drift * change;
 }
 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. Where the way from
@@ -178,7 +179,10 @@ void main()
     const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
     const vec4 proposed_velocity = proposed_velocities[i];
-    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz);
+    // Forces act throughout RK4's substep; Verlet kicks first, and drifts with what the kick has left.
+    const bool verlet = (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0;
+    const float drift = verlet ? push.step : 0.5 * push.step;
+    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz, drift);
     bool touches = false;
     bool stays_out = false;
     if (proposed.w > 0)
@@ -198,6 +202,6 @@ void main()
     }
     positions[i] = vec4(motion.x, proposed.w);
     velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);
-    if ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0)
+    if (verlet)
         predicted[i] = proposed_predicted[i] + vec4(motion.v - proposed_velocity.xyz, 0);
 }
