@@ -105,11 +105,17 @@ vec3 world_direction(Passage passage, vec3 direction)
     return passage.moves ? rotate(passage.end.rotation, direction) : direction;
 }
 
+// m: what lies nearer together than this, near x, is the same to a few roundings of a coordinate.
+float rounding(vec3 x)
+{
+    return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
+}
+
 // `n`: world, unit, away from the surface; `gap`: m along it; `way`: m, of the surface in this substep.
 void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, float static_friction,
              float kinetic_friction)
 {
-    motion.x += (thickness - gap) * n;
+    motion.x += max(thickness - gap, 0) * n;
     const vec3 relative = motion.v - way / push.step;
     const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
@@ -122,8 +128,10 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
     if (speed <= static_friction * normal_impulse)
     {
         // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
-        const vec3 slid = motion.x - motion.from - way;
-        motion.x -= slid - dot(slid, n) * n;
+        // To the bit: roundings that add up would stretch stiff cloth until it slips.
+        const vec3 stuck = motion.from + way;
+        const float lift = dot(motion.x - stuck, n);
+        motion.x = stuck + (abs(lift) > rounding(stuck) ? lift : 0) * n;
         motion.v -= v_t;
         return;
     }
@@ -157,7 +165,9 @@ void meet(inout Motion motion, uint c, ClothContact cloth, inout bool touches, i
     const ColliderRecord collider = colliders[c];
     const Passage passage = passage_of(c, collider.flags, motion);
     const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
-    const Contact contact = find_contact(c, collider, METHOD, passage.from, passage.to, normal, cloth.thickness);
+    // A vertex that rests lies on the offset surface within rounding, and touches it on either side of that.
+    const float reach = cloth.thickness + rounding(motion.x);
+    const Contact contact = find_contact(c, collider, METHOD, passage.from, passage.to, normal, reach);
     if (!contact.found)
         return;
     // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
