@@ -75,7 +75,7 @@ TEST_CASE("a cantilever of triangles follows the heavy elastica")
     check(physics::cantilever_mesh(physics::Detail::coarse));
 }
 
-TEST_CASE("a patch sticks to an incline or slides down it")
+TEST_CASE("a patch sticks to an incline or slides down it, on a plane and on triangles")
 {
     check(physics::incline(physics::Detail::coarse));
 }

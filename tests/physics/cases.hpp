@@ -85,8 +85,9 @@ CaseResult cantilever_mesh(Detail detail);
 // dynamics.cpp
 CaseResult hanging_chain(Detail detail);
 CaseResult terminal_speed(Detail detail);
-// friction.cpp
+// incline.cpp
 CaseResult incline(Detail detail);
+// strap.cpp
 CaseResult strap(Detail detail);
 // drape.cpp
 CaseResult drape(Detail detail);

@@ -8,6 +8,13 @@
 namespace physics
 {
 
+// Of a collider.
+struct TriangleMesh
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+};
+
 // 0.2 kg/m^2, without shear, bending and air; damped a little.
 cloth::Fabric plain_fabric(double stretch);
 
