@@ -1,6 +1,7 @@
 // From triangles to springs and bending stencils.
 #include "mesh_topology.hpp"
 
+#include "mesh_elements.hpp"
 #include "mesh_input.hpp"
 #include "stability.hpp"
 
@@ -17,12 +18,6 @@ namespace cloth
 namespace
 {
 
-double triangle_area(std::span<const glm::vec3> x, const glm::uvec3& t)
-{
-    const glm::dvec3 a(x[t.x]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(x[t.y]) - a, glm::dvec3(x[t.z]) - a));
-}
-
 // A triangle is degenerate where float cannot tell its height from 0.
 bool degenerate(std::span<const glm::vec3> x, const glm::uvec3& t)
 {
@@ -31,18 +26,6 @@ bool degenerate(std::span<const glm::vec3> x, const glm::uvec3& t)
                                      glm::distance(glm::dvec3(x[t.z]), glm::dvec3(x[t.x]))});
     return triangle_area(x, t) <= 1e-6 * longest * longest;
 }
-
-// A triangle seen from one of its edges.
-struct Side
-{
-    uint32_t a; // a < b, the edge
-    uint32_t b;
-    uint32_t opposite;
-    uint32_t triangle;
-    double area; // m^2
-
-    [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
-};
 
 // What a pair of vertices has: a spring along an edge or across one, the isometric model's coefficient, or both.
 struct Pair
@@ -53,115 +36,6 @@ struct Pair
     double opposite; // weight of the spring across an edge; 0: none
     double bending;
 };
-
-// Cotangent of the angle at `at` between the ways to p and q.
-double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
-{
-    return glm::dot(p - at, q - at) / glm::length(glm::cross(p - at, q - at));
-}
-
-// How far a hinge is folded: sum of factor * x over its corners is the angle times the edge's length, along the normal
-// (Bergou et al. 2006, section 3: cotangents of the angles between the edge and its neighbours).
-struct Hinge
-{
-    uint32_t corner[4]; // the edge's ends, the vertices opposite to it
-    double factor[4];
-};
-
-Hinge make_hinge(std::span<const glm::vec3> positions, const Side& first, const Side& second)
-{
-    Hinge hinge{{first.a, first.b, first.opposite, second.opposite}, {}};
-    glm::dvec3 x[4];
-    for (int i = 0; i < 4; ++i)
-        x[i] = glm::dvec3(positions[hinge.corner[i]]);
-    const double c01 = cotangent(x[0], x[1], x[2]);
-    const double c02 = cotangent(x[0], x[1], x[3]);
-    const double c03 = cotangent(x[1], x[0], x[2]);
-    const double c04 = cotangent(x[1], x[0], x[3]);
-    hinge.factor[0] = c03 + c04;
-    hinge.factor[1] = c01 + c02;
-    hinge.factor[2] = -c01 - c03;
-    hinge.factor[3] = -c02 - c04;
-    return hinge;
-}
-
-// The hinges at the sides of one triangle, with the unit normals of these sides in its plane.
-struct TriangleHinges
-{
-    std::vector<std::pair<Hinge, glm::dvec3>> hinges;
-    double area = 0; // m^2
-};
-
-// The isometric model of one triangle. Its curvature is S = sum over its hinges of (fold / 2A) m m^T, m the side's
-// normal in the plane (Grinspun et al. 2006, "Computing discrete shape operators on general meshes", equation 2 with
-// the angle shared by both triangles), its energy 1/2 B A |S|^2: a quadratic form with constant coefficients, as in
-// Bergou et al. 2006. Their own sum over hinges alone resists a bend across the strip less where the strip is bent
-// along (a Poisson ratio of -1/3, which lets a narrow cantilever hang 12 % too low); this one is exact for every state
-// of constant curvature.
-void add_bending(const TriangleHinges& triangle, std::vector<Pair>& pairs)
-{
-    for (const auto& [hinge, normal] : triangle.hinges)
-        for (const auto& [other, other_normal] : triangle.hinges)
-        {
-            const double cosine = glm::dot(normal, other_normal);
-            const double scale = cosine * cosine / (4 * triangle.area);
-            for (int i = 0; i < 4; ++i)
-                for (int j = 0; j < 4; ++j)
-                    if (hinge.corner[i] != other.corner[j]) // each pair comes twice, once either way round
-                        pairs.push_back(
-                            {hinge.corner[i], other.corner[j], 0, 0, 0.5 * scale * hinge.factor[i] * other.factor[j]});
-        }
-}
-
-// The sides of the triangles that share an edge, and what the edge contributes.
-void add_edge(std::span<const glm::vec3> positions, std::span<const Side> sides, std::vector<TriangleHinges>& hinges,
-              std::vector<Pair>& pairs, MeshReport& report)
-{
-    const glm::dvec3 along = glm::dvec3(positions[sides[0].b]) - glm::dvec3(positions[sides[0].a]);
-    const double length = glm::length(along);
-    double area = 0;
-    for (const Side& side : sides)
-        area += side.area;
-    pairs.push_back({sides[0].a, sides[0].b, area / (length * length), 0, 0});
-    for (size_t i = 0; i < sides.size(); ++i)
-        for (size_t j = i + 1; j < sides.size(); ++j)
-        {
-            if (sides[i].opposite == sides[j].opposite) // two triangles back to back
-                continue;
-            // One bend spring for three edges a vertex, where a grid has two directions: two thirds of its B / area.
-            pairs.push_back({sides[i].opposite, sides[j].opposite, 0, 2.0 / 3 / (sides[i].area + sides[j].area), 0});
-            for (const Side& side : {sides[i], sides[j]})
-            {
-                const glm::dvec3 to_opposite = glm::dvec3(positions[side.opposite]) - glm::dvec3(positions[side.a]);
-                const glm::dvec3 normal =
-                    glm::normalize(to_opposite - glm::dot(to_opposite, along) / (length * length) * along);
-                hinges[side.triangle].hinges.emplace_back(make_hinge(positions, sides[i], sides[j]), normal);
-                hinges[side.triangle].area = side.area;
-            }
-        }
-    report.boundary_edges += sides.size() == 1 ? 1 : 0;
-    report.non_manifold_edges += sides.size() > 2 ? 1 : 0;
-    report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
-}
-
-std::vector<Side> sides_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-{
-    std::vector<Side> sides;
-    sides.reserve(3 * triangles.size());
-    for (uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
-    {
-        const glm::uvec3& t = triangles[triangle];
-        const double area = triangle_area(positions, t);
-        for (int corner = 0; corner < 3; ++corner)
-        {
-            const uint32_t a = t[corner];
-            const uint32_t b = t[(corner + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], triangle, area});
-        }
-    }
-    std::stable_sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.key() < r.key(); });
-    return sides;
-}
 
 // Every pair of vertices once, its weights and coefficients summed up.
 std::vector<Pair> merged(std::vector<Pair> pairs)
@@ -196,6 +70,41 @@ std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, flo
         entries.push_back({other | VOILE_OPPOSITE_BIT, rest_length, static_cast<float>(pair.opposite),
                            pair.edge > 0 ? 0 : static_cast<float>(pair.bending)});
     return entries;
+}
+
+MeshElements elements_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                         MeshReport& report)
+{
+    const std::vector<MeshSide> sides = sides_of(positions, triangles);
+    MeshElements elements;
+    for (size_t first = 0; first < sides.size();)
+    {
+        size_t last = first + 1;
+        while (last < sides.size() && sides[last].key() == sides[first].key())
+            ++last;
+        const double length =
+            glm::distance(glm::dvec3(positions[sides[first].a]), glm::dvec3(positions[sides[first].b]));
+        add_edge(positions, {std::span(sides).subspan(first, last - first), length}, elements);
+        report.boundary_edges += last - first == 1 ? 1 : 0;
+        report.non_manifold_edges += last - first > 2 ? 1 : 0;
+        report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
+        first = last;
+    }
+    return elements;
+}
+
+// `triangles`: that bend by the isometric model.
+std::vector<Pair> pairs_of(const MeshElements& elements, size_t triangles)
+{
+    std::vector<Pair> pairs;
+    for (const ElementSpring& spring : elements.edges)
+        pairs.push_back({spring.a, spring.b, spring.weight, 0, 0});
+    for (const ElementSpring& spring : elements.opposites)
+        pairs.push_back({spring.a, spring.b, 0, spring.weight, 0});
+    if (triangles > 0)
+        for (const BendingEntry& entry : bending_of(elements, triangles))
+            pairs.push_back({entry.a, entry.b, 0, 0, entry.value});
+    return merged(std::move(pairs));
 }
 
 uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
@@ -309,25 +218,10 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
     for (uint32_t i = 0; i < places.size(); ++i)
         mesh.report.coincident_vertices += places[i] != i && mesh.areas[i] > 0 ? 1 : 0;
 
-    const std::vector<Side> sides = sides_of(positions, solid);
-    std::vector<Pair> pairs;
-    std::vector<TriangleHinges> hinges(solid.size());
-    size_t edges = 0;
-    for (size_t first = 0; first < sides.size();)
-    {
-        size_t last = first + 1;
-        while (last < sides.size() && sides[last].key() == sides[first].key())
-            ++last;
-        add_edge(positions, std::span(sides).subspan(first, last - first), hinges, pairs, mesh.report);
-        ++edges;
-        first = last;
-    }
-    if (isometric)
-        for (const TriangleHinges& triangle : hinges)
-            add_bending(triangle, pairs);
-    pairs = merged(std::move(pairs));
+    const MeshElements elements = elements_of(positions, solid, mesh.report);
+    const std::vector<Pair> pairs = pairs_of(elements, isometric ? solid.size() : 0);
     for (const Pair& pair : pairs)
-        mesh.mean_weight += pair.edge / static_cast<double>(edges);
+        mesh.mean_weight += pair.edge / static_cast<double>(elements.edges.size());
     fill_lists(mesh, positions, solid, pairs);
     find_bounds(mesh, positions);
     return mesh;

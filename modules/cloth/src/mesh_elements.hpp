@@ -1,0 +1,76 @@
+// What resists in a mesh as cloth, one by one: the springs along its edges and across them, and the folds at them.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cloth
+{
+
+// A triangle seen from one of its edges.
+struct MeshSide
+{
+    uint32_t a; // a < b, the edge
+    uint32_t b;
+    uint32_t opposite;
+    uint32_t triangle;
+    double area; // m^2
+
+    [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
+};
+
+// The sides of triangles that share an edge.
+struct MeshEdge
+{
+    std::span<const MeshSide> sides;
+    double length; // m
+};
+
+// All sides, those of an edge side by side.
+std::vector<MeshSide> sides_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+double triangle_area(std::span<const glm::vec3> positions, const glm::uvec3& triangle); // m^2
+
+struct ElementSpring
+{
+    uint32_t a;
+    uint32_t b;
+    double weight;
+    uint32_t edge; // along which it lies or which it crosses
+};
+
+// How far two triangles are folded at an edge: sum of factor * x over the corners is the angle times the edge's length,
+// along the normal (Bergou et al. 2006, section 3: cotangents of the angles between the edge and its neighbours).
+struct Hinge
+{
+    uint32_t corner[4]; // the edge's ends, the vertices opposite to it
+    double factor[4];
+    double areas[2];      // m^2, of the triangles
+    glm::dvec3 normal[2]; // unit length, of the edge in the plane of either triangle
+    uint32_t triangle[2];
+    uint32_t edge;
+};
+
+struct MeshElements
+{
+    std::vector<ElementSpring> edges;     // weight: none
+    std::vector<ElementSpring> opposites; // weight: 1/m^2
+    std::vector<Hinge> hinges;
+};
+
+void add_edge(std::span<const glm::vec3> positions, const MeshEdge& edge, MeshElements& elements);
+
+// What one triangle adds to the bending form.
+struct BendingEntry
+{
+    uint32_t a;
+    uint32_t b;
+    double value;
+};
+
+// The isometric model, triangle by triangle.
+std::vector<BendingEntry> bending_of(const MeshElements& elements, size_t triangles);
+
+} // namespace cloth
