@@ -28,6 +28,7 @@ void check(const cloth::MeshReport& found, const cloth::MeshReport& expected)
     CHECK(found.isolated_vertices == expected.isolated_vertices);
     CHECK(found.degenerate_triangles == expected.degenerate_triangles);
     CHECK(found.coincident_vertices == expected.coincident_vertices);
+    CHECK(found.softened_edges == expected.softened_edges);
 }
 
 void append(ClothMesh& mesh, const ClothMesh& other, const glm::vec3& offset)

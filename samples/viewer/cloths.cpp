@@ -165,6 +165,7 @@ void tell(const cloth::MeshReport& report, const std::string& name)
     add(report.isolated_vertices, "vertices without a triangle, which stay where they are");
     add(report.non_manifold_edges, "edges of three or more triangles, each pair of which bends");
     add(report.coincident_vertices, "vertices at the place of another and not joined to it: open seams");
+    add(report.softened_edges, "edges of slivers, softer than the material so that they cost no substeps");
     if (!odd.empty())
         std::fprintf(stderr, "viewer: note: cloth \"%s\": %s\n", name.c_str(), odd.c_str());
 }

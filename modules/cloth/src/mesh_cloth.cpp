@@ -93,7 +93,8 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.name = description.name;
     cloth.material = description.material;
     cloth.integrator = description.integrator;
-    cloth.mesh = make_mesh_topology(world, description.triangles, bends_isometrically(description.material));
+    cloth.mesh = make_mesh_topology(world, description.triangles, bends_isometrically(description.material),
+                                    std::holds_alternative<Material>(description.material));
     if (cloth.mesh->springs.empty())
         return invalid("cloth", description.name,
                        "none of its " + std::to_string(description.triangles.size()) + " triangles has an area");

@@ -73,4 +73,14 @@ struct BendingEntry
 // The isometric model, triangle by triangle.
 std::vector<BendingEntry> bending_of(const MeshElements& elements, size_t triangles);
 
+// Slivers: a triangle of next to no height has edges between vertices that weigh next to nothing, or shorter than all
+// others, and folds that turn over when a vertex moves by its height. One of them would set the substeps of the whole
+// cloth. Here what is by far stiffer against the mass it moves than nearly all others of its kind is softened to the
+// stiffest of these, as a whole: forces stay equal and opposite, forms of bending positive, and bounds that are taken
+// of the result are true ones. Returns how many edges have something that was. MeshCloth tells the rule.
+//
+// `areas`: of the vertices. `masses_alike`: masses are not in proportion to them and springs have no weights: folds
+// alone are looked at.
+uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool masses_alike);
+
 } // namespace cloth

@@ -193,7 +193,7 @@ void find_bounds(MeshTopology& mesh, std::span<const glm::vec3> positions)
 } // namespace
 
 MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
-                                bool isometric)
+                                bool isometric, bool masses_alike)
 {
     std::vector<glm::uvec3> solid;
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
@@ -218,7 +218,8 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
     for (uint32_t i = 0; i < places.size(); ++i)
         mesh.report.coincident_vertices += places[i] != i && mesh.areas[i] > 0 ? 1 : 0;
 
-    const MeshElements elements = elements_of(positions, solid, mesh.report);
+    MeshElements elements = elements_of(positions, solid, mesh.report);
+    mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
     const std::vector<Pair> pairs = pairs_of(elements, isometric ? solid.size() : 0);
     for (const Pair& pair : pairs)
         mesh.mean_weight += pair.edge / static_cast<double>(elements.edges.size());

@@ -44,6 +44,14 @@ struct Grid
 // A cloth of any triangles: open or closed, in one piece or several, vertices and their order kept. Triangles without
 // area have no springs; vertices without a triangle are held; across an edge of three or more triangles each pair of
 // them bends. mesh_report tells of all of these.
+//
+// The stiffest springs and folds set the substeps of the whole cloth (Solver::stable_substeps), and slivers have ones
+// beyond all measure: a triangle 3 cm long and 10 um high asks for a million. So a few may not. What is more than 4
+// times as stiff against the mass it moves as 99 % of its kind are, or all but 12 of 240 and more, or 95 % of 60 and
+// more, is softened to the stiffest of the others; folds and springs across edges, which grow faster as triangles
+// shrink, where it is 64 times. Masses and all else stay, forces between vertices stay equal and opposite. Nothing is
+// softened in meshes whose triangles are much alike, whose sizes pass into each other, or that have fewer than 60
+// edges. Springs of a Material, which are all alike, never are.
 struct MeshCloth
 {
     std::string name = "cloth";
@@ -69,6 +77,7 @@ struct MeshReport
     uint32_t isolated_vertices = 0;    // without a triangle that has area
     uint32_t degenerate_triangles = 0; // without area
     uint32_t coincident_vertices = 0;  // at the place of an earlier one, and not joined to it: a seam that is open
+    uint32_t softened_edges = 0;       // of slivers, with springs or folds softer than the material's
     float shortest_edge = 0;           // m; the number of substeps follows from the smallest triangles
 };
 
