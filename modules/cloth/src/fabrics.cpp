@@ -30,9 +30,9 @@ Fabric silk()
     f.shear_stiffness = 17;            // typical, G 0.2-0.4 gf/(cm degree)
     f.bending_stiffness = 1.8e-6f; // chosen in 0.8-3e-6, typical; limp cloths of 0.07-0.10 kg/m^2 in the data of Feng
                                    // et al. 2022 (drape tester) have 0.5-2.5e-6
-    f.thickness = 0.002f;       // the fabric's own: 0.22 mm
-    f.static_friction = 0.3f;   // typical 0.25-0.40; fibres 0.26 (Morton and Hearle)
-    f.kinetic_friction = 0.25f; // typical 0.20-0.35
+    f.thickness = 0.002f;          // the fabric's own: 0.22 mm
+    f.static_friction = 0.3f;      // typical 0.25-0.40; fibres 0.26 (Morton and Hearle)
+    f.kinetic_friction = 0.25f;    // typical 0.20-0.35
     f.bending_model = BendingModel::isometric;
     return f;
 }
