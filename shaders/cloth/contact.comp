@@ -5,8 +5,8 @@
 // Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
-// Reads: cloths, chunks, mesh lists, colliders, hierarchy, proposed state, own previous state, motions of colliders. Writes: state (velocity.w:
-// 1 = touches), predicted velocities.
+// Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state, own previous state.
+// Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "padded_layout.h"

@@ -12,7 +12,6 @@
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
-
 // Set in a leaf of the list: it is a slot of a padded tree.
 #define VOILE_CANDIDATE_DEFORMS VOILE_BVH_LEAF_BIT
 
@@ -58,8 +57,7 @@ void traverse(ColliderRecord collider, vec3 box_min, vec3 box_max)
 // The middle of what the list covers in the space of collider c.
 vec3 covered_middle(uint c, uint flags)
 {
-    return is_moved(flags) ? to_collider(pose_at(c, candidates.made), candidates.place)
-                                               : candidates.place;
+    return is_moved(flags) ? to_collider(pose_at(c, candidates.made), candidates.place) : candidates.place;
 }
 
 bool covers(uint c, uint flags, vec3 box_min, vec3 box_max)

@@ -75,7 +75,7 @@ private:
             {
                 PrimitiveRange piece;
                 for (size_t t = first; t < last; ++t)
-                    piece.add(primitives_[t] = make_primitive(static_cast<uint32_t>(t)));
+                    piece.add(primitives_[t] = make_primitive(positions_, triangles_, static_cast<uint32_t>(t)));
                 pieces[first / k_piece] = piece;
             },
             threads_);
@@ -85,14 +85,6 @@ private:
             all.centroids.add(piece.centroids);
         }
         return all;
-    }
-
-    [[nodiscard]] Primitive make_primitive(uint32_t t) const
-    {
-        Box box;
-        for (int corner = 0; corner < 3; ++corner)
-            box.add(positions_[triangles_[t][corner]]);
-        return {box.min, t, box.max, 0};
     }
 
     // What each thread does: takes up subtrees until there are none, and none can come.

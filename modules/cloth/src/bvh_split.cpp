@@ -146,6 +146,14 @@ Splitter::Halves Splitter::partition(std::span<Primitive> range, std::span<Primi
     return halves;
 }
 
+Primitive make_primitive(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, uint32_t t)
+{
+    Box box;
+    for (int corner = 0; corner < 3; ++corner)
+        box.add(positions[triangles[t][corner]]);
+    return {box.min, t, box.max, 0};
+}
+
 // Where no plane separates the centroids, or the tree grows too deep: in their order along the widest axis.
 Splitter::Halves Splitter::halve(const PrimitiveRange& range)
 {

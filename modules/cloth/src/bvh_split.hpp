@@ -47,6 +47,8 @@ struct Primitive
     [[nodiscard]] glm::vec3 centroid() const { return 0.5f * (min + max); } // of the box
 };
 
+Primitive make_primitive(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles, uint32_t t);
+
 // Primitives, the box around them and the box around their centroids.
 struct PrimitiveRange
 {

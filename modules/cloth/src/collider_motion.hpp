@@ -24,6 +24,12 @@ struct Deformation
     std::optional<DeviceVertices> source; // or where they lie on the GPU
 };
 
+// Whether the collider is, or may come to be, elsewhere than where it was added.
+inline bool is_moving(const shared::ColliderRecord& collider)
+{
+    return (collider.flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) != 0;
+}
+
 // Whether a transform turns and moves without scale or reflection: finite, columns of unit length and at right angles
 // within 1e-4.
 bool is_rigid(const glm::mat4& transform);

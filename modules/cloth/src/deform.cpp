@@ -1,9 +1,6 @@
 // Meshes that deform: their vertices from the host or from its buffers, and the refit of their hierarchies.
 #include "solver_state.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace cloth
 {
 

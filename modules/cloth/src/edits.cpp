@@ -37,7 +37,7 @@ void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
 {
     for (uint32_t i = 0; i < solver.colliders.size(); ++i)
     {
-        if ((solver.model.colliders[i].flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) == 0)
+        if (!is_moving(solver.model.colliders[i]))
             continue;
         const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i], solver.deformations);
         update(recorder, solver.device->collider_motions, i * sizeof(motion), std::as_bytes(std::span(&motion, 1)));
@@ -106,9 +106,7 @@ void Solver::State::update_passes()
     passes.pins = hold_lists.pins;
     passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
     passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
-    passes.moving = std::any_of(model.colliders.begin(), model.colliders.end(),
-                                [](const auto& collider)
-                                { return (collider.flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) != 0; });
+    passes.moving = std::any_of(model.colliders.begin(), model.colliders.end(), is_moving);
     passes.convex =
         std::any_of(model.colliders.begin(), model.colliders.end(),
                     [](const auto& collider)

@@ -1,8 +1,9 @@
 // Building a padded tree by halving.
 #include "padded_tree.hpp"
 
+#include "bvh_split.hpp"
+
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 
@@ -11,27 +12,6 @@ namespace cloth
 
 namespace
 {
-
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
-
-struct Primitive
-{
-    glm::vec3 min{k_infinity};
-    glm::vec3 max{-k_infinity};
-    uint32_t triangle = 0;
-
-    void add(const Primitive& other)
-    {
-        min = glm::min(min, other.min);
-        max = glm::max(max, other.max);
-    }
-
-    [[nodiscard]] float half_area() const
-    {
-        const glm::vec3 d = max - min;
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    }
-};
 
 using Range = std::span<Primitive>;
 
@@ -54,18 +34,18 @@ void halve(Range range, int axis)
                      });
 }
 
-Primitive bounds(Range range)
+Box bounds(Range range)
 {
-    Primitive box;
+    Box box;
     for (const Primitive& primitive : range)
-        box.add(primitive);
+        box.add(Box{primitive.min, primitive.max});
     return box;
 }
 
 void halve_well(Range range)
 {
     int best = 0;
-    float least = k_infinity;
+    float least = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis)
     {
         halve(range, axis);
@@ -124,15 +104,7 @@ PaddedTree build_padded_tree(std::span<const glm::vec3> positions, std::span<con
 {
     std::vector<Primitive> primitives(triangles.size());
     for (uint32_t t = 0; t < triangles.size(); ++t)
-    {
-        primitives[t].triangle = t;
-        for (int corner = 0; corner < 3; ++corner)
-        {
-            const glm::vec3& p = positions[triangles[t][corner]];
-            primitives[t].min = glm::min(primitives[t].min, p);
-            primitives[t].max = glm::max(primitives[t].max, p);
-        }
-    }
+        primitives[t] = make_primitive(positions, triangles, t);
     PaddedTree tree;
     tree.triangles = static_cast<uint32_t>(triangles.size());
     tree.levels = padded_levels(tree.triangles);

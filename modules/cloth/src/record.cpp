@@ -37,17 +37,25 @@ uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t
     if (solver.next_substep >= k_substeps_counted - taken)
     {
         solver.next_substep = 0;
-        const float none = -1;
-        recorder.barrier(k_compute, 0, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, 0);
-        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), solver.device->candidate_places.handle(), 0,
-                                              VK_WHOLE_SIZE, std::bit_cast<uint32_t>(none));
-        recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
-                         k_storage);
+        forget_candidates(recorder, *solver.device);
     }
     return std::exchange(solver.next_substep, solver.next_substep + taken);
 }
 
 } // namespace
+
+void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
+{
+    constexpr float k_none = -1; // see contact_candidates.glsl
+    const auto fill = [&](const gpu::Buffer& buffer, uint32_t word)
+    { recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), buffer.handle(), 0, VK_WHOLE_SIZE, word); };
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
+    fill(device.candidate_leaves, 0);
+    recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                     k_storage);
+}
 
 void Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
 {

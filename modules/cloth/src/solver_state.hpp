@@ -95,6 +95,9 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
+// Empties the lists of candidates: the next contact pass makes them anew. Between barriers of its own.
+void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
+
 // vkCmdUpdateBuffer takes at most 64 KiB at a time, and multiples of 4 bytes.
 void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
 

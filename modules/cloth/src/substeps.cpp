@@ -127,7 +127,6 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.colliders = device_.collider_count;
     push.renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
     push.renewal_time = VOILE_RENEWAL * h_;
-    push.progress_from = static_cast<float>(substep) * a_substep;
     // What comes after the last substep, for the strain limit, sees all colliders at their end.
     const auto progress = [&](uint32_t done) { return done >= substeps_ ? 1 : static_cast<float>(done) * a_substep; };
     push.progress_from = progress(substep);

@@ -99,11 +99,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
-    const std::vector<glm::vec4> no_candidates(s.model.positions.size(), glm::vec4(0, 0, 0, -1));
     std::vector<shared::ColliderMotion> motions;
     for (uint32_t i = 0; i < s.colliders.size(); ++i)
         motions.push_back(make_motion(s.model, i, s.colliders[i], s.deformations));
-    const std::vector<uint32_t> empty_lists(no_candidates.size() * (VOILE_CANDIDATES + 1));
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -128,8 +126,6 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
-        {next.candidate_places, 0, bytes_of(no_candidates)},
-        {next.candidate_leaves, 0, bytes_of(empty_lists)},
         {next.normals, kept_bytes, bytes_of(up)},
     };
     for (const Staged& item : staged)
@@ -146,6 +142,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     Upload upload;
     upload.contents_ = std::make_unique<Upload::Contents>();
     upload.contents_->staging = uploader.record();
+    gpu::Recorder recorder(s.context, cmd);
+    forget_candidates(recorder, next);
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;
