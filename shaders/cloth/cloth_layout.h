@@ -180,8 +180,8 @@ struct ColliderRecord
     uint first_triangle; // or leaf
     uint triangles;      // of a mesh, from first_triangle on
     uint layers;    // bits; it meets cloths that have one of them
-    uint padding_0;
-    uint padding_1;
+    uint nodes;     // of a mesh that does not deform, from first_node on
+    uint padding;
     vec4 shape;  // plane: unit normal, offset; sphere: centre, radius; capsule: an end, radius; box: centre
     vec4 second; // capsule: the other end; box: half of its size
 };

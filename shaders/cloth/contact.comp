@@ -44,6 +44,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "collider_pose.glsl"
 #include "contact_query.glsl"
 #include "contact_candidates.glsl"
+#include "friction.glsl"
 
 struct Motion
 {
@@ -61,12 +62,6 @@ struct ClothContact
     float kinetic_friction;
     vec3 normal; // at the vertex, for VOILE_METHOD_NORMAL_RAY
 };
-
-// A pair's coefficient is the geometric mean of both sides' (Box2D's rule); a collider without one takes the fabric's.
-float pair_friction(float fabric, float collider, uint flags)
-{
-    return (flags & VOILE_COLLIDER_FRICTION) != 0 ? sqrt(fabric * collider) : fabric;
-}
 
 // The substep as collider c sees it: the way of the vertex in the collider's space.
 struct Passage

@@ -36,6 +36,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.padded_boxes, "cloth padded boxes", model.padded_boxes * sizeof(shared::PaddedBox)},
         {&state.nodes, "cloth bvh nodes", model.nodes.size() * sizeof(shared::BvhNode)},
         {&state.triangles, "cloth bvh triangles", model.triangles.size() * sizeof(shared::BvhTriangle)},
+        {&state.feature_sets, "cloth feature sets", data.features.sets.size() * sizeof(shared::FeatureSet)},
+        {&state.feature_nodes, "cloth feature nodes", data.features.nodes.size() * sizeof(shared::BvhNode)},
+        {&state.features, "cloth features", data.features.features.size() * sizeof(shared::Feature)},
+        {&state.feature_velocities, "cloth feature velocities", data.features.features.empty() ? 0 : per_vertex},
         {&state.start, "cloth start", per_vertex},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
         {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
@@ -107,6 +111,27 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
     bind_strain(s.strain_forth, s.stage_a, s.stage_b);
 }
 
+void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
+{
+    const auto bind = [&](VkDescriptorSet& set, const gpu::Buffer& positions, const gpu::Buffer& velocities)
+    {
+        binder.bind(set, kernels.contact,
+                    {s.cloths.handle(), s.chunks.handle(), positions.handle(), velocities.handle(),
+                     s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
+                     s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(),
+                     s.sums.velocities.handle(), s.stage_a.velocities.handle(), s.candidate_places.handle(),
+                     s.candidate_leaves.handle(), s.collider_motions.handle(), s.padded_boxes.handle(),
+                     s.padded_leaves.handle(), s.deforming_positions.handle()});
+    };
+    bind(s.contact, s.stage_b.positions, s.stage_b.velocities);
+    bind(s.contact_after_features, s.stage_a.positions, s.feature_velocities);
+    binder.bind(s.feature_contact, kernels.feature_contact,
+                {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
+                 s.stage_a.positions.handle(), s.feature_velocities.handle(), s.sums.velocities.handle(),
+                 s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(), s.collider_motions.handle(),
+                 s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle()});
+}
+
 gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
 {
     Binder binder{s.pool};
@@ -149,13 +174,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
     bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.sums.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
-    binder.bind(s.contact, kernels.contact,
-                {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
-                 s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
-                 s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(), s.sums.velocities.handle(),
-                 s.stage_a.velocities.handle(), s.candidate_places.handle(), s.candidate_leaves.handle(),
-                 s.collider_motions.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                 s.deforming_positions.handle()});
+    bind_contact(s, kernels, binder);
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});
@@ -185,10 +204,11 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.anchor_capacity = data.anchors;
     state.hold_capacity = data.holds;
     state.tether_capacity = data.tethers;
+    state.feature_count = static_cast<uint32_t>(data.features.features.size());
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 23;
+    constexpr uint32_t k_sets = 25;
     constexpr uint32_t k_most_bindings = 19;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)

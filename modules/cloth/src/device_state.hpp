@@ -1,6 +1,7 @@
 // DeviceState: the buffers of a solver at its present size, and the descriptor sets that bind them.
 #pragma once
 
+#include "collider_features.hpp"
 #include "kernels.hpp"
 #include "model.hpp"
 
@@ -33,6 +34,10 @@ struct DeviceState
     gpu::Buffer padded_boxes;
     gpu::Buffer nodes;
     gpu::Buffer triangles;
+    gpu::Buffer feature_sets; // corners and edges of colliders
+    gpu::Buffer feature_nodes;
+    gpu::Buffer features;
+    gpu::Buffer feature_velocities; // after contact with them; positions are in stage A's
     gpu::Buffer start; // places at the start, and what density multiplies
     gpu::Buffer anchors;
     gpu::Buffer holds;
@@ -63,7 +68,9 @@ struct DeviceState
     VkDescriptorSet strain_back{};  // stage B to stage A
     VkDescriptorSet strain_forth{}; // stage A to stage B
     VkDescriptorSet edit{};
-    VkDescriptorSet contact{};
+    VkDescriptorSet contact{};         // from stage B
+    VkDescriptorSet feature_contact{}; // stage B to where contact_after_features takes it
+    VkDescriptorSet contact_after_features{};
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};
@@ -75,6 +82,7 @@ struct DeviceState
     uint32_t chunk_count = 0;
     uint32_t rk4_chunks = 0; // the first ones
     uint32_t collider_count = 0;
+    uint32_t feature_count = 0;
     uint32_t anchor_capacity = 0;
     uint32_t hold_capacity = 0;
     uint32_t tether_capacity = 0;
@@ -85,6 +93,7 @@ struct UploadData
 {
     Chunks chunks;
     MeshLists lists;
+    FeatureLists features;
     uint32_t anchors = 0; // room for as many
     uint32_t holds = 0;
     uint32_t tethers = 0;

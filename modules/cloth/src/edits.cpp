@@ -111,6 +111,7 @@ void Solver::State::update_passes()
         std::any_of(model.colliders.begin(), model.colliders.end(),
                     [](const auto& collider)
                     { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
+    passes.features = device && device->feature_count > 0;
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : model.records)
     {

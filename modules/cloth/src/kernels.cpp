@@ -4,6 +4,7 @@
 #include "cloth/solver.hpp"
 
 #include "cloth_layout.h"
+#include "feature_layout.h"
 #include "voile_cloth_shaders.hpp"
 
 namespace cloth
@@ -47,6 +48,18 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
          {"cloth contact", shaders::k_contact_comp, 19, sizeof(shared::ContactPush), {group, method, layout, 0, 1}}},
         {&kernels.contact_moving,
          {"cloth contact", shaders::k_contact_comp, 19, sizeof(shared::ContactPush), {group, method, layout, 1, 1}}},
+        {&kernels.feature_contact,
+         {"cloth feature contact",
+          shaders::k_feature_contact_comp,
+          15,
+          sizeof(shared::FeaturePush),
+          {group, 0, layout, 0}}},
+        {&kernels.feature_contact_moving,
+         {"cloth feature contact",
+          shaders::k_feature_contact_comp,
+          15,
+          sizeof(shared::FeaturePush),
+          {group, 0, layout, 1}}},
         {&kernels.deform, {"cloth deform", shaders::k_deform_comp, 2, sizeof(shared::DeformPush), {group}}},
         {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},
         {&kernels.statistics,

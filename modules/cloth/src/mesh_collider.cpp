@@ -50,6 +50,7 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
     record.first_node = static_cast<uint32_t>(nodes.size());
     record.first_triangle = static_cast<uint32_t>(triangles.size());
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());
+    record.nodes = static_cast<uint32_t>(bvh.nodes.size());
     const shared::BvhNode& root = bvh.nodes[0];
     record.box_min = glm::min(root.left_min, root.right_min);
     record.box_max = glm::max(root.left_max, root.right_max);

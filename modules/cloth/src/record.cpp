@@ -104,7 +104,7 @@ uint32_t Solver::dispatches(const Step& step) const
     const bool verlet = device.rk4_chunks < device.chunk_count;
     const Passes& passes = state_->passes;
     const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) + (passes.holds > 0 ? 1 : 0) +
-                               (passes.tethers > 0 ? 1 : 0);
+                               (passes.tethers > 0 ? 1 : 0) + (passes.features ? 1 : 0);
     uint32_t strain = 0;
     if (passes.strain_spacing > 0)
     {

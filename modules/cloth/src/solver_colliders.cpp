@@ -16,19 +16,11 @@ namespace
 Bvh bvh_of(const Model& model, uint32_t collider)
 {
     const shared::ColliderRecord& record = model.colliders[collider];
-    size_t last_node = model.nodes.size();
-    size_t last_triangle = model.triangles.size();
-    for (const shared::ColliderRecord& other : model.colliders)
-        if (other.kind == VOILE_COLLIDER_MESH && other.first_node > record.first_node && other.first_node < last_node)
-        {
-            last_node = other.first_node;
-            last_triangle = other.first_triangle;
-        }
-    const auto slice = [](const auto& values, size_t from, size_t to)
-    { return std::vector(values.begin() + static_cast<ptrdiff_t>(from), values.begin() + static_cast<ptrdiff_t>(to)); };
+    const auto slice = [](const auto& values, uint32_t first, uint32_t count)
+    { return std::vector(values.begin() + first, values.begin() + first + count); };
     Bvh bvh;
-    bvh.nodes = slice(model.nodes, record.first_node, last_node);
-    bvh.triangles = slice(model.triangles, record.first_triangle, last_triangle);
+    bvh.nodes = slice(model.nodes, record.first_node, record.nodes);
+    bvh.triangles = slice(model.triangles, record.first_triangle, record.triangles);
     return bvh;
 }
 

@@ -38,6 +38,7 @@ struct Passes
     uint32_t tethers = 0;
     bool moving = false;         // colliders that move or deform
     bool convex = false;         // colliders with a formula, other than planes
+    bool features = false;       // colliders with corners or edges that vertices alone do not feel
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
 };

@@ -49,7 +49,7 @@ void SubstepRecorder::record()
         record_verlet(push, substep);
         record_holds(substep);
         if (commits_)
-            record_contact(substep);
+            record_contact(substep, record_features(substep));
     }
     finish_verlet(make_push(substeps_));
     if (solver_.passes.strain_spacing > 0)
@@ -119,25 +119,38 @@ void SubstepRecorder::record_holds(uint32_t substep)
     recorder_.dispatch(kernels_.tethers, device_.proposed_tethers, push.count, group_, push);
 }
 
-void SubstepRecorder::record_contact(uint32_t substep)
+// What comes after the last substep, for the strain limit, sees all colliders at their end.
+float SubstepRecorder::progress(uint32_t substeps_done) const
 {
-    const auto a_substep = 1 / static_cast<float>(substeps_);
+    return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
+}
+
+VkDescriptorSet SubstepRecorder::record_features(uint32_t substep)
+{
+    if (!solver_.passes.features)
+        return device_.contact;
+    const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count};
+    recorder_.dispatch(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
+                       device_.feature_contact, device_.chunk_count * group_, group_, push);
+    return device_.contact_after_features;
+}
+
+void SubstepRecorder::record_contact(uint32_t substep, VkDescriptorSet set)
+{
     shared::ContactPush push{};
     push.step = h_;
     push.colliders = device_.collider_count;
     push.renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
     push.renewal_time = VOILE_RENEWAL * h_;
-    // What comes after the last substep, for the strain limit, sees all colliders at their end.
-    const auto progress = [&](uint32_t done) { return done >= substeps_ ? 1 : static_cast<float>(done) * a_substep; };
     push.progress_from = progress(substep);
     push.progress_to = progress(substep + 1);
-    push.progress_a_substep = a_substep;
+    push.progress_a_substep = 1 / static_cast<float>(substeps_);
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
     const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
                                 : solver_.passes.convex ? kernels_.contact_convex
                                                         : kernels_.contact;
-    recorder_.dispatch(kernel, device_.contact, device_.chunk_count * group_, group_, push);
+    recorder_.dispatch(kernel, set, device_.chunk_count * group_, group_, push);
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
@@ -169,7 +182,7 @@ void SubstepRecorder::record_strain_limit()
     }
     if (pass % 2 == 0)
         record_pass({1, 0, 1});
-    record_contact(substeps_);
+    record_contact(substeps_, device_.contact);
 }
 
 } // namespace cloth

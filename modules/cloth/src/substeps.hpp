@@ -21,7 +21,10 @@ private:
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
     void record_holds(uint32_t substep);
-    void record_contact(uint32_t substep);
+    [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
+    // The set with what the contact pass takes after it.
+    VkDescriptorSet record_features(uint32_t substep);
+    void record_contact(uint32_t substep, VkDescriptorSet set);
     void record_strain_limit();
     // Where nothing commits what a substep proposes, Verlet goes back and forth between the state and stage B.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !commits_ && substep % 2 == 1; }

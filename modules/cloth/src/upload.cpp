@@ -79,7 +79,9 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 {
     State& s = *state_;
-    UploadData data{make_chunks(s.model, s.options.workgroup_size), {}};
+    UploadData data;
+    data.chunks = make_chunks(s.model, s.options.workgroup_size);
+    data.features = find_features(s.model);
     data.lists = s.options.mesh_layout == MeshLayout::interleaved
                      ? interleave(s.model, s.options.workgroup_size)
                      : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners};
@@ -121,6 +123,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.padded_leaves, 0, bytes_of(s.model.padded_leaves)},
         {next.nodes, 0, bytes_of(s.model.nodes)},
         {next.triangles, 0, bytes_of(s.model.triangles)},
+        {next.feature_sets, 0, bytes_of(data.features.sets)},
+        {next.feature_nodes, 0, bytes_of(data.features.nodes)},
+        {next.features, 0, bytes_of(data.features.features)},
         {next.start, 0, bytes_of(s.model.start)},
         {next.holds, 0, bytes_of(s.hold_lists.holds)},
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
