@@ -1,6 +1,7 @@
 // Triangulating, cleaning, computing normals, and putting the vertices together.
 #include "engine/assets/mesh_builder.hpp"
 
+#include "engine/assets/normals.hpp"
 #include "engine/assets/triangulate.hpp"
 
 #include <algorithm>
@@ -115,30 +116,19 @@ void clean(const Polygons& polygons, std::vector<Triangle>& triangles, MeshRepor
     std::erase_if(triangles, is_dropped);
 }
 
-// One a position. Each triangle's normal counts by its angle at the corner, so that the result does not depend on how a
-// flat face is cut (Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal facets").
+// One a position.
 std::vector<glm::vec3> compute_normals(const Polygons& polygons, const std::vector<Triangle>& triangles)
 {
-    std::vector<glm::dvec3> sums(polygons.positions.size(), glm::dvec3(0.));
+    std::vector<glm::uvec3> indices;
+    indices.reserve(triangles.size());
     for (const Triangle& t : triangles)
-    {
-        std::array<glm::dvec3, 3> p{};
-        for (size_t i = 0; i < 3; ++i)
-            p[i] = position_of(polygons, t[i]);
-        const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        for (size_t i = 0; i < 3; ++i)
-        {
-            const glm::dvec3 a = p[(i + 1) % 3] - p[i];
-            const glm::dvec3 b = p[(i + 2) % 3] - p[i];
-            const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-            sums[static_cast<size_t>(t[i].position)] += angle * normal;
-        }
-    }
-    // Where the triangles cancel out any direction is as good.
-    std::vector<glm::vec3> normals(sums.size(), glm::vec3(0.f, 1.f, 0.f));
-    for (size_t i = 0; i < sums.size(); ++i)
-        if (const double length = glm::length(sums[i]); length > 1e-9)
-            normals[i] = sums[i] / length;
+        indices.emplace_back(t[0].position, t[1].position, t[2].position);
+    std::vector<glm::dvec3> sums;
+    sum_normals(polygons.positions, indices, sums);
+    std::vector<glm::vec3> normals;
+    normals.reserve(sums.size());
+    for (const glm::dvec3& sum : sums)
+        normals.push_back(unit_normal(sum));
     return normals;
 }
 

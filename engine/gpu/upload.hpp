@@ -27,6 +27,8 @@ public:
 
     void record(VkCommandBuffer cmd);
 
+    [[nodiscard]] const gpu::Context& context() const { return context_; }
+
 private:
     struct Copy
     {
