@@ -1,6 +1,8 @@
 // Loading and placing the solids.
 #include "samples/viewer/colliders.hpp"
 
+#include "samples/viewer/text.hpp"
+
 #include "engine/assets/load_mesh.hpp"
 #include "engine/assets/shapes.hpp"
 
@@ -75,6 +77,18 @@ gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
     return gpu::Error{place(scene, entry.line) + ": colliders: the spin is half a turn a frame or more"};
 }
 
+gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
+{
+    auto loaded = MeshSequence::load(*entry.frames, std::get<MeshShape>(entry.shape).file);
+    if (!loaded)
+        return loaded.error();
+    const auto frames = std::make_shared<const MeshSequence>(std::move(loaded.value()));
+    return Solid{.name = entry.frames->pattern.stem().string(),
+                 .shape = frames->first(),
+                 .transform = matrix(entry.transform),
+                 .frames = frames};
+}
+
 gpu::Result<Solid> load_shape(const ColliderEntry& entry)
 {
     if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
@@ -97,13 +111,15 @@ gpu::Result<Solid> load_shape(const ColliderEntry& entry)
     return Solid{.name = "box", .shape = scaled(std::get<BoxShape>(entry.shape), scale), .transform = transform};
 }
 
-gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
+gpu::Result<Solid> load_solid(const SceneFile& scene, size_t index)
 {
-    if (entry.frames)
-        return gpu::Error{place(scene, entry.line) + ": colliders: \"frames\" is not supported yet"};
+    const ColliderEntry& entry = scene.colliders[index];
     if (auto spin = check_spin(scene, entry); !spin)
         return spin.error();
-    auto solid = load_shape(entry);
+    auto solid = entry.frames ? load_sequence(entry) : load_shape(entry);
+    if (!solid && entry.frames)
+        return gpu::Error{one_line(place(scene, entry.line) + ": colliders[" + std::to_string(index) +
+                                   "].frames: " + solid.error().message)};
     if (!solid)
         return solid;
     solid.value().friction = entry.friction;
@@ -173,7 +189,7 @@ glm::mat4 fit(const engine::Bounds& mesh, const engine::Bounds& box)
 bool Solid::is_ground() const
 {
     const auto box = bounds();
-    if (!box || !std::holds_alternative<engine::Mesh>(shape))
+    if (!box || !std::holds_alternative<engine::Mesh>(shape) || frames)
         return false;
     const glm::vec3 size = box->max - box->min;
     return size.y <= 1e-3f * std::max(size.x, size.z);
@@ -206,7 +222,7 @@ std::optional<engine::Bounds> Solid::bounds() const
 
 std::optional<engine::Bounds> Solid::reach() const
 {
-    const auto still = bounds();
+    const auto still = frames ? transformed(frames->bounds(), transform) : bounds();
     if (!still || !motion)
         return still;
     MotionEntry there = *motion;
@@ -241,9 +257,9 @@ engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bound
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
 {
     std::vector<Solid> solids;
-    for (const ColliderEntry& entry : scene.colliders)
+    for (size_t i = 0; i < scene.colliders.size(); ++i)
     {
-        auto solid = load_solid(scene, entry);
+        auto solid = load_solid(scene, i);
         if (!solid)
             return solid.error();
         solids.push_back(std::move(solid.value()));

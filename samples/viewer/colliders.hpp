@@ -1,10 +1,13 @@
 // The solids of a run: those of the scene file, and those of the command line fitted into the scene.
 #pragma once
 
+#include "samples/viewer/frame_sequence.hpp"
 #include "samples/viewer/options.hpp"
 #include "samples/viewer/scene_file.hpp"
 
 #include "engine/assets/mesh.hpp"
+
+#include <memory>
 
 namespace viewer
 {
@@ -16,17 +19,18 @@ struct Solid
     glm::mat4 transform{1.f}; // world from shape, at time 0; of all but a mesh rigid, their scale is in the shape
     std::optional<FrictionEntry> friction{};
     std::optional<MotionEntry> motion{};
+    std::shared_ptr<const MeshSequence> frames{}; // of a mesh that deforms, whose shape is the first; else null
     std::optional<MeshSides> sides{};
     uint32_t layers = 1;
     uint32_t line = 0; // of the scene file; 0: of the command line
 
-    // A mesh that is flat and level: drawn as ground, and no part of the collider box.
+    // A mesh that is flat and level, and stays so: drawn as ground, and no part of the collider box.
     [[nodiscard]] bool is_ground() const;
     // Of a plane or a mesh that is level.
     [[nodiscard]] std::optional<float> ground_height() const;
     // In the scene at time 0. A plane has none.
     [[nodiscard]] std::optional<engine::Bounds> bounds() const;
-    // Of all places that it spins and sways through; its velocity is not looked at.
+    // Of all forms that it takes, at all places that it spins and sways through; its velocity is not looked at.
     [[nodiscard]] std::optional<engine::Bounds> reach() const;
 };
 
@@ -36,7 +40,7 @@ engine::Mesh mesh_of(const Solid& solid, float half_size);
 // Loads all meshes. The files of --collider take the place of the scene's meshes (its ground stays): each is scaled
 // evenly, centred and set on the floor of the box that those filled, side by side where there are several. In a scene
 // without such a mesh the box lies below the cloths. They move, and meet cloth, as the first of the meshes did whose
-// place they take. Errors name the file.
+// place they take; they do not deform. Errors name the file.
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b);

@@ -2,6 +2,7 @@
 #include "samples/viewer/debug_view.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace viewer
 {
@@ -44,6 +45,12 @@ float longest_side(const std::vector<glm::vec3>& places)
     return std::max({size.x, size.y, size.z});
 }
 
+void tell_no_boxes(const Solid& solid)
+{
+    std::fprintf(stderr, "viewer: note: collider \"%s\" deforms: its boxes are on the GPU alone and are not drawn\n",
+                 solid.name.c_str());
+}
+
 } // namespace
 
 DebugView::DebugView(engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
@@ -54,7 +61,7 @@ DebugView::DebugView(engine::App& app, const Stage& stage, const std::vector<Sol
         cloths_.push_back({cloth.id, k_normal_length * longest_side(cloth.start)});
     if (options.boxes)
         for (size_t i = 0; i < solids.size(); ++i)
-            add_boxes(app, stage, i, *options.boxes);
+            solids[i].frames ? tell_no_boxes(solids[i]) : add_boxes(app, stage, i, *options.boxes);
 }
 
 void DebugView::add_boxes(engine::App& app, const Stage& stage, size_t solid, uint32_t level)

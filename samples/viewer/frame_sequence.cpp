@@ -31,7 +31,7 @@ std::string difference(const engine::Mesh& faces, const engine::Mesh& first)
 
 } // namespace
 
-gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry)
+gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
 {
     const auto files = frame_files(entry);
     if (!files)
@@ -42,19 +42,33 @@ gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry)
     if (!first)
         return first.error();
     sequence.first_ = std::move(first.value());
+    sequence.bounds_ = engine::bounds(sequence.first_);
     engine::Mesh first_faces;
-    for (const std::filesystem::path& file : files.value())
+    const auto faces_of = [&](const std::filesystem::path& file) -> gpu::Result<engine::Mesh>
     {
         auto faces = engine::load_mesh(file, nullptr, engine::MeshVertices::faces);
         if (!faces)
-            return faces.error();
-        if (sequence.frames_.empty())
+            return faces;
+        if (first_faces.positions.empty())
             first_faces = faces.value();
         const std::string other = difference(faces.value(), first_faces);
         if (!other.empty())
             return gpu::Error{file.string() + ": " + other + " (" + files.value().front().filename().string() + ")"};
+        return faces;
+    };
+    for (const std::filesystem::path& file : files.value())
+    {
+        auto faces = faces_of(file);
+        if (!faces)
+            return faces.error();
+        const engine::Bounds box = engine::bounds(faces.value());
+        sequence.bounds_.min = glm::min(sequence.bounds_.min, box.min);
+        sequence.bounds_.max = glm::max(sequence.bounds_.max, box.max);
         sequence.frames_.push_back(std::move(faces.value().positions));
     }
+    if (!mesh.empty())
+        if (auto same = faces_of(mesh); !same)
+            return same.error();
     return sequence;
 }
 

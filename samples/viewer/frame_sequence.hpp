@@ -11,12 +11,14 @@ namespace viewer
 class MeshSequence
 {
 public:
-    // Reads all files. A vertex is a position of the file, in its order. Errors name the file: one that is missing or
-    // cannot be read, another number of vertices or other triangles than the first has.
-    static gpu::Result<MeshSequence> load(const FrameSequence& entry);
+    // Reads all files. A vertex is a position of the file, in its order. `mesh`, where it is not empty, is a file that
+    // must have the same topology. Errors name the file: one that is missing or cannot be read, another number of
+    // vertices or other triangles than the first has.
+    static gpu::Result<MeshSequence> load(const FrameSequence& entry, const std::filesystem::path& mesh = {});
 
-    // The first file's: the mesh at time 0.
+    // The first file's: the mesh at time 0. Triangles that have no area there are left out for good.
     [[nodiscard]] const engine::Mesh& first() const { return first_; }
+    [[nodiscard]] const engine::Bounds& bounds() const { return bounds_; } // of all files
     [[nodiscard]] size_t frames() const { return frames_.size(); }
     [[nodiscard]] double duration() const; // s, from the first file to the last
 
@@ -27,6 +29,7 @@ public:
 
 private:
     engine::Mesh first_;
+    engine::Bounds bounds_;
     std::vector<std::vector<glm::vec3>> frames_; // positions
     double rate_ = 60;                           // frames per second
 };

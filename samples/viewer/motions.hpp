@@ -2,8 +2,11 @@
 #pragma once
 
 #include "samples/viewer/cloths.hpp"
+#include "samples/viewer/frame_sequence.hpp"
 
-#include "engine/scene/static_mesh.hpp"
+#include "engine/scene/deforming_mesh.hpp"
+
+#include <memory>
 
 namespace viewer
 {
@@ -14,9 +17,19 @@ struct MovingSolid
     size_t solid = 0; // its number among the stage's
     cloth::ColliderId collider;
     MotionEntry motion;
-    engine::StaticMesh* body = nullptr; // owned by the scene
-    glm::mat4 placed{1.f};              // world from the body's mesh, at time 0
-    glm::mat4 pose{1.f};                // from where it was added to where it is after the frames so far
+    engine::DrawnMesh* body = nullptr; // owned by the scene
+    glm::mat4 placed{1.f};             // world from the body's mesh, at time 0
+    glm::mat4 pose{1.f};               // from where it was added to where it is after the frames so far
+};
+
+// A solid that deforms, likewise. It may move too.
+struct DeformingSolid
+{
+    size_t solid = 0;
+    cloth::ColliderId collider;
+    std::shared_ptr<const MeshSequence> frames;
+    engine::DeformingMesh* body = nullptr; // owned by the scene
+    std::vector<glm::vec3> positions;      // m, in its mesh's space, after the frames so far
 };
 
 // Each frame, moves them to where they are at the frame's end: the solver goes there during its step, and the picture
@@ -28,13 +41,18 @@ public:
 
     std::vector<MovingPin> pins;
     std::vector<MovingSolid> solids;
+    std::vector<DeformingSolid> deforming;
 
     // From where a solid was added to where it is after the frames so far.
     [[nodiscard]] glm::mat4 pose(size_t solid) const;
+    // Where the vertices of a solid that deforms are after the frames so far, in its mesh's space; null for any other.
+    [[nodiscard]] const std::vector<glm::vec3>* positions(size_t solid) const;
 
     void update(const engine::FrameInfo& frame) override;
 
 private:
+    void deform(DeformingSolid& solid, const engine::FrameInfo& frame);
+
     cloth::Solver& solver_;
 };
 

@@ -161,7 +161,8 @@ struct ClothEntry
 
 struct MeshShape
 {
-    std::filesystem::path file; // OBJ or PLY, resolved; empty where `frames` alone gives the form
+    std::filesystem::path file; // OBJ or PLY, resolved; empty where `frames` alone gives the form. Beside `frames` it
+                                // must have their topology, and where its vertices are counts nothing
 };
 struct PlaneShape
 {

@@ -3,6 +3,8 @@
 
 #include "samples/viewer/cloths.hpp"
 
+#include "engine/scene/static_mesh.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,8 +73,11 @@ cloth::Collider collider_of(const Solid& solid)
     if (const auto* box = std::get_if<BoxShape>(&solid.shape))
         return cloth::BoxCollider{.min = box->min, .max = box->max, .transform = solid.transform};
     const auto& mesh = std::get<engine::Mesh>(solid.shape);
-    return cloth::MeshCollider{
-        .positions = mesh.positions, .triangles = mesh.triangles, .transform = solid.transform, .sides = sides(solid)};
+    return cloth::MeshCollider{.positions = mesh.positions,
+                               .triangles = mesh.triangles,
+                               .transform = solid.transform,
+                               .sides = sides(solid),
+                               .deforms = solid.frames != nullptr};
 }
 
 gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneFile& scene, const Solid& solid)
@@ -92,13 +97,32 @@ gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneF
     return added;
 }
 
-engine::StaticMesh& add_to_scene(engine::App& app, const Solid& solid, float extent)
+// Draws a solid, and has the motions move it if it does.
+void add_to_scene(engine::App& app, const Solid& solid, float extent, cloth::ColliderId collider, Stage& stage)
 {
     const bool ground = solid.is_ground() || std::holds_alternative<PlaneShape>(solid.shape);
-    return app.scene()
-        .add(solid.name)
-        .add<engine::StaticMesh>(app.uploads(), mesh_of(solid, 30 * extent),
-                                 ground ? engine::ground_surface() : solid_surface(), solid.name, solid.transform);
+    const engine::Mesh mesh = mesh_of(solid, 30 * extent);
+    const engine::Surface surface = ground ? engine::ground_surface() : solid_surface();
+    const size_t index = stage.colliders.size();
+    engine::Entity& entity = app.scene().add(solid.name);
+    engine::DrawnMesh* body = nullptr;
+    if (solid.frames)
+    {
+        auto& deforming =
+            entity.add<engine::DeformingMesh>(app.uploads(), app.slots(), mesh, surface, solid.name, solid.transform);
+        stage.motions->deforming.push_back({.solid = index,
+                                            .collider = collider,
+                                            .frames = solid.frames,
+                                            .body = &deforming,
+                                            .positions = mesh.positions});
+        body = &deforming;
+    }
+    else
+        body = &entity.add<engine::StaticMesh>(app.uploads(), mesh, surface, solid.name, solid.transform);
+    if (solid.motion)
+        stage.motions->solids.push_back(
+            {.solid = index, .collider = collider, .motion = *solid.motion, .body = body, .placed = solid.transform});
+    stage.colliders.push_back(collider);
 }
 
 // What the camera looks at and the shadow map covers: cloths, solids above ground, and the ground below them.
@@ -202,14 +226,7 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
         const auto added = add_to_solver(world.solver(), scene, solid);
         if (!added)
             return added.error();
-        engine::StaticMesh& body = add_to_scene(app, solid, glm::distance(box.min, box.max));
-        if (solid.motion)
-            stage.motions->solids.push_back({.solid = stage.colliders.size(),
-                                             .collider = added.value(),
-                                             .motion = *solid.motion,
-                                             .body = &body,
-                                             .placed = solid.transform});
-        stage.colliders.push_back(added.value());
+        add_to_scene(app, solid, glm::distance(box.min, box.max), added.value(), stage);
     }
     tell_softened(stage, 1 / scene.step.rate);
     return stage;

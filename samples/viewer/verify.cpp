@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 namespace viewer
 {
@@ -15,6 +16,7 @@ namespace
 // How deep a point that started at `start` lies under a solid, m; 0 or less if it does not. Both as seen from the solid
 // where it was at time 0.
 using Depth = std::function<double(const glm::dvec3& point, const glm::dvec3& start)>;
+using Distance = std::shared_ptr<const cloth::MeshDistance>;
 
 double segment_distance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p)
 {
@@ -45,7 +47,7 @@ double formula_depth(const Solid& solid, const glm::dvec3& p)
 }
 
 // A mesh whose inside is where it winds around a point.
-Depth winding_depth(const std::shared_ptr<const cloth::MeshDistance>& distance)
+Depth winding_depth(const Distance& distance)
 {
     return [distance](const glm::dvec3& p, const glm::dvec3&)
     {
@@ -54,34 +56,49 @@ Depth winding_depth(const std::shared_ptr<const cloth::MeshDistance>& distance)
     };
 }
 
-// A mesh with two sides, of which the one where its triangles face is free, or the one where a vertex started.
-Depth side_depth(const std::shared_ptr<const cloth::MeshDistance>& distance, bool started)
+// A mesh with two sides, of which the one where its triangles face is free, or the one where a vertex started as the
+// mesh was `at_start`, which may be null.
+Depth side_depth(const Distance& distance, const Distance& at_start)
 {
-    return [distance, started](const glm::dvec3& p, const glm::dvec3& start)
+    return [distance, at_start](const glm::dvec3& p, const glm::dvec3& start)
     {
         const auto now = distance->nearest(p);
-        const double side = started && distance->nearest(start).signed_distance < 0 ? -1 : 1;
+        const double side = at_start && at_start->nearest(start).signed_distance < 0 ? -1 : 1;
         return now.on_boundary ? 0 : -side * now.signed_distance;
     };
 }
 
-gpu::Result<Depth> mesh_depth(const Solid& solid)
+gpu::Result<Distance> mesh_distance(const Solid& solid, const std::vector<glm::vec3>& positions)
 {
-    const auto& mesh = std::get<engine::Mesh>(solid.shape);
-    auto created = cloth::MeshDistance::create(
-        {.name = solid.name, .positions = mesh.positions, .triangles = mesh.triangles, .transform = solid.transform});
+    auto created = cloth::MeshDistance::create({.name = solid.name,
+                                                .positions = positions,
+                                                .triangles = std::get<engine::Mesh>(solid.shape).triangles,
+                                                .transform = solid.transform});
     if (!created)
         return created.error();
-    const auto distance = std::make_shared<const cloth::MeshDistance>(std::move(created.value()));
-    if (distance->closed() || solid.sides == MeshSides::one)
-        return side_depth(distance, solid.sides == MeshSides::two);
-    return distance->has_sides() ? side_depth(distance, true) : winding_depth(distance);
+    return std::make_shared<const cloth::MeshDistance>(std::move(created.value()));
 }
 
-gpu::Result<Depth> depth_of(const Solid& solid)
+// `deformed`: where its vertices have come to; null if they stay.
+gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* deformed)
+{
+    const auto first = mesh_distance(solid, std::get<engine::Mesh>(solid.shape).positions);
+    if (!first)
+        return first.error();
+    const auto now = deformed != nullptr ? mesh_distance(solid, *deformed) : first;
+    if (!now)
+        return now.error();
+    const Distance& start = first.value();
+    const Distance& distance = now.value();
+    if (distance->closed() || solid.sides == MeshSides::one)
+        return side_depth(distance, solid.sides == MeshSides::two ? start : nullptr);
+    return distance->has_sides() && start->has_sides() ? side_depth(distance, start) : winding_depth(distance);
+}
+
+gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)
 {
     if (std::holds_alternative<engine::Mesh>(solid.shape))
-        return mesh_depth(solid);
+        return mesh_depth(solid, deformed);
     return Depth([&solid, back = glm::inverse(glm::dmat4(solid.transform))](const glm::dvec3& p, const glm::dvec3&)
                  { return formula_depth(solid, glm::dvec3(back * glm::dvec4(p, 1))); });
 }
@@ -99,7 +116,7 @@ gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::v
     std::vector<Obstacle> obstacles;
     for (size_t i = 0; i < solids.size(); ++i)
     {
-        auto depth = depth_of(solids[i]);
+        auto depth = depth_of(solids[i], stage.motions->positions(i));
         if (!depth)
             return depth.error();
         obstacles.push_back(
