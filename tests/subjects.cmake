@@ -12,7 +12,7 @@ voile_add_test(test_viewer_parts
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES test_contact.cpp test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
-voile_add_test(test_viewer SOURCES test_viewer.cpp test_viewer_solids.cpp
+voile_add_test(test_viewer SOURCES test_viewer.cpp test_viewer_solids.cpp test_viewer_frames.cpp
                LIBRARIES voile_viewer_parts voile_scene_meshes voile::engine)
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)

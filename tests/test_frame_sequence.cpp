@@ -34,6 +34,8 @@ TEST_CASE("vertices go along straight lines from file to file, and stay at the l
     CHECK(sequence.first().positions.size() == 4);
     CHECK(sequence.first().triangles.size() == 2);
     CHECK(sequence.first().normals[0] == glm::vec3(0, 1, 0));
+    CHECK(sequence.bounds().min == glm::vec3(0));
+    CHECK(sequence.bounds().max == glm::vec3(2, 0, 2));
     std::vector<glm::vec3> places;
     const auto corner = [&](double seconds)
     {
@@ -72,6 +74,16 @@ TEST_CASE("what is not the same mesh is refused, with both counts and the files'
     // The same faces are the same mesh, even where one of them has lost its area.
     folder.write("w1.obj", "v 0 0 0\nv 1 0 0\nv 0 0 0\nv 0 0 0\nf 1 4 3 2\n");
     CHECK(message(folder, "w%d.obj") == "accepted");
+    // A mesh beside the sequence must have its faces too.
+    const auto beside = [&](const std::string& text)
+    {
+        const auto file = folder.write("rest.obj", text);
+        const auto result = viewer::MeshSequence::load({folder / "w%d.obj", 10}, file);
+        return result ? "accepted" : result.error().message;
+    };
+    CHECK(beside(quad(5)) == "accepted");
+    CHECK(beside("v 5 5 5\n" + quad(1)) ==
+          (folder / "rest.obj").string() + ": has 5 vertices, but the first has 4 (w0.obj)");
     folder.write("w1.obj", "v 0 0 0\nv 1 0\n");
     CHECK(message(folder, "w%d.obj").starts_with(at + ":2"));
     folder.write("w1.obj", quad(1));

@@ -1,6 +1,7 @@
 // Meshes made by rule, and the cutting of polygons.
 #include "engine/assets/shapes.hpp"
 
+#include "engine/assets/normals.hpp"
 #include "engine/assets/triangulate.hpp"
 #include "mesh_checks.hpp"
 
@@ -144,4 +145,20 @@ TEST_CASE("a polygon that crosses itself or has no area still gives all triangle
     CHECK(cut({{0, 0, 0}, {1, 0, 1}, {1, 0, 0}, {0, 0, 1}}).triangles.size() == 2);
     CHECK(cut({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}).triangles.size() == 3);
     CHECK(cut({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).triangles.size() == 2);
+}
+
+TEST_CASE("normals do not depend on how a face is cut, nor on triangles without area")
+{
+    std::vector<glm::dvec3> sums;
+    const engine::Mesh box = engine::make_box({0, 0, 0}, {1, 2, 3});
+    engine::sum_normals(box.positions, box.triangles, sums);
+    REQUIRE(sums.size() == box.positions.size());
+    for (size_t i = 0; i < sums.size(); ++i)
+        CHECK(engine::unit_normal(sums[i]) == box.normals[i]);
+    // A corner of a cube, one face of it cut in two: each face counts by a right angle.
+    const std::vector<glm::vec3> corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
+    engine::sum_normals(corner, std::vector<glm::uvec3>{{0, 2, 1}, {0, 1, 3}, {0, 4, 2}, {0, 3, 4}, {0, 1, 5}}, sums);
+    CHECK(glm::distance(engine::unit_normal(sums[0]), glm::vec3(-1 / std::numbers::sqrt3_v<float>)) < 1e-6f);
+    CHECK(sums[5] == glm::dvec3(0)); // of a triangle without area alone
+    CHECK(engine::unit_normal(sums[5]) == glm::vec3(0, 1, 0));
 }

@@ -1,14 +1,9 @@
 // Solids of scene files in a run: where their transforms put them, how they move, which cloth they meet, and that the
 // picture and the exact checks know it.
-#include "test_folder.hpp"
-#include "viewer_run.hpp"
+#include "viewer_scenes.hpp"
 
-#include "engine/assets/image_file.hpp"
-#include "engine/assets/load_mesh.hpp"
 #include "engine/assets/obj.hpp"
 #include "engine/assets/shapes.hpp"
-#include "engine/gpu/device.hpp"
-#include "samples/viewer/json_tree.hpp"
 
 #include <array>
 
@@ -16,84 +11,18 @@ namespace
 {
 
 using tests::check_refused;
+using tests::differing;
 using tests::Run;
 using tests::run_viewer;
-using tests::text_of;
-
-const std::string k_camera = R"("camera": {"position": [0, 1, 4], "target": [0, 0.4, 0]})";
-
-// A sheet of silk at a height, and colliders.
-std::string scene(const std::string& colliders, const std::string& cloth = "", float height = 0.6f)
-{
-    return R"({"cloths": [{"grid": {"vertices": [12, 12], "size": [0.6, 0.6]}, "material": "silk",
-"transform": {"translate": [0, )" +
-           std::to_string(height) + ", 0]}" + cloth + "}],\n\"colliders\": [" + colliders + "],\n" + k_camera + "}";
-}
-
-struct Result
-{
-    std::string hash;
-    double deepest = 0; // m
-    engine::Mesh cloth;
-};
-
-class Runs
-{
-public:
-    // With the exact checks. Without, the depth is that of the solver's own statistics.
-    Result run(const std::string& text, uint32_t frames, const std::string& options = "--validate --verify")
-    {
-        const auto file = folder_.write("s.json", text);
-        const Run run =
-            run_viewer(file.string() + " --headless --size 64x36 --frames " + std::to_string(frames) + " " + options +
-                       " --stats " + (folder_ / "s.stats").string() + " --export " + (folder_ / "s.obj").string());
-        CAPTURE(run.errors);
-        REQUIRE(run.exit_code == 0);
-        const auto statistics = engine::take(viewer::parse_json(text_of(folder_ / "s.stats"), "s.stats"));
-        const viewer::JsonNode* summary = statistics.find("summary");
-        REQUIRE(summary != nullptr);
-        return {summary->find("state_hash")->text, summary->find("deepest_penetration")->number,
-                engine::take(engine::load_mesh(folder_ / "s.obj"))};
-    }
-
-    engine::Picture picture(const std::string& text, uint32_t frame, const std::string& options = "")
-    {
-        const auto file = folder_.write("s.json", text);
-        const Run run =
-            run_viewer(file.string() + " --headless --size 320x180 --frames " + std::to_string(frame + 1) +
-                       " --every " + std::to_string(frame) + " --out " + folder_.path().string() + " " + options);
-        CAPTURE(run.errors);
-        REQUIRE(run.exit_code == 0);
-        std::string number = std::to_string(frame);
-        number.insert(0, 4 - number.size(), '0');
-        return engine::take(engine::load_png(folder_ / ("frame_" + number + ".png")));
-    }
-
-    [[nodiscard]] const TestFolder& folder() const { return folder_; }
-
-private:
-    TestFolder folder_;
-};
-
-engine::Bounds bounds(const Result& result)
-{
-    return engine::bounds(result.cloth);
-}
-
-// How many pixels differ plainly.
-int differing(const engine::Picture& a, const engine::Picture& b)
-{
-    int count = 0;
-    for (size_t i = 0; i < a.rgba.size(); i += 4)
-        count += std::abs(a.rgba[i] - b.rgba[i]) + std::abs(a.rgba[i + 1] - b.rgba[i + 1]) > 40;
-    return count;
-}
+using tests::scene;
+using tests::SceneResult;
+using tests::SceneRuns;
 
 } // namespace
 
 TEST_CASE("a transform scales and places every shape")
 {
-    Runs runs;
+    SceneRuns runs;
     // The same solid written in two ways, in numbers that floats hold exactly.
     const std::array<std::array<const char*, 2>, 4> pairs{{
         {R"({"sphere": {"center": [0, 0.25, 0], "radius": 0.25}})",
@@ -109,27 +38,27 @@ TEST_CASE("a transform scales and places every shape")
     for (const auto& [plain, placed] : pairs)
     {
         CAPTURE(plain);
-        const Result first = runs.run(scene(plain), 30);
+        const SceneResult first = runs.run(scene(plain), 30);
         CHECK(first.hash == runs.run(scene(placed), 30).hash);
         CHECK(first.deepest < 1e-5);
         CHECK(bounds(first).max.y > 0.45f); // it lies on it
     }
     // A tilted plane lets cloth slide down along its slope, a turned box carries it on its edge.
-    const Result slope = runs.run(
+    const SceneResult slope = runs.run(
         scene(R"({"plane": {"y": 0}, "friction": 0, "transform": {"rotate": [0, 0, -30], "translate": [0, 0.2, 0]}})"),
         60);
     CHECK(bounds(slope).min.x > 0.2f);
     CHECK(slope.deepest < 1e-5);
-    const Result edge = runs.run(scene(R"({"box": {"min": [-0.2, -0.2, -0.5], "max": [0.2, 0.2, 0.5]},
+    const SceneResult edge = runs.run(scene(R"({"box": {"min": [-0.2, -0.2, -0.5], "max": [0.2, 0.2, 0.5]},
                                            "transform": {"rotate": [0, 0, 45], "translate": [0, 0.25, 0]}})"),
-                                 30);
+                                      30);
     CHECK(bounds(edge).max.y == doctest::Approx(0.25 + 0.2 * std::sqrt(2)).epsilon(0.02));
     CHECK(edge.deepest < 1e-5);
 }
 
 TEST_CASE("solids move, and the exact checks hold cloth against where they are")
 {
-    Runs runs;
+    SceneRuns runs;
     const std::string lift = R"("motion": {"velocity": [0, -0.45, 0], "spin": [0, 20, 0]}})";
     for (const std::string shape :
          {R"({"plane": {"y": 0.5}, )", R"({"box": {"min": [-1, 0, -1], "max": [1, 0.5, 1]}, )",
@@ -138,7 +67,7 @@ TEST_CASE("solids move, and the exact checks hold cloth against where they are")
     {
         CAPTURE(shape);
         engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
-        const Result result = runs.run(scene(shape + lift), 40);
+        const SceneResult result = runs.run(scene(shape + lift), 40);
         // It has sunk 0.3 m: at the place of time 0 nearly all of the cloth would be inside.
         CHECK(bounds(result).max.y == doctest::Approx(0.2).epsilon(0.03));
         CHECK(result.deepest < 1e-5);
@@ -154,7 +83,7 @@ TEST_CASE("solids move, and the exact checks hold cloth against where they are")
 
 TEST_CASE("a solid is drawn where it is at the frame's end")
 {
-    Runs runs;
+    SceneRuns runs;
     // The cloth hangs out of the way. After 31 frames at 1.2 m/s the ball has gone 0.62 m.
     const auto with = [](const std::string& ball)
     { return scene(ball, R"(, "pins": ["edge:top", "edge:bottom"])", 1.2f); };
@@ -175,16 +104,16 @@ TEST_CASE("a solid is drawn where it is at the frame's end")
 
 TEST_CASE("cloth meets the solids of its layers alone, and a mesh pushes to the side that it is told")
 {
-    Runs runs;
+    SceneRuns runs;
     const std::string two = R"({"plane": {"y": 0.5}, "layers": [1]}, {"plane": {"y": 0}, "layers": [2, 7]})";
     CHECK(bounds(runs.run(scene(two, R"(, "layers": [1, 2])"), 40)).min.y > 0.5f);
-    const Result lower = runs.run(scene(two, R"(, "layers": [7])"), 55);
+    const SceneResult lower = runs.run(scene(two, R"(, "layers": [7])"), 55);
     CHECK(bounds(lower).max.y < 0.01f);
     CHECK(lower.deepest < 1e-5); // the plane above is not the cloth's
     CHECK(bounds(runs.run(scene(two, R"(, "layers": [])"), 55)).min.y < -0.1f);
 
     engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({0, 0.6f, 0}, 0.5f, 16)));
-    const Result inside = runs.run(scene(R"({"mesh": "ball.obj", "sides": "two"})"), 60);
+    const SceneResult inside = runs.run(scene(R"({"mesh": "ball.obj", "sides": "two"})"), 60);
     CHECK(bounds(inside).min.y > 0.1f);
     CHECK(bounds(inside).min.y < 0.15f);
     CHECK(inside.deepest < 1e-5);
@@ -193,19 +122,19 @@ TEST_CASE("cloth meets the solids of its layers alone, and a mesh pushes to the 
 
 TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
 {
-    Runs runs;
+    SceneRuns runs;
     engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
     engine::take(engine::save_obj(runs.folder() / "box.obj", engine::make_box({-3, 0, -3}, {3, 6, 3})));
     const std::string text =
         scene(R"({"mesh": "ball.obj", "motion": {"velocity": [0, -0.45, 0]}, "layers": [4]})", R"(, "layers": [4])");
-    const Result result = runs.run(text, 40, "--verify --collider " + (runs.folder() / "box.obj").string());
+    const SceneResult result = runs.run(text, 40, "--verify --collider " + (runs.folder() / "box.obj").string());
     CHECK(bounds(result).max.y == doctest::Approx(0.2).epsilon(0.03));
     CHECK(result.deepest < 1e-5);
 }
 
 TEST_CASE("--debug shows boxes that move with their mesh, contacts where cloth touches, and normals")
 {
-    Runs runs;
+    SceneRuns runs;
     engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({-0.3f, 0.3f, 0}, 0.2f, 16)));
     const auto is_like = [](const engine::Picture& picture, size_t pixel, const glm::ivec3& color)
     {
