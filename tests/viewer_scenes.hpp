@@ -72,12 +72,12 @@ inline engine::Bounds bounds(const SceneResult& result)
     return engine::bounds(result.cloth);
 }
 
-// How many pixels differ plainly.
-inline int differing(const engine::Picture& a, const engine::Picture& b)
+// How many pixels differ plainly: by more than this in red and green together, of 510.
+inline int differing(const engine::Picture& a, const engine::Picture& b, int plainly = 40)
 {
     int count = 0;
     for (size_t i = 0; i < a.rgba.size(); i += 4)
-        count += std::abs(a.rgba[i] - b.rgba[i]) + std::abs(a.rgba[i + 1] - b.rgba[i + 1]) > 40;
+        count += std::abs(a.rgba[i] - b.rgba[i]) + std::abs(a.rgba[i + 1] - b.rgba[i + 1]) > plainly;
     return count;
 }
 
