@@ -163,6 +163,24 @@ TEST_CASE("the ground is a flat grid that faces up")
     }
 }
 
+TEST_CASE("the jelly begins as the gem, and keeps its faces and its volume")
+{
+    const engine::Mesh gem = scenes::make_gem();
+    const engine::Mesh first = scenes::make_jelly(0);
+    for (size_t i = 0; i < gem.positions.size(); ++i)
+        CHECK(glm::distance(first.positions[i], gem.positions[i] + glm::vec3(0, 0.4f, 0)) < 1e-6f);
+    double lowest = 1; // height of the top, m
+    for (uint32_t frame = 0; frame < scenes::k_jelly_frames; ++frame)
+    {
+        const engine::Mesh jelly = scenes::make_jelly(static_cast<double>(frame) / scenes::k_jelly_rate);
+        CHECK(jelly.triangles == gem.triangles);
+        CHECK(signed_volume(jelly) == doctest::Approx(signed_volume(gem)).epsilon(0.01)); // faces stay flat
+        CHECK(engine::bounds(jelly).min.y > 0);
+        lowest = std::min(lowest, double{engine::bounds(jelly).max.y});
+    }
+    CHECK(lowest < 0.55);
+}
+
 TEST_CASE("the gem is closed once its faces are joined, wound outwards, and lies between its two radii")
 {
     engine::Mesh gem = scenes::make_gem();

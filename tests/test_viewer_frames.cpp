@@ -159,6 +159,14 @@ TEST_CASE("--debug, --export and --collider know meshes that deform")
     CHECK(replaced.errors.find("note:") == std::string::npos);
 }
 
+TEST_CASE("the jelly scene runs at a coarse resolution, and its cloth stays outside")
+{
+    const Run run = run_viewer("jelly --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("verified: 0 penetrating vertices") != std::string::npos);
+}
+
 TEST_CASE("a sequence that cannot be used is named with the scene's line and the file")
 {
     const TestFolder folder;

@@ -1,8 +1,9 @@
-// An icosahedron, its faces cut in four.
+// An icosahedron, its faces cut in four, and its soft twin.
 #include "gem.hpp"
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace scenes
 {
@@ -61,6 +62,20 @@ engine::Mesh make_gem()
         for (size_t i = 0; i < 3; ++i)
             add_face(mesh, {k_corner * face[i], between[i], between[(i + 2) % 3]});
         add_face(mesh, between);
+    }
+    return mesh;
+}
+
+engine::Mesh make_jelly(double seconds)
+{
+    const double around = 2 * std::numbers::pi * seconds;
+    const auto height = static_cast<float>(0.83 + 0.17 * std::cos(around / 1.6)); // of the gem's
+    const auto sway = static_cast<float>(0.35 * std::sin(around / 2.5));          // 1/m
+    engine::Mesh mesh = make_gem();
+    for (glm::vec3& p : mesh.positions)
+    {
+        const float y = height * (p.y + k_corner);
+        p = {p.x / std::sqrt(height) + sway * y * y, y, p.z / std::sqrt(height)};
     }
     return mesh;
 }

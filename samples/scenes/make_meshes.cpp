@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <string>
 
 namespace
 {
@@ -19,13 +20,22 @@ bool save(const std::filesystem::path& path, const engine::Mesh& mesh)
     return saved.ok();
 }
 
+bool save_jelly(const std::filesystem::path& folder)
+{
+    for (uint32_t i = 0; i < scenes::k_jelly_frames; ++i)
+        if (!save(folder / ("jelly_" + std::to_string(i) + ".obj"),
+                  scenes::make_jelly(static_cast<double>(i) / scenes::k_jelly_rate)))
+            return false;
+    return true;
+}
+
 int run(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
     const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
                        save(folder / "ground.obj", scenes::make_ground()) &&
                        save(folder / "drape_heart.obj", scenes::make_drape_heart()) &&
-                       save(folder / "gem.obj", scenes::make_gem());
+                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder);
     return saved ? 0 : 1;
 }
 
