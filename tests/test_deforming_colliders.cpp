@@ -1,13 +1,12 @@
 // Mesh colliders whose vertices the host moves: surfaces that carry cloth, equal to rigid ones that move alike, and
 // hard cases in which nothing may get to the wrong side.
 #include "cloth_harness.hpp"
+#include "collider_scenes.hpp"
 
 #include "gpu/buffer.hpp"
 
 #include "cloth/mesh_checks.hpp"
 #include "engine/assets/shapes.hpp"
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,32 +17,11 @@ namespace
 {
 
 using tests::ClothHarness;
-
-cloth::MeshCollider deforming(const engine::Mesh& mesh)
-{
-    return {.positions = mesh.positions, .triangles = mesh.triangles, .deforms = true};
-}
-
-cloth::Grid sheet(uint32_t vertices, float size, float height)
-{
-    cloth::Grid grid;
-    grid.columns = grid.rows = vertices;
-    grid.width = grid.depth = size;
-    grid.transform = glm::translate(glm::mat4(1.f), {0, height, 0});
-    cloth::Fabric fabric;
-    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
-    grid.material = fabric;
-    return grid;
-}
-
-std::vector<glm::vec3> transformed(const std::vector<glm::vec3>& positions, const glm::mat4& transform)
-{
-    std::vector<glm::vec3> result;
-    result.reserve(positions.size());
-    for (const glm::vec3& p : positions)
-        result.emplace_back(transform * glm::vec4(p, 1));
-    return result;
-}
+using tests::deforming;
+using tests::fabric_of;
+using tests::flat_sheet;
+using tests::reason;
+using tests::transformed;
 
 // A hemisphere, open at the top, of radius r at rest; `closing` from 0 to 1 takes its rim to the axis and beyond its
 // half sphere, as a hand closes.
@@ -84,7 +62,7 @@ TEST_CASE("a mesh whose vertices all move alike does what a rigid one does")
     for (int way = 0; way < 3; ++way) // rigid, deformed by the host, both at once
     {
         ClothHarness harness;
-        const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(24, 0.8f, 0.15f)));
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(24, 0.8f, 0.15f)));
         cloth::MeshCollider description = deforming(ball);
         description.deforms = way > 0;
         const cloth::ColliderId with = engine::take(harness.solver.add_collider(description));
@@ -133,8 +111,8 @@ TEST_CASE("a surface that flows carries what lies on it by friction")
             ground.triangles.emplace_back(i + 1, i + k_side, i + k_side + 1);
         }
     ClothHarness harness;
-    cloth::Grid patch = sheet(5, 0.05f, 0);
-    auto& fabric = std::get<cloth::Fabric>(patch.material);
+    cloth::Grid patch = flat_sheet(5, 0.05f, 0);
+    cloth::Fabric& fabric = fabric_of(patch);
     fabric.static_friction = fabric.kinetic_friction = 0.8f;
     patch.transform = glm::translate(glm::mat4(1.f), {0.4f, fabric.thickness, 0.1f});
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(patch));
@@ -171,7 +149,7 @@ TEST_CASE("vertices that a buffer on the GPU holds deform a collider as those of
     for (int from_gpu = 0; from_gpu < 2; ++from_gpu)
     {
         ClothHarness harness;
-        const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(20, 0.8f, 0.31f)));
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(20, 0.8f, 0.31f)));
         cloth::MeshCollider description = deforming(ball);
         description.transform = glm::scale(glm::mat4(1.f), glm::vec3(1, 0.9f, 1));
         const cloth::ColliderId with = engine::take(harness.solver.add_collider(description));
@@ -212,7 +190,7 @@ TEST_CASE("a bowl that closes keeps the cloth in it")
         CAPTURE(speed);
         const engine::Mesh open = bowl(0.4f, 0);
         ClothHarness harness;
-        const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(40, 0.5f, -0.15f)));
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(40, 0.5f, -0.15f)));
         const cloth::ColliderId with = engine::take(harness.solver.add_collider(deforming(open)));
         harness.upload();
         harness.step({}, 40);
@@ -241,7 +219,7 @@ TEST_CASE("an upload in the middle keeps a deformed mesh as it is")
 {
     const engine::Mesh ground = engine::make_ground(1);
     ClothHarness harness;
-    const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(8, 0.2f, 0.52f)));
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(8, 0.2f, 0.52f)));
     const cloth::ColliderId with = engine::take(harness.solver.add_collider(deforming(ground)));
     harness.upload();
     REQUIRE(harness.solver.deform_collider(
@@ -262,7 +240,6 @@ TEST_CASE("what a deforming collider cannot take is refused")
     const cloth::ColliderId stiff = engine::take(
         solver.add_collider(cloth::MeshCollider{.positions = ground.positions, .triangles = ground.triangles}));
     const cloth::ColliderId soft = engine::take(solver.add_collider(deforming(ground)));
-    const auto reason = [](const auto& result) { return result ? std::string("accepted") : result.error().message; };
     auto positions = ground.positions;
     CHECK(reason(solver.deform_collider(stiff, positions)) ==
           "collider 0 does not deform: it was added without \"deforms\"");

@@ -1,11 +1,10 @@
 // Colliders that move: the substep seen from the collider's space, surfaces that carry cloth along, fast and thin ones
 // that must not miss, layers and sides, and what bad input gets.
 #include "cloth_harness.hpp"
+#include "collider_scenes.hpp"
 
 #include "cloth/mesh_checks.hpp"
 #include "engine/assets/shapes.hpp"
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,34 +14,11 @@ namespace
 {
 
 using tests::ClothHarness;
-
-glm::mat4 moved(const glm::vec3& way)
-{
-    return glm::translate(glm::mat4(1.f), way);
-}
-
-cloth::MeshCollider collider(const engine::Mesh& mesh)
-{
-    return {.positions = mesh.positions, .triangles = mesh.triangles};
-}
-
-// A sheet of cotton, flat at a height, without air.
-cloth::Grid sheet(uint32_t vertices, float size, float height)
-{
-    cloth::Grid grid;
-    grid.columns = grid.rows = vertices;
-    grid.width = grid.depth = size;
-    grid.transform = moved({0, height, 0});
-    cloth::Fabric fabric;
-    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
-    grid.material = fabric;
-    return grid;
-}
-
-const cloth::Fabric& fabric_of(const cloth::Grid& grid)
-{
-    return std::get<cloth::Fabric>(grid.material);
-}
+using tests::collider;
+using tests::fabric_of;
+using tests::flat_sheet;
+using tests::moved;
+using tests::reason;
 
 // Every kind of collider, with its top near y = 0.
 std::vector<cloth::Collider> all_kinds(const engine::Mesh& ball)
@@ -68,7 +44,7 @@ TEST_CASE("a collider that comes up to the cloth does what the cloth that comes 
         for (int moving = 0; moving < 2; ++moving)
         {
             ClothHarness harness;
-            cloth::Grid grid = sheet(24, 0.8f, 0.15f);
+            cloth::Grid grid = flat_sheet(24, 0.8f, 0.15f);
             grid.velocity = moving == 1 ? glm::vec3(0) : -velocity;
             const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
             const cloth::ColliderId with = engine::take(harness.solver.add_collider(kind));
@@ -100,8 +76,8 @@ TEST_CASE("a turning table carries a patch round with it")
     {
         CAPTURE(mesh);
         ClothHarness harness;
-        cloth::Grid grid = sheet(9, 0.1f, 0);
-        auto& fabric = std::get<cloth::Fabric>(grid.material);
+        cloth::Grid grid = flat_sheet(9, 0.1f, 0);
+        cloth::Fabric& fabric = fabric_of(grid);
         fabric.static_friction = 0.8f;
         fabric.kinetic_friction = 0.7f;
         grid.transform = moved({0.3f, fabric.thickness, 0});
@@ -141,7 +117,7 @@ TEST_CASE("a ball shot through a curtain carries it along")
             CAPTURE(kind.index());
             CAPTURE(speed);
             ClothHarness harness;
-            cloth::Grid grid = sheet(64, 1.5f, 0);
+            cloth::Grid grid = flat_sheet(64, 1.5f, 0);
             grid.transform = glm::rotate(glm::mat4(1.f), std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0)); // hangs
             for (uint32_t column = 0; column < 64; ++column)
                 grid.held.push_back(column);
@@ -175,7 +151,7 @@ TEST_CASE("cloth that is held by a collider goes with it, however far it jumps")
 {
     const engine::Mesh ball = engine::make_sphere({0, 0.3f, 0}, 0.3f, 16);
     ClothHarness harness;
-    cloth::Grid grid = sheet(32, 0.8f, 0.61f);
+    cloth::Grid grid = flat_sheet(32, 0.8f, 0.61f);
     const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
     const cloth::ColliderId with = engine::take(harness.solver.add_collider(collider(ball)));
     (void)engine::take(harness.solver.add_collider(cloth::PlaneCollider{}));
@@ -209,7 +185,7 @@ TEST_CASE("a spinning mesh under a sheet drags it round and is never entered")
     const engine::Mesh ball = engine::make_sphere({0, 0.4f, 0}, 0.4f, 12); // a faceted one
     const auto distance = engine::take(cloth::MeshDistance::create(collider(ball)));
     ClothHarness harness;
-    const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(40, 1.4f, 0.83f)));
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(40, 1.4f, 0.83f)));
     const cloth::ColliderId with = engine::take(harness.solver.add_collider(collider(ball)));
     harness.upload();
     double deepest = 1;
@@ -239,7 +215,7 @@ TEST_CASE("cloth meets the colliders of its layers alone")
     std::vector<cloth::ClothId> ids;
     for (const uint32_t layers : {1u, 2u, 3u, 4u})
     {
-        cloth::Grid grid = sheet(8, 0.2f, 0.05f);
+        cloth::Grid grid = flat_sheet(8, 0.2f, 0.05f);
         grid.layers = layers;
         ids.push_back(engine::take(harness.solver.add_cloth(grid)));
     }
@@ -250,7 +226,7 @@ TEST_CASE("cloth meets the colliders of its layers alone")
     (void)engine::take(harness.solver.add_collider(second));
     harness.upload();
     harness.step({}, 60);
-    const float thickness = fabric_of(sheet(8, 0.2f, 0)).thickness;
+    const float thickness = fabric_of(flat_sheet(8, 0.2f, 0)).thickness;
     CHECK(std::abs(harness.positions(ids[0])[0].y - thickness) < 1e-4f);
     CHECK(std::abs(harness.positions(ids[1])[0].y - (thickness - 1)) < 1e-4f);
     CHECK(std::abs(harness.positions(ids[2])[0].y - thickness) < 1e-4f);
@@ -266,11 +242,11 @@ TEST_CASE("a mesh pushes to the side that it is told")
     {
         CAPTURE(static_cast<int>(sides));
         ClothHarness harness;
-        const cloth::ClothId id = engine::take(harness.solver.add_cloth(sheet(16, 0.4f, -0.2f)));
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(flat_sheet(16, 0.4f, -0.2f)));
         cloth::MeshCollider with = collider(ball);
         with.sides = sides;
         (void)engine::take(harness.solver.add_collider(with));
-        cloth::Grid below = sheet(12, 0.3f, 1.2f);
+        cloth::Grid below = flat_sheet(12, 0.3f, 1.2f);
         below.layers = 2;
         const cloth::ClothId falling = engine::take(harness.solver.add_cloth(below));
         engine::Mesh ground = engine::make_ground(2, 1);
@@ -330,7 +306,6 @@ TEST_CASE("what a collider cannot do is refused and changes nothing")
     ClothHarness harness;
     cloth::Solver& solver = harness.solver;
     const cloth::ColliderId ball = engine::take(solver.add_collider(cloth::SphereCollider{}));
-    const auto reason = [](const auto& result) { return result ? std::string("accepted") : result.error().message; };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(reason(solver.move_collider({7}, glm::mat4(1))) == "collider 7 does not exist");
     CHECK(reason(solver.move_collider(ball, glm::mat4(nan))) == "collider 0: its motion is not finite");
