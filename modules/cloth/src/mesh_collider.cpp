@@ -6,6 +6,8 @@
 #include "padded_tree.hpp"
 #include "refit.hpp"
 
+#include <algorithm>
+
 namespace cloth
 {
 
@@ -33,11 +35,27 @@ ColliderId Model::append_deforming(shared::ColliderRecord record, const MeshInpu
     return id;
 }
 
+// Of the largest buffer, once the mesh is there too.
+uint64_t Model::bytes_with_deforming(const MeshInput& mesh) const
+{
+    const uint64_t leaves = uint64_t{1} << padded_levels(static_cast<uint32_t>(mesh.triangles.size()));
+    const uint64_t boxes = aligned_first_box(padded_boxes) + 2 * leaves - 1;
+    const uint64_t vertices = deforming_positions.size() / 2 + mesh.positions.size();
+    return std::max({(padded_leaves.size() + leaves) * sizeof(shared::PaddedLeaf), boxes * sizeof(shared::PaddedBox),
+                     vertices * std::max(2 * sizeof(glm::vec4), size_t{k_most_stride})});
+}
+
 Result<ColliderId> Model::add(const MeshCollider& collider)
 {
     const auto mesh = prepare_mesh(collider);
     if (!mesh)
         return mesh.error();
+    const std::string contents = std::to_string(mesh.value().triangles.size()) + " triangles";
+    const uint64_t bytes = collider.deforms
+                               ? bytes_with_deforming(mesh.value())
+                               : (triangles.size() + mesh.value().triangles.size()) * sizeof(shared::BvhTriangle);
+    if (auto room = check_room(*this, "collider", collider.name, contents, bytes); !room)
+        return room.error(); // before the hierarchy is built, which takes long
     shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
     if (mesh.value().closed)
         record.flags |= VOILE_COLLIDER_CLOSED;
@@ -47,6 +65,9 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
         return append_deforming(record, mesh.value(), collider.transform);
     const auto hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles);
     const Bvh& bvh = *hierarchy;
+    const uint64_t node_bytes = (nodes.size() + bvh.nodes.size()) * sizeof(shared::BvhNode);
+    if (auto room = check_room(*this, "collider", collider.name, contents, node_bytes); !room)
+        return room.error();
     record.first_node = static_cast<uint32_t>(nodes.size());
     record.first_triangle = static_cast<uint32_t>(triangles.size());
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());

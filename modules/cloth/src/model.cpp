@@ -30,6 +30,17 @@ Error invalid(const std::string& what, const std::string& name, const std::strin
     return Error{what + " \"" + name + "\": " + reason};
 }
 
+Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
+                        const std::string& contents, uint64_t bytes)
+{
+    if (bytes <= model.max_buffer_bytes)
+        return {};
+    const uint64_t needed = (bytes + (1u << 20) - 1) >> 20;
+    return invalid(what, name,
+                   contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
+                       std::to_string(model.max_buffer_bytes >> 20) + " MiB");
+}
+
 bool finite(const glm::vec3& v)
 {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -9,6 +9,7 @@
 #include "mesh_topology.hpp"
 #include "padded_layout.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,7 @@ struct Model
     uint32_t padded_boxes = 0;
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
+    uint64_t max_buffer_bytes = std::numeric_limits<uint64_t>::max(); // of each buffer: what the device binds
 
     // Append after validating; unchanged on error.
     Result<ClothId> add(const Grid& grid);
@@ -81,10 +83,14 @@ struct Model
     Result<ColliderId> add(const BoxCollider& collider);
     ColliderId append(const shared::ColliderRecord& record, const glm::mat4& placement);
     ColliderId append_deforming(shared::ColliderRecord record, const MeshInput& mesh, const glm::mat4& transform);
+    [[nodiscard]] uint64_t bytes_with_deforming(const MeshInput& mesh) const;
 };
 
 // What the validation of cloths and colliders shares.
 Error invalid(const std::string& what, const std::string& name, const std::string& reason);
+// Errors: `contents` need a buffer of more bytes than the device binds.
+Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
+                        const std::string& contents, uint64_t bytes);
 bool finite(const glm::vec3& v);
 bool finite(const glm::mat4& m);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);

@@ -43,32 +43,18 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     auto state = std::make_unique<State>();
     state->context = context.value();
     state->options = options;
+    state->model.max_buffer_bytes = state->context.max_buffer_bytes;
     state->kernels = std::move(kernels.value());
     return Solver(std::move(state));
 }
 
-namespace
-{
-
-// What `entries` of `bytes` each need against what the device binds.
-Result<void> check_size(const gpu::Context& context, const std::string& name, const std::string& what, uint64_t bytes)
-{
-    if (bytes <= context.max_buffer_bytes)
-        return {};
-    return invalid("cloth", name,
-                   what + " need buffers of " + std::to_string(bytes >> 20) + " MiB, the device binds at most " +
-                       std::to_string(context.max_buffer_bytes >> 20) + " MiB");
-}
-
-} // namespace
-
 Result<ClothId> Solver::add_cloth(const Grid& grid)
 {
     const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * sizeof(glm::vec4);
-    if (auto size = check_size(state_->context, grid.name,
+    if (auto room = check_room(state_->model, "cloth", grid.name,
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
-        !size)
-        return size.error();
+        !room)
+        return room.error();
     auto result = state_->model.add(grid);
     if (result)
         state_->added();
@@ -80,9 +66,10 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_a_vertex = 256;
     const uint64_t bytes = (state_->model.mesh_vertices.size() + mesh.positions.size()) * k_bytes_a_vertex;
-    if (auto size = check_size(state_->context, mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
-        !size)
-        return size.error();
+    if (auto room =
+            check_room(state_->model, "cloth", mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
+        !room)
+        return room.error();
     auto result = state_->model.add(mesh);
     if (result)
         state_->added();
