@@ -160,6 +160,13 @@ Cloths add_icosphere(cloth::Solver& solver)
     return {engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
+// And on a box, over whose edges it hangs.
+Cloths add_box(cloth::Solver& solver)
+{
+    add_mesh(solver, "box", engine::make_box({-0.6f, -1.2f, -0.6f}, {0.6f, 0.8f, 0.6f}));
+    return {engine::take(solver.add_cloth(drape_grid(128)))};
+}
+
 // Held by its first row, which moves; all other vertices tethered to it, or on a leash.
 template <bool tethers>
 Cloths add_held_sheet(cloth::Solver& solver)
@@ -223,6 +230,7 @@ constexpr Case k_cases[] = {
      0, 7},
     {"icosphere-1310720", "of 1,310,720", add_icosphere<8>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0,
      false, 0, 8},
+    {"box", "on a box of 12 triangles, whose edges are tested too", add_box, k_nearest, k_sphere_frames, true},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };

@@ -43,10 +43,13 @@ void main()
     float share = MEASURE ? 1 : predicted.w;
     const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, predicted.xyz, share) : vec3(0);
     const vec4 before = velocities[i];
-    const vec3 v = before.xyz + push.kick * a;
-    // The kick that ends a step moves nothing: what the vertex touches, it still touches.
-    const uint touches = push.drift == 0 ? uint(before.w) & VOILE_VERTEX_TOUCHES : 0;
+    // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into
+    // the surface. The next step's first kick has that half in it.
+    const bool ends = push.drift == 0;
+    const uint touches = uint(before.w) & VOILE_VERTEX_TOUCHES;
+    const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
+    const vec3 v = before.xyz + kick * a;
     next_positions[i] = vec4(x.xyz + push.drift * v, x.w);
-    next_velocities[i] = vec4(v, touches + (share < 1 ? VOILE_VERTEX_LIMITED : 0));
+    next_velocities[i] = vec4(v, (ends ? touches : 0) + (share < 1 ? VOILE_VERTEX_LIMITED : 0));
     next_predicted[i] = vec4(v + 0.5 * push.step * a, share);
 }

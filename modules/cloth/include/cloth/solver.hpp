@@ -24,6 +24,8 @@
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
 //   colliders, motions, ColliderRecord,      upload, edits          contact, statistics
 //   nodes, triangles    -Motion, Bvh...
+//   features, their   Feature, vec4          upload, feature        feature contact, contact
+//     velocities                               contact
 //   partials, result  StatisticsRecord       statistics             the host (result)
 #pragma once
 
