@@ -1,6 +1,7 @@
 // Cases: the reference scene, sheets of the drape scene's fabric, and many cloths against one.
 #include "cases.hpp"
 
+#include "engine/assets/shapes.hpp"
 #include "heart.hpp"
 #include "icosphere.hpp"
 
