@@ -138,7 +138,7 @@ TEST_CASE("a substep with contact equals the double-precision brute force")
                 CAPTURE(ray);
                 const engine::Mesh& mesh = closed ? sphere : ground;
                 const reference::TriangleMesh exact = mesh_of(mesh, closed);
-                ClothHarness harness({.contact_method = method});
+                ClothHarness harness({.contact_method = method, .feature_contact = false});
                 (void)engine::take(harness.solver.add_collider(collider(mesh)));
                 const Comparison result =
                     compare(harness, falling_sheet(size.columns, size.rows), k_step,
@@ -199,7 +199,7 @@ TEST_CASE("a sheet that drapes over a mesh never enters it")
     grid.velocity = {0, 0, 0};
     for (const auto method : {cloth::ContactMethod::nearest_point, cloth::ContactMethod::normal_ray})
     {
-        ClothHarness harness({.contact_method = method});
+        ClothHarness harness({.contact_method = method, .feature_contact = false});
         const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
         (void)engine::take(harness.solver.add_collider(collider(sphere)));
         (void)engine::take(harness.solver.add_collider(cloth::PlaneCollider{}));

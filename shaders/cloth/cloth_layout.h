@@ -49,6 +49,7 @@
 
 // What a velocity's w says of its vertex, as a sum of these.
 #define VOILE_VERTEX_TOUCHES 1 // it touches a collider
+#define VOILE_VERTEX_MEETS 4   // a triangle or an edge around it meets a corner or an edge of a collider
 #define VOILE_VERTEX_LIMITED 2 // it bears less than the whole of its inner forces; see stable_acceleration
 
 VOILE_SHARED_BEGIN(cloth)

@@ -45,8 +45,10 @@ const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1
 const float k_parallel = 0.03;
 // A cosine: so far beyond the limit a direction must be to be inside for certain.
 const float k_certain = 0.2;
+// Edges longer than so many times the longest one at rest may pass unseen.
+const float k_most_stretch = 4;
 // m/s, at which cloth comes away from what it is nearer to than the thickness.
-const float k_recovery = 1;
+const float k_recovery = 0.2;
 // Barycentric coordinates this far below 0 count as inside, so that no place between two triangles is lost.
 const float k_border = 1e-3;
 
@@ -63,6 +65,7 @@ struct Self
     vec3 change;   // m/s, across surfaces
     vec3 slowing;  // m/s, by friction, of the contact that presses most
     float pressed; // m/s, by which that one presses
+    bool meets;    // anything
 };
 Self self;
 
@@ -179,6 +182,7 @@ float friction_share(vec2 coefficients, float approach, float speed)
 // `place`: of the feature; `share`: of the vertex in what moves the cloth there; `velocity`: m/s, of the cloth there, world.
 void take_share(Meeting meeting, vec3 place, float share, vec3 velocity)
 {
+    self.meets = true;
     vec3 n = meeting.direction;
     vec3 relative = velocity;
     if (collider_moves)
@@ -319,7 +323,7 @@ float ring_radius()
     return radius;
 }
 
-void visit_collider(uint c, float radius, vec2 fabric_friction)
+void visit_collider(uint c, vec2 fabric_friction)
 {
     const ColliderRecord collider = colliders[c];
     const FeatureSet set = feature_sets[c];
@@ -332,13 +336,18 @@ void visit_collider(uint c, float radius, vec2 fabric_friction)
         pose_to = pose_at(c, push.progress_to);
     }
     const Traveller a = traveller(self.earlier, self.place, self.velocity);
-    const vec3 box_min = min(a.from, a.to) - radius;
-    const vec3 box_max = max(a.from, a.to) + radius;
-    if (!boxes_overlap(box_min, box_max, set.box_min, set.box_max))
+    // Most vertices are told by their own place alone that they are far from everything.
+    const vec3 low = min(a.from, a.to);
+    const vec3 high = max(a.from, a.to);
+    const float loose = k_most_stretch * set.edge + self.thickness;
+    if (!boxes_overlap(low - loose, high + loose, set.box_min, set.box_max))
+        return;
+    const float radius = min(ring_radius() + self.thickness, loose);
+    if (!boxes_overlap(low - radius, high + radius, set.box_min, set.box_max))
         return;
     self.friction = vec2(pair_friction(fabric_friction.x, collider.static_friction, collider.flags),
                          pair_friction(fabric_friction.y, collider.kinetic_friction, collider.flags));
-    visit_box(set.first_node, set.first_feature, box_min, box_max);
+    visit_box(set.first_node, set.first_feature, low - radius, high + radius);
 }
 
 void main()
@@ -355,17 +364,17 @@ void main()
     self.thickness = cloths[cloth].thickness;
     self.shift = self.change = self.slowing = vec3(0);
     self.pressed = 0;
+    self.meets = false;
     if (self.place.w > 0)
     {
-        const float radius = ring_radius() + self.thickness;
         const vec2 friction = vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
         for (uint c = 0; c < push.colliders; ++c)
-            visit_collider(c, radius, friction);
+            visit_collider(c, friction);
     }
     const bool verlet = (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0;
     const float drift = verlet ? push.step : 0.5 * push.step; // see contact.comp
     positions[i] = vec4(self.place.xyz + self.shift + drift * self.slowing, self.place.w);
-    velocities[i] = vec4(self.velocity + self.change + self.slowing, velocity.w);
+    velocities[i] = vec4(self.velocity + self.change + self.slowing, velocity.w + (self.meets ? VOILE_VERTEX_MEETS : 0));
     if (verlet)
         predicted[i] += vec4(self.change + self.slowing, 0);
 }

@@ -27,9 +27,9 @@ struct FeatureSet
     vec3 box_max;
     uint first_feature;
     uint features; // 0: none, and no nodes
+    float edge;    // m, the longest of the cloths that meet the collider, at rest
     uint padding_0;
     uint padding_1;
-    uint padding_2;
 };
 
 // Push constants of the pass over features.

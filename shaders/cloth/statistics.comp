@@ -139,7 +139,7 @@ void main()
             if (push.colliders > 0)
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
-            record.contacts = uint(v.w) & VOILE_VERTEX_TOUCHES;
+            record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) != 0 ? 1 : 0;
             record.limited_vertices = (uint(v.w) & VOILE_VERTEX_LIMITED) != 0 ? 1 : 0;
         }
     }

@@ -46,7 +46,7 @@ void main()
     // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into
     // the surface. The next step's first kick has that half in it.
     const bool ends = push.drift == 0;
-    const uint touches = uint(before.w) & VOILE_VERTEX_TOUCHES;
+    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
     const vec3 v = before.xyz + kick * a;
     next_positions[i] = vec4(x.xyz + push.drift * v, x.w);

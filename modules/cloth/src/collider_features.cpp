@@ -64,9 +64,8 @@ Feature round_feature(const glm::vec3& a, const glm::vec3& b, float radius)
     return {a, radius, b, -1, glm::vec3(0, 1, 0), 0};
 }
 
-std::vector<Feature> features_of(const Model& model, const shared::ColliderRecord& record)
+std::vector<Feature> features_of(const Model& model, const shared::ColliderRecord& record, const FeatureScale& scale)
 {
-    const FeatureScale scale = feature_scale(model, record.layers);
     if (scale.edge == 0)
         return {};
     const glm::vec3 place(record.shape);
@@ -92,9 +91,10 @@ std::vector<Feature> features_of(const Model& model, const shared::ColliderRecor
 }
 
 // Appends them, ordered by the leaves of a hierarchy over their boxes.
-void append(FeatureLists& lists, const std::vector<Feature>& features)
+void append(FeatureLists& lists, const std::vector<Feature>& features, float edge)
 {
     shared::FeatureSet set{};
+    set.edge = edge;
     if (features.empty())
     {
         lists.sets.push_back(set);
@@ -142,7 +142,10 @@ FeatureLists find_features(const Model& model)
 {
     FeatureLists lists;
     for (const shared::ColliderRecord& record : model.colliders)
-        append(lists, features_of(model, record));
+    {
+        const FeatureScale scale = feature_scale(model, record.layers);
+        append(lists, features_of(model, record, scale), scale.edge);
+    }
     return lists;
 }
 

@@ -81,7 +81,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     State& s = *state_;
     UploadData data;
     data.chunks = make_chunks(s.model, s.options.workgroup_size);
-    data.features = find_features(s.model);
+    if (s.options.feature_contact)
+        data.features = find_features(s.model);
     data.lists = s.options.mesh_layout == MeshLayout::interleaved
                      ? interleave(s.model, s.options.workgroup_size)
                      : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners};
