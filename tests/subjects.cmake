@@ -2,7 +2,7 @@ voile_add_test(test_hello_cloth SOURCES test_hello_cloth.cpp LIBRARIES voile::en
 add_dependencies(test_hello_cloth hello_cloth)
 voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
                LIBRARIES voile::engine)
-voile_add_test(test_bvh SOURCES test_bvh.cpp test_bvh_cache.cpp test_closedness.cpp test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_bvh SOURCES test_bvh.cpp test_bvh_cache.cpp test_closedness.cpp test_mesh_parts.cpp test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} SHADERS visit_padded.comp)
 voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)

@@ -21,11 +21,9 @@ using tests::flat_sheet;
 using tests::moved;
 using tests::reason;
 
-constexpr float k_radius = 0.4f; // m
-constexpr float k_size = 0.3f;   // m, of a cloth
-
-// Whether each part of a mesh that is inside-out is turned on its own.
-constexpr bool k_parts_are_turned = false;
+constexpr float k_radius = 0.4f;         // m
+constexpr float k_size = 0.3f;           // m, of a cloth
+constexpr glm::vec3 k_start{0, 0.1f, 0}; // where cloths begin to fall
 
 void add(engine::Mesh& mesh, const engine::Mesh& part, bool turned)
 {
@@ -63,6 +61,19 @@ void check_lies_flat(const std::vector<glm::vec4>& positions)
     CHECK(highest < 2 * k_thickness);
 }
 
+void check_lies_in_cavity(const std::vector<glm::vec4>& positions)
+{
+    float lowest = 1;
+    float farthest = 0;
+    for (const glm::vec4& p : positions)
+    {
+        lowest = std::min(lowest, p.y);
+        farthest = std::max(farthest, glm::distance(glm::vec3(p), k_start));
+    }
+    CHECK(lowest < k_start.y - 0.9f * k_radius);
+    CHECK(farthest < k_radius);
+}
+
 // The facets lie below the ball by up to 1 - cos(pi / 48) in each direction.
 void check_lies_on_ball(const std::vector<glm::vec4>& positions, float x = 0)
 {
@@ -98,7 +109,7 @@ std::vector<std::vector<glm::vec4>> fallen(const std::vector<Drop>& drops, bool 
         tests::fabric_of(grid).stretch_stiffness = {25, 25};
         tests::fabric_of(grid).shear_stiffness = 5;
         grid.integrator = cloth::Integrator::verlet;
-        grid.transform = moved({drop.x, 0.1f, 0});
+        grid.transform = moved(k_start + glm::vec3(drop.x, 0, 0));
         grid.velocity = {0, -3, 0};
         grid.layers = 1u << ids.size();
         cloth::MeshCollider mesh = collider(drop.mesh);
@@ -147,6 +158,32 @@ engine::Mesh two_balls(bool second_turned)
 {
     engine::Mesh mesh = ball(-0.5f);
     add(mesh, ball(0.5f), second_turned);
+    return mesh;
+}
+
+// More of their volume is inside-out than not.
+engine::Mesh three_balls()
+{
+    engine::Mesh mesh = turned(ball(-1));
+    add(mesh, ball(), false);
+    add(mesh, ball(1), true);
+    return mesh;
+}
+
+// A hollow ball around where cloths begin, its cavity as large as other balls, and a ball beside it that is inside-out.
+engine::Mesh hollow_ball_and_ball()
+{
+    engine::Mesh mesh = engine::make_sphere(k_start, 1.25f * k_radius, 24);
+    add(mesh, engine::make_sphere(k_start, k_radius, 24), true);
+    add(mesh, ball(1), true);
+    return mesh;
+}
+
+// A ball whose top is the origin, with a cavity.
+engine::Mesh hollow_ball()
+{
+    engine::Mesh mesh = ball();
+    add(mesh, engine::make_sphere({0, -k_radius, 0}, 0.5f * k_radius, 24), true);
     return mesh;
 }
 
@@ -211,14 +248,30 @@ TEST_CASE("cloth rests on odd balls")
     }
 }
 
-// What a mesh encloses is looked at as a whole: one part that is inside-out pushes inwards, or all others do.
-TEST_CASE("cloth rests on both balls of a mesh, of which one is inside-out" * doctest::should_fail(!k_parts_are_turned))
+TEST_CASE("cloth rests on the parts of a mesh, of which some are inside-out or hollow")
 {
-    const std::vector<Drop> drops = {{.name = "the right one", .mesh = two_balls(true), .x = -0.5f},
-                                     {.name = "the inside-out one", .mesh = two_balls(true), .x = 0.5f}};
-    const auto cloths = fallen(drops, false);
-    for (size_t i = 0; i < drops.size(); ++i)
-        check_lies_on_ball(cloths[i], drops[i].x);
+    const std::vector<Drop> drops = {
+        {.name = "in a cavity", .mesh = hollow_ball_and_ball()},
+        {.name = "beside the hollow one", .mesh = hollow_ball_and_ball(), .x = 1},
+        {.name = "the right one of two", .mesh = two_balls(true), .x = -0.5f},
+        {.name = "the inside-out one of two", .mesh = two_balls(true), .x = 0.5f},
+        {.name = "the first of three", .mesh = three_balls(), .x = -1},
+        {.name = "the right one of three", .mesh = three_balls()},
+        {.name = "the last of three", .mesh = three_balls(), .x = 1},
+        {.name = "a hollow ball", .mesh = hollow_ball()},
+        {.name = "a hollow ball, inside-out", .mesh = turned(hollow_ball())},
+    };
+    for (const bool deforms : {false, true})
+    {
+        const auto cloths = fallen(drops, deforms);
+        check_lies_in_cavity(cloths[0]);
+        for (size_t i = 1; i < drops.size(); ++i)
+        {
+            CAPTURE(drops[i].name);
+            CAPTURE(deforms);
+            check_lies_on_ball(cloths[i], drops[i].x);
+        }
+    }
 }
 
 TEST_CASE("cloth rests on odd grounds")

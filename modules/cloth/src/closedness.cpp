@@ -1,4 +1,4 @@
-// Which vertices of a mesh are one place, and whether its triangles enclose a volume.
+// Which vertices of a mesh are one place, and whether its triangles leave no border.
 #include "mesh_input.hpp"
 
 #include "parallel.hpp"
@@ -50,9 +50,30 @@ bool paired(uint32_t* up, uint32_t* down, uint32_t count)
     return std::equal(up, up + count, down) && std::adjacent_find(up, up + count) == up + count;
 }
 
-// Whether every directed edge is there once, and its reverse once. Edges are sorted in at their lower vertices, which
-// have a few each; sorting all of them as one list takes several times as long.
-bool all_paired(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)
+} // namespace
+
+std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
+{
+    // Open addressing, at most half full: a node an entry would take several times as long.
+    constexpr uint32_t k_empty = std::numeric_limits<uint32_t>::max();
+    const size_t mask = std::bit_ceil(2 * positions.size() + 1) - 1;
+    std::vector<uint32_t> table(mask + 1, k_empty);
+    std::vector<uint32_t> result(positions.size());
+    for (uint32_t i = 0; i < positions.size(); ++i)
+    {
+        size_t slot = hash(positions[i]) & mask;
+        while (table[slot] != k_empty && positions[table[slot]] != positions[i])
+            slot = (slot + 1) & mask;
+        if (table[slot] == k_empty)
+            table[slot] = i;
+        result[i] = table[slot];
+    }
+    return result;
+}
+
+// Edges are sorted in at their lower vertices, which have a few each; sorting all of them as one list takes several
+// times as long.
+bool is_closed(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)
 {
     std::vector<uint32_t> first(welded.size() + 1); // of each vertex's entries in the lists below
     std::vector<uint32_t> downwards(welded.size() + 1);
@@ -76,49 +97,6 @@ bool all_paired(std::span<const uint32_t> welded, std::span<const glm::uvec3> tr
                          if (!paired(up.data() + first[v], down.data() + first[v], first[v + 1] - first[v]))
                              result = false;
                  });
-    return result;
-}
-
-double volume(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-{
-    double result = 0;
-    for (const glm::uvec3& t : triangles)
-    {
-        const glm::dvec3 a = positions[t.x];
-        const glm::dvec3 b = positions[t.y];
-        const glm::dvec3 c = positions[t.z];
-        result += glm::dot(a, glm::cross(b, c)) / 6;
-    }
-    return result;
-}
-
-} // namespace
-
-std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
-{
-    // Open addressing, at most half full: a node an entry would take several times as long.
-    constexpr uint32_t k_empty = std::numeric_limits<uint32_t>::max();
-    const size_t mask = std::bit_ceil(2 * positions.size() + 1) - 1;
-    std::vector<uint32_t> table(mask + 1, k_empty);
-    std::vector<uint32_t> result(positions.size());
-    for (uint32_t i = 0; i < positions.size(); ++i)
-    {
-        size_t slot = hash(positions[i]) & mask;
-        while (table[slot] != k_empty && positions[table[slot]] != positions[i])
-            slot = (slot + 1) & mask;
-        if (table[slot] == k_empty)
-            table[slot] = i;
-        result[i] = table[slot];
-    }
-    return result;
-}
-
-Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-{
-    Closedness result;
-    result.closed = all_paired(weld(positions), triangles);
-    if (result.closed)
-        result.volume = volume(positions, triangles);
     return result;
 }
 

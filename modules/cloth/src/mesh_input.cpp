@@ -1,6 +1,7 @@
 // Meshes as they are given: validation, placement, welding, orientation.
 #include "mesh_input.hpp"
 
+#include "mesh_parts.hpp"
 #include "model.hpp"
 
 #include <algorithm>
@@ -74,11 +75,10 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
         return invalid("collider", collider.name,
                        "none of its " + std::to_string(collider.triangles.size()) + " triangles has an area");
 
-    const Closedness shape = closedness(mesh.positions, mesh.triangles);
-    mesh.closed = shape.closed;
-    if (shape.closed && shape.volume < 0)
-        for (glm::uvec3& t : mesh.triangles)
-            std::swap(t.y, t.z);
+    const std::vector<uint32_t> welded = weld(mesh.positions);
+    mesh.closed = is_closed(welded, mesh.triangles);
+    if (mesh.closed)
+        face_outwards(mesh.positions, welded, mesh.triangles);
     return mesh;
 }
 

@@ -9,7 +9,8 @@
 namespace cloth
 {
 
-// A collider's mesh in world space, without triangles that have no area; closed ones face outwards.
+// A collider's mesh in world space, without triangles that have no area; the parts of a closed one are turned outwards
+// (mesh_parts.hpp).
 struct MeshInput
 {
     std::vector<glm::vec3> positions; // m
@@ -28,13 +29,7 @@ Result<void> validate_triangles(const std::string& what, const std::string& name
 std::vector<uint32_t> weld(std::span<const glm::vec3> positions);
 
 // Whether every edge is shared by exactly two triangles that run along it in opposite directions. Vertices at the same
-// place count as one; no triangle may have two corners there. `volume` (m^3) is what a closed mesh encloses, negative
-// for an inside-out one; 0 for an open one.
-struct Closedness
-{
-    bool closed = false;
-    double volume = 0;
-};
-Closedness closedness(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+// place count as one: `welded` is what weld() says of them. No triangle may have two corners there.
+bool is_closed(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles);
 
 } // namespace cloth

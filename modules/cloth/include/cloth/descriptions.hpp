@@ -97,7 +97,12 @@ enum class Sides
     two,       // to the side that a vertex comes from: a box that holds cloth in
 };
 
-// A triangle mesh. Closed meshes (every edge shared by two triangles that agree on it) that are inside-out are turned.
+// A triangle mesh. It is closed if every edge is shared by two triangles that agree on it. One open part makes all of
+// it open, and nothing of it is turned. Of a closed one, each part that hangs together by vertices is turned if it is
+// inside-out, and what lies in it with it. Only cavities stay as they are, which are inside-out in the solid of another
+// part: a hollow ball stays hollow. A part lies in another if the vertices that reach farthest along the world's axes
+// do. All this is found out when the mesh is added, and holds as it deforms.
+//
 // The hierarchy over the triangles of one that keeps its shape is built when it is added, by one thread a core; 2
 // million triangles take some 0.9 s on two cores. It is kept for when the same mesh is added again, to any solver:
 // set_hierarchy_cache_limit.
