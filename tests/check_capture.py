@@ -71,10 +71,12 @@ def check_order(frame):
     expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step stands outside the label \"frame\"")
     dispatches = [labels[-1] for labels, action in frame.steps if action.flags & rd.ActionFlags.Dispatch]
     cloth = [labels[-1] for labels, _ in frame.steps if labels[1] == "cloth"]
-    expect(len(cloth) > 5 and cloth[-1] == "cloth normals", f"passes of the cloth: {cloth[-8:]}")
-    expect((len(cloth) - 1) % 5 == 0, f"{len(cloth)} dispatches are no whole number of substeps and the normals")
-    for i in range(0, len(cloth) - 1, 5):
-        expect(cloth[i:i + 5] == STAGES + ["cloth contact"], f"substep {i // 5}: {cloth[i:i + 5]}")
+    expect(cloth[0] == "cloth recover", f"the first pass of the cloth is {cloth[0]}")
+    substeps = cloth[1:-1]
+    expect(len(cloth) > 6 and cloth[-1] == "cloth normals", f"passes of the cloth: {cloth[-8:]}")
+    expect(len(substeps) % 5 == 0, f"{len(substeps)} dispatches are no whole number of substeps")
+    for i in range(0, len(substeps), 5):
+        expect(substeps[i:i + 5] == STAGES + ["cloth contact"], f"substep {i // 5}: {substeps[i:i + 5]}")
     expect(dispatches[len(cloth):] == ["cloth statistics", "cloth statistics reduce"], f"{dispatches[len(cloth):]}")
     order = [next(i for i, (labels, _) in enumerate(frame.steps) if label in labels)
              for label in ("cloth", "shadow map", "scene", "sky")]

@@ -58,7 +58,7 @@ struct SpringClass
 {
     float stiffness;   // N/m
     float damping;     // N s/m
-    float rest_length; // m
+    float rest_length; // m; of a mesh's edges: the mean spacing of its vertices, each spring has a length of its own
     float padding;
 };
 
@@ -227,6 +227,15 @@ struct ContactPush
     float progress_a_substep;
     uint substep;        // counted through all steps
     uint first_substep;  // of the step
+};
+
+// Push constants of the pass that brings vertices out of closed meshes.
+struct RecoverPush
+{
+    vec3 gravity; // m/s^2
+    float step;   // s, of the whole step
+    float reach;  // m, the farthest that a vertex is moved
+    uint colliders;
 };
 
 // Push constants of the passes over pins, holds and tethers.

@@ -153,7 +153,8 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
     const double opposite_omega_squared = (isometric ? 0 : bending) * mesh.fabric.opposite / density;
     const double bending_omega_squared = (isometric ? bending : 0) * mesh.fabric.bending / density;
 
-    record.springs[VOILE_CLASS_EDGE] = {static_cast<float>(stretch), static_cast<float>(stretch * time), 0, 0};
+    record.springs[VOILE_CLASS_EDGE] = {static_cast<float>(stretch), static_cast<float>(stretch * time),
+                                        static_cast<float>(std::sqrt(mesh.mean_area)), 0};
     const double bend = isometric ? 0 : bending;
     record.springs[VOILE_CLASS_OPPOSITE] = {static_cast<float>(bend), static_cast<float>(bend * time), 0, 0};
     record.bending = glm::vec3(isometric ? f.bending_stiffness : 0, 0, 0);
@@ -170,7 +171,7 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
 {
     const auto mass = static_cast<double>(m.vertex_mass);
     record.flags |= VOILE_CLOTH_ALIKE;
-    record.springs[VOILE_CLASS_EDGE] = spring_class(m.springs.structural_warp, 0);
+    record.springs[VOILE_CLASS_EDGE] = spring_class(m.springs.structural_warp, std::sqrt(mesh.mean_area));
     record.springs[VOILE_CLASS_OPPOSITE] = spring_class(m.springs.bend_warp, 0);
     record.bending = glm::vec3(m.bending_stiffness, 0, 0);
     const double bending = static_cast<double>(m.bending_stiffness) * mesh.alike.bending / mass;

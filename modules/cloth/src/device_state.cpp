@@ -175,6 +175,11 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
     bind_contact(s, kernels, binder);
+    binder.bind(s.recover, kernels.recover,
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
+                 s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
+                 s.deforming_positions.handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});
@@ -208,7 +213,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 25;
+    constexpr uint32_t k_sets = 26;
     constexpr uint32_t k_most_bindings = 19;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)

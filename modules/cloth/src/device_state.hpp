@@ -71,6 +71,7 @@ struct DeviceState
     VkDescriptorSet contact{};         // from stage B
     VkDescriptorSet feature_contact{}; // stage B to where contact_after_features takes it
     VkDescriptorSet contact_after_features{};
+    VkDescriptorSet recover{};
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};

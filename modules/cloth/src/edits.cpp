@@ -15,6 +15,8 @@ constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADE
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
+constexpr uint32_t k_recovering_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
+
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values)
 {
@@ -112,6 +114,9 @@ void Solver::State::update_passes()
                     [](const auto& collider)
                     { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
     passes.features = device && device->feature_count > 0;
+    passes.recover =
+        std::any_of(model.colliders.begin(), model.colliders.end(),
+                    [](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : model.records)
     {
@@ -156,6 +161,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (due.anchors || !solver.edits.places.empty())
         recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
                           shared::HoldPush{0, solver.passes.pins, step.duration, 0, 0});
+    solver.normals_due |= !solver.edits.places.empty();
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
     for (Anchor& anchor : solver.anchors)

@@ -28,6 +28,8 @@ struct Kernels
     gpu::Kernel contact_moving; // where colliders move or deform
     gpu::Kernel feature_contact;
     gpu::Kernel feature_contact_moving;
+    gpu::Kernel recover;        // out of meshes at rest
+    gpu::Kernel recover_moving; // where colliders move or deform
     gpu::Kernel deform;
     RefitKernels refit;
     gpu::Kernel normals;

@@ -42,6 +42,28 @@ uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t
     return std::exchange(solver.next_substep, solver.next_substep + taken);
 }
 
+void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    const uint32_t group = solver.options.workgroup_size;
+    recorder.dispatch(solver.kernels.normals, solver.device->normals_set, solver.device->chunk_count * group, group,
+                      std::span<const std::byte>{});
+}
+
+// Brings vertices out of closed meshes. Nothing is recorded where there are none.
+void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
+{
+    if (!solver.passes.recover)
+        return;
+    if (std::exchange(solver.normals_due, false))
+        record_normals(recorder, solver);
+    const DeviceState& device = *solver.device;
+    const uint32_t group = solver.options.workgroup_size;
+    const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
+    recorder.dispatch(
+        kernel, device.recover, device.chunk_count * group, group,
+        shared::RecoverPush{step.gravity, step.duration, k_recovery_speed * step.duration, device.collider_count});
+}
+
 } // namespace
 
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
@@ -67,14 +89,12 @@ void Solver::record(gpu::Recorder& recorder, const Step& step)
 {
     if (!state_->device || state_->device->chunk_count == 0)
         return;
-    const DeviceState& device = *state_->device;
-    const uint32_t group = state_->options.workgroup_size;
     begin_scope(recorder);
     record_edits(recorder, *state_, step);
+    record_recovery(recorder, *state_, step);
     const uint32_t substeps = State::substeps(*this, step);
     SubstepRecorder(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps)).record();
-    recorder.dispatch(state_->kernels.normals, device.normals_set, device.chunk_count * group, group,
-                      std::span<const std::byte>{});
+    record_normals(recorder, *state_);
     end_scope(recorder);
 }
 
@@ -111,7 +131,7 @@ uint32_t Solver::dispatches(const Step& step) const
         const auto levels = static_cast<uint32_t>(std::bit_width(passes.strain_spacing));
         strain = 1 + ((levels * (k_strain_passes + 1) - 1) | 1u);
     }
-    return State::substeps(*this, step) * a_substep + (verlet ? 1 : 0) + strain + 1;
+    return State::substeps(*this, step) * a_substep + (verlet ? 1 : 0) + strain + (passes.recover ? 1 : 0) + 1;
 }
 
 } // namespace cloth

@@ -41,6 +41,7 @@ struct Passes
     bool features = false;       // colliders with corners or edges that vertices alone do not feel
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
+    bool recover = false;        // closed meshes with one side, out of which vertices are brought
 };
 
 struct Anchor
@@ -52,6 +53,9 @@ struct Anchor
 // Of the strain limit, on each level.
 constexpr uint32_t k_strain_passes = 16;
 constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
+
+// How fast a vertex comes out of a closed mesh, m/s.
+constexpr float k_recovery_speed = 2;
 
 struct Solver::State
 {
@@ -65,6 +69,7 @@ struct Solver::State
     bool colliders_moved = false;          // in the last step
     std::vector<Deformation> deformations; // of model.deforming
     bool refit_due = false;                // boxes do not fit: after an upload, and after a mesh came to rest
+    bool normals_due = false;              // they are of other places: after an upload, and after cloths were moved
     uint32_t next_substep = 0;             // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
     Edits edits;
