@@ -10,19 +10,19 @@
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
 //   buffer            format                 written by             read by
 //   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, contact, normals, statistics,
-//                                            Verlet                 drawing
+//                                            Verlet, recovery       recovery, drawing
 //   velocities        vec4, w: touches       the same               stage 1, Verlet, statistics
 //   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
 //                                            holds, strain limit
 //   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
 //   mesh lists        MeshVertex, -Spring,   upload                 stages, Verlet, contact, normals, statistics
 //                     -Corner
-//   normals           vec4                   normals                drawing
+//   normals           vec4                   normals                recovery, drawing
 //   start             vec4 x y z, 1/measure  upload                 edits
 //   anchors, holds,   AnchorRecord,          upload, edits          pins, holds, tethers
 //   tethers           HoldRecord, TetherRecord
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
-//   colliders, motions, ColliderRecord,      upload, edits          contact, statistics
+//   colliders, motions, ColliderRecord,      upload, edits          recovery, contact, statistics
 //   nodes, triangles    -Motion, Bvh...
 //   features, their   Feature, vec4          upload, feature        feature contact, contact
 //     velocities                               contact
