@@ -74,9 +74,10 @@ def check_order(frame):
     expect(cloth[0] == "cloth recover", f"the first pass of the cloth is {cloth[0]}")
     substeps = cloth[1:-1]
     expect(len(cloth) > 6 and cloth[-1] == "cloth normals", f"passes of the cloth: {cloth[-8:]}")
-    expect(len(substeps) % 5 == 0, f"{len(substeps)} dispatches are no whole number of substeps")
-    for i in range(0, len(substeps), 5):
-        expect(substeps[i:i + 5] == STAGES + ["cloth contact"], f"substep {i // 5}: {substeps[i:i + 5]}")
+    passes = STAGES + ["cloth feature contact", "cloth contact"]
+    expect(len(substeps) % len(passes) == 0, f"{len(substeps)} dispatches are no whole number of substeps")
+    for i in range(0, len(substeps), len(passes)):
+        expect(substeps[i:i + len(passes)] == passes, f"substep {i // len(passes)}: {substeps[i:i + len(passes)]}")
     expect(dispatches[len(cloth):] == ["cloth statistics", "cloth statistics reduce"], f"{dispatches[len(cloth):]}")
     order = [next(i for i, (labels, _) in enumerate(frame.steps) if label in labels)
              for label in ("cloth", "shadow map", "scene", "sky")]

@@ -20,9 +20,6 @@ namespace
 using tests::ClothHarness;
 using tests::moved;
 
-// Whether the surfaces themselves must not cut each other, edges and faces. Vertices are all that contact keeps apart.
-constexpr bool k_edges = false;
-
 // Whether velocity Verlet with fewer substeps than stability asks for bears any stretch.
 constexpr bool k_softened_is_tame = false;
 
@@ -39,6 +36,8 @@ struct Scene
     bool traced = false;               // read after each substep: what is thin can be jumped over, and gone around
     std::optional<glm::dvec3> focus{}; // of a bowl: all that it holds is in sight from here
     std::optional<float> top{};        // m: some of the cloth comes to rest above this
+    bool apart_when_slow = false;      // the slowest shot never cuts the collider, nor it the cloth
+    bool apart_at_rest = false;        // nor what came to rest
 
     [[nodiscard]] cloth::Collider collider() const
     {
@@ -60,6 +59,7 @@ struct Shot
 
 constexpr float k_thick = 0.003f; // cotton's
 constexpr float k_thin = 0.001f;
+constexpr float k_slow = 5; // m/s; from 20 m/s on edges may cut, and where they do they stay
 constexpr Shot k_shots[] = {
     {64, 2, 5, k_thick, 12}, {64, 2, 20, k_thin, 8}, {64, 2, 60, k_thick, 6}, {64, 2, 60, k_thin, 6}};
 constexpr Shot k_drop = {32, 1, 5, k_thick, 0, 1.225f};
@@ -190,7 +190,7 @@ Seen shoot(const Scene& scene, const Shot& shot)
     // Nothing gives it energy but its fall, of no more than its height and size.
     const double fall = 2 * 9.81 * static_cast<double>(scene.height + shot.size);
     CHECK(run.seen.fastest < std::sqrt(static_cast<double>(shot.speed * shot.speed) + fall));
-    if (k_edges)
+    if (scene.apart_when_slow && shot.speed <= k_slow)
         CHECK(run.seen.at_worst.count() == 0);
     MESSAGE(scene.name, ", ", shot.speed, " m/s, thickness ", shot.thickness, " m: edges of the collider through ",
             run.seen.at_worst.collider_edges, " triangles, of the cloth through ", run.seen.at_worst.cloth_edges,
@@ -216,13 +216,19 @@ void let_rest(const Scene& scene, uint32_t frames)
     CHECK(seen.speed * static_cast<double>(k_duration) < static_cast<double>(drop.thickness) / 10);
     if (scene.top)
         CHECK(seen.highest > static_cast<double>(*scene.top));
-    if (k_edges)
-        CHECK(seen.at_end.depth <= static_cast<double>(drop.thickness) / 10);
+    if (scene.apart_at_rest)
+        CHECK(seen.at_end.count() == 0);
 }
 
 Scene pair_of_triangles(const std::string& name, float width)
 {
-    return {.name = name, .mesh = tests::triangle_pair(width), .height = 0.15f, .traced = true, .top = 0.f};
+    return {.name = name,
+            .mesh = tests::triangle_pair(width),
+            .height = 0.15f,
+            .traced = true,
+            .top = 0.f,
+            .apart_when_slow = width < 0.1f,
+            .apart_at_rest = true};
 }
 
 Scene upright_needle()
@@ -241,6 +247,7 @@ Scene lying_needle()
         .name = "lying needle", .mesh = tests::needle(1, 0.02f), .height = 0.45f, .ground = true, .traced = true};
     tests::place(scene.mesh, glm::rotate(moved({0.5f, 0.3f, 0}), std::numbers::pi_v<float> / 2, glm::vec3(0, 0, 1)));
     scene.top = 0.3f;
+    scene.apart_at_rest = true;
     return scene;
 }
 
@@ -253,7 +260,9 @@ Scene edge_of_a_box(bool formula)
     Scene scene{.name = "edge of a mesh",
                 .mesh = engine::make_box(box.min, box.max),
                 .height = k_middle + 0.5f,
-                .ground = true};
+                .ground = true,
+                .apart_when_slow = true,
+                .apart_at_rest = true};
     tests::place(scene.mesh, box.transform);
     scene.top = k_middle + box.max.x * std::numbers::sqrt2_v<float>;
     if (!formula)
@@ -273,12 +282,9 @@ Scene corner()
     return {.name = "corner", .mesh = tests::corner_bowl(3.6f), .height = 2.05f, .focus = glm::dvec3(0, 2, 0)};
 }
 
-// Without contact of edges, what has no vertex of the cloth above it is not what the cloth comes to rest on.
-// Nor need it be traced all the time.
+// What is watched for long need not be traced all the time.
 Scene at_length(Scene scene)
 {
-    if (!k_edges)
-        scene.top.reset();
     scene.traced = false;
     return scene;
 }
@@ -328,13 +334,14 @@ TEST_CASE("cloth shot into the corner of three squares")
 TEST_CASE("cloth comes to rest on two triangles")
 {
     let_rest(pair_of_triangles("square of 1 m", 1), 120);
-    if (k_edges)
-        let_rest(pair_of_triangles("strip of 2 cm", 0.02f), 240);
+    let_rest(pair_of_triangles("strip of 2 cm", 0.02f), 400);
 }
 
 TEST_CASE("cloth comes to rest on a needle")
 {
-    let_rest(at_length(upright_needle()), 60);
+    Scene upright = upright_needle();
+    upright.top.reset(); // all of it hangs from one point, which can come through
+    let_rest(at_length(upright), 240);
     let_rest(at_length(lying_needle()), 210);
 }
 

@@ -5,7 +5,7 @@
 //
 // A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
 // it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
-// and Coulomb friction acts. The vertices' own contact comes after and has the last word.
+// and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the last word.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, features and their hierarchy, positions before the
 // substep, proposed state.
 // Writes: the state that the contact pass takes in place of the proposed one, predicted velocities.
@@ -201,9 +201,10 @@ void take_share(Meeting meeting, vec3 place, float share, vec3 velocity)
     self.slowing = -share * friction_share(self.friction, approach, length(sliding)) * sliding;
 }
 
+// By how much the vertex moves for what the place moves.
 float share_of(vec3 weights, vec3 inverse_masses)
 {
-    return inverse_masses.x * weights.x / max(dot(inverse_masses, weights * weights), 1e-30);
+    return inverse_masses.x * weights.x / dot(inverse_masses, weights * weights);
 }
 
 // A corner and the triangle of this thread's vertex with b and c.
@@ -211,7 +212,7 @@ void meet_triangle(Feature feature, Traveller a, Traveller b, Traveller c)
 {
     const vec3 normal = cross(b.to - a.to, c.to - a.to);
     const vec3 earlier = cross(b.from - a.from, c.from - a.from);
-    if (dot(normal, normal) < 1e-30 || dot(earlier, earlier) < 1e-30)
+    if (dot(normal, normal) < 1e-30 || dot(earlier, earlier) < 1e-30 || min(b.inverse_mass, c.inverse_mass) == 0)
         return;
     const vec3 across = normalize(normal);
     const vec3 across_then = normalize(earlier);
@@ -240,7 +241,7 @@ void meet_edge(Feature feature, Traveller a, Traveller b)
     const vec3 along = feature.b - feature.a;
     const vec3 ab = b.to - a.to;
     const vec3 normal = cross(ab, along);
-    if (dot(normal, normal) < k_parallel * k_parallel * dot(ab, ab) * dot(along, along))
+    if (dot(normal, normal) <= k_parallel * k_parallel * dot(ab, ab) * dot(along, along) || b.inverse_mass == 0)
         return;
     const vec3 across = normalize(normal);
     const vec3 earlier = cross(b.from - a.from, along);

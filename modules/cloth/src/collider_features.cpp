@@ -28,10 +28,10 @@ float longest_edge(const Model& model, uint32_t index)
     return longest;
 }
 
-// Whether something round of this radius sinks into a chord between two vertices by half of their distance to it.
+// Whether a chord between two vertices on something round of this radius sinks towards it by more than is allowed.
 bool is_thin(float radius, const FeatureScale& scale)
 {
-    return 4 * scale.thickness * radius < scale.edge * scale.edge;
+    return 8 * k_allowed_share * scale.thickness * radius < scale.edge * scale.edge;
 }
 
 std::vector<Feature> box_features(const shared::ColliderRecord& record)

@@ -38,7 +38,7 @@ struct DeviceState
     gpu::Buffer feature_nodes;
     gpu::Buffer features;
     gpu::Buffer feature_velocities; // after contact with them; positions are in stage A's
-    gpu::Buffer start; // places at the start, and what density multiplies
+    gpu::Buffer start;              // places at the start, and what density multiplies
     gpu::Buffer anchors;
     gpu::Buffer holds;
     gpu::Buffer tethers;

@@ -115,6 +115,7 @@ void Solver::State::update_passes()
                     { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
     passes.features = device && device->feature_count > 0;
     passes.recover =
+        options.recovery &&
         std::any_of(model.colliders.begin(), model.colliders.end(),
                     [](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
     passes.strain_spacing = 0;

@@ -22,11 +22,6 @@ using shared::Feature;
 
 constexpr float k_flat = 0.035f; // rad; edges that turn by less are none
 
-// The share of the thickness that an edge on its own, and a mesh that bends within an edge's length, may take away from
-// what the vertices keep.
-constexpr float k_edge_share = 0.25f;
-constexpr float k_bend_share = 0.5f;
-
 struct Corner
 {
     glm::vec3 normal{0.f}; // sum over its triangles, by their angles
@@ -51,8 +46,8 @@ public:
     MeshFeatures(const MeshTree& tree, const shared::ColliderRecord& collider, const FeatureScale& scale)
         : tree_(tree), scale_(scale), two_sided_((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0),
           closed_((collider.flags & VOILE_COLLIDER_CLOSED) != 0),
-          bend_(std::atan(4 * k_bend_share * scale.thickness / scale.edge)),
-          crease_(std::atan(2 * k_edge_share * scale.thickness / scale.edge)), spacing_(scale.edge / 4)
+          bend_(std::atan(4 * k_allowed_share * scale.thickness / scale.edge)),
+          crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)), spacing_(scale.edge / 4)
     {
     }
 

@@ -72,8 +72,9 @@ struct SolverOptions
     uint32_t workgroup_size = 128; // power of two, 1 to the device's limit
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
-    bool feature_contact = true; // corners and edges of colliders meet the triangles and edges of cloths. Where vertices
-                                 // alone do not feel one, a substep has a pass more
+    bool feature_contact = true; // corners and edges of colliders meet the triangles and edges of cloths. Where
+                                 // vertices alone do not feel one, a substep has a pass more
+    bool recovery = true;        // what is inside a closed mesh at the start of a step is brought out
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
