@@ -20,7 +20,10 @@ engine::Device& device()
 
 } // namespace
 
-Rig::Rig() : solver(engine::take(cloth::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
+Rig::Rig(const cloth::SolverOptions& options)
+    : solver(engine::take(cloth::Solver::create(device().context().handles, options))), frames_(device(), 1)
+{
+}
 
 void Rig::run(const std::function<void(VkCommandBuffer)>& record)
 {
