@@ -13,7 +13,7 @@ constexpr glm::vec3 k_box_color{0.02f, 0.25f, 0.9f}; // linear, as all of them
 constexpr glm::vec3 k_contact_color{1.f, 0.75f, 0.02f};
 constexpr glm::vec3 k_normal_color{0.1f, 0.8f, 0.25f};
 constexpr float k_normal_length = 0.02f; // of the cloth's longest side
-constexpr uint32_t k_touches = 1;        // in the w of a velocity, see cloth::VertexStreams
+constexpr uint32_t k_touches = 1 | 4;    // in the w of a velocity, see cloth::VertexStreams
 
 // The twelve edges of a box.
 void add_edges(const cloth::BoundingBox& box, std::vector<glm::vec4>& from, std::vector<glm::vec4>& to)
