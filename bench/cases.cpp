@@ -1,10 +1,10 @@
 // Cases: the reference scene, sheets of the drape scene's fabric, and many cloths against one.
 #include "cases.hpp"
 
-#include "engine/assets/shapes.hpp"
 #include "heart.hpp"
 #include "icosphere.hpp"
 
+#include "engine/assets/shapes.hpp"
 #include "engine/gpu/device.hpp"
 
 #include <algorithm>
