@@ -5,4 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 scripts/build.sh
-exec ctest --test-dir build/release --output-on-failure "$@"
+
+# Tests run beside each other, one a core. A software device that took all cores in each of them would only wait for itself.
+export LP_NUM_THREADS="${LP_NUM_THREADS:-1}"
+exec ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure "$@"

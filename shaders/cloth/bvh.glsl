@@ -2,9 +2,14 @@
 //
 // The including kernel declares `bvh_nodes[]` and defines boxes_overlap and, before the include,
 //   void take_leaf(uint first, uint count)
-// which is called for every leaf that the box reaches, with its triangles.
+// which is called for every leaf that the box reaches, with its triangles. A kernel whose query is less than the box defines
+// VOILE_REACHED(box_min, box_max, node_min, node_max) as a function that tells what of the tree it reaches.
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
+
+#ifndef VOILE_REACHED
+#define VOILE_REACHED boxes_overlap
+#endif
 
 // Leaves that the traversal has found and not yet handed on. Neighbouring threads find theirs at different steps; taking
 // them together keeps what is done with them out of the loop over nodes.
@@ -23,8 +28,8 @@ void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
         while (waiting + 2 <= VOILE_BVH_WAITING_LEAVES)
         {
             const BvhNode n = bvh_nodes[first_node + node];
-            const bool left = boxes_overlap(box_min, box_max, n.left_min, n.left_max);
-            const bool right = boxes_overlap(box_min, box_max, n.right_min, n.right_max);
+            const bool left = VOILE_REACHED(box_min, box_max, n.left_min, n.left_max);
+            const bool right = VOILE_REACHED(box_min, box_max, n.right_min, n.right_max);
             const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
             const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
             if (left && left_leaf)

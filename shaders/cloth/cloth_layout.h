@@ -27,8 +27,12 @@
 // How many substeps lie between two in which vertices find what share of their inner forces they bear (stability.glsl).
 #define VOILE_MEASURE 8
 
-// How many leaves of the colliders' hierarchies a vertex keeps from substep to substep (contact_candidates.glsl).
-#define VOILE_CANDIDATES 7
+// How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
+#define VOILE_CANDIDATES 23
+// the words of its list,
+#define VOILE_CANDIDATE_WORDS (VOILE_CANDIDATES + 2)
+// how many bits of a word tell the triangle,
+#define VOILE_CANDIDATE_TRIANGLE_BITS 26
 // and how many substeps lie between the renewals of these lists.
 #define VOILE_RENEWAL 16
 
@@ -39,8 +43,8 @@
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
 #define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
 // The number of the substep in which a list of candidates was made, and their count: one word.
-#define VOILE_CANDIDATE_COUNT_BITS 4
-#define VOILE_CANDIDATE_COUNT_MASK 15u
+#define VOILE_CANDIDATE_COUNT_BITS 5
+#define VOILE_CANDIDATE_COUNT_MASK 31u
 
 // Wave vectors of the gusts (wind.glsl), in units of the longest one's.
 #define VOILE_GUST_WAVES                                                                                               \
@@ -227,6 +231,7 @@ struct ContactPush
     float progress_a_substep;
     uint substep;        // counted through all steps
     uint first_substep;  // of the step
+    uint vertices;       // of all cloths
 };
 
 // Push constants of the pass that brings vertices out of closed meshes.
@@ -305,8 +310,8 @@ struct StatisticsRecord
     uint penetrating_vertices; // vertices under the surface of a collider
     uint contacts;             // vertices that touch a collider
     uint limited_vertices;     // vertices that bore less than the whole of their inner forces
-    uint candidates;           // leaves in the lists of all vertices
-    uint overflowing_vertices; // vertices near more leaves than a list holds: they traverse in every substep
+    uint candidates;           // triangles in the lists of all vertices
+    uint overflowing_vertices; // vertices near more triangles than a list holds: they traverse in every substep
     uint padding_0;
 };
 

@@ -31,7 +31,7 @@ layout(set = 0, binding = 11, std430) readonly buffer ProposedPredicted { vec4 p
 layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 
 layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
-layout(set = 0, binding = 14, std430) buffer CandidateLeaves { uint candidate_leaves[]; };
+layout(set = 0, binding = 14, std430) buffer CandidateTriangles { uint candidate_triangles[]; };
 layout(set = 0, binding = 15, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
@@ -142,44 +142,64 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
     motion.x += drift(motion.cloth) * change;
 }
 
-// Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. Where the way from
-// its last place leads through one, it stays at that last place, as that surface carries it, so that no vertex is ever on the
-// wrong side of a mesh.
-void keep_out(inout Motion motion)
+// What contact knows of the vertex.
+struct Meeting
 {
-    for (uint c = 0; c < push.colliders; ++c)
-    {
-        const ColliderRecord collider = colliders[c];
-        const Passage passage = passage_of(c, collider.flags, motion);
-        const Contact contact = path_contact(c, collider, passage.from, passage.to);
-        if (!contact.found)
-            continue;
-        const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
-        const vec3 n = world_direction(passage, contact.direction);
-        motion.x = motion.from + way;
-        motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
-        return;
-    }
+    bool touches;
+    bool stays_out; // what has moved it leads through no surface
+};
+
+// Where the way of the vertex leads through a mesh after all.
+void keep_out(inout Motion motion, Passage passage, Contact contact)
+{
+    const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
+    const vec3 n = world_direction(passage, contact.direction);
+    motion.x = motion.from + way;
+    motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
 }
 
-void meet(inout Motion motion, uint c, ClothContact cloth, inout bool touches, inout bool stays_out)
+// `last`: in the round that looks for what the way leads through.
+void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meeting meeting)
 {
     const ColliderRecord collider = colliders[c];
     const Passage passage = passage_of(c, collider.flags, motion);
     const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
     // A vertex that rests lies on the offset surface within rounding, and touches it on either side of that.
-    const float reach = cloth.thickness + rounding(motion.x);
-    const Contact contact = find_contact(c, collider, METHOD, passage.from, passage.to, normal, reach);
+    const float reach = last ? 0 : cloth.thickness + rounding(motion.x);
+    const Contact contact = find_contact(c, collider, last ? VOILE_METHOD_PATH_ALONE : METHOD, passage.from, passage.to,
+                                         normal, reach);
     if (!contact.found)
         return;
+    if (last)
+    {
+        keep_out(motion, passage, contact);
+        meeting.stays_out = true;
+        return;
+    }
     // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
     const float moved = cloth.thickness - contact.gap + distance(passage.from, passage.to);
-    stays_out = !touches && moved < contact.gap;
-    touches = true;
+    meeting.stays_out = !meeting.touches && moved < contact.gap;
+    meeting.touches = true;
     respond(motion, world_direction(passage, contact.direction), contact.gap,
             surface_way(passage, passage.to - contact.gap * contact.direction, contact.way), cloth.thickness,
             pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
+}
+
+// Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
+// round: where the way from its last place leads through a mesh, the vertex stays at that last place, as the mesh carries it,
+// so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
+Meeting meet_all(inout Motion motion, ClothContact cloth)
+{
+    Meeting meeting = Meeting(false, false);
+    for (uint k = 0; k < 2 * push.colliders; ++k)
+    {
+        const bool last = k >= push.colliders;
+        if (last && (!meeting.touches || meeting.stays_out))
+            break;
+        meet(motion, last ? k - push.colliders : k, last, cloth, meeting);
+    }
+    return meeting;
 }
 
 void main()
@@ -193,7 +213,6 @@ void main()
     const vec4 proposed_velocity = proposed_velocities[i];
     Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz, cloth);
     bool touches = false;
-    bool stays_out = false;
     if (proposed.w > 0)
     {
         query_progress = vec2(push.progress_from, push.progress_to);
@@ -204,10 +223,7 @@ void main()
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
         find_candidates(i, motion.from, motion.x, motion.v, contact.thickness);
-        for (uint c = 0; c < push.colliders; ++c)
-            meet(motion, c, contact, touches, stays_out);
-        if (touches && !stays_out)
-            keep_out(motion);
+        touches = meet_all(motion, contact).touches;
     }
     positions[i] = vec4(motion.x, proposed.w);
     velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);

@@ -1,54 +1,142 @@
-// The leaves near a vertex, kept from substep to substep.
+// The triangles near a vertex, kept from substep to substep.
 //
-// A traversal finds all leaves within a box around the vertex that is wider by a margin than a substep needs. As long as
-// the vertex stays within that margin, the following substeps test these leaves alone: the same triangles that a traversal
-// of their own would find, in the same order, and a few more. Where a vertex has more leaves than the list holds, every
-// substep traverses. Threads wait for the slowest among them: so that most substeps have no traversal at all, lists are
-// renewed together, every VOILE_RENEWAL substeps, by all vertices that have used up half of their margin.
+// A traversal finds all triangles within a ball around the vertex that is wider by a margin than a substep needs. As long as
+// the vertex stays within that margin, the following substeps test these triangles alone, and of them those which may be near
+// enough by the distance that the list tells. A dispatch waits for its slowest thread, for one long list and for any traversal:
+//   - lists are renewed together, every VOILE_RENEWAL substeps, by all vertices that have used up half of their margin;
+//   - the margin narrows while triangles are found, so that the list stays short;
+//   - where more are near than the list holds with no margin at all, every substep traverses.
 // A moving collider has the list of the place where the vertex was, in the collider's space, when the list was made; it holds
 // within the step in which that was. So does the list of a deforming one, whose boxes cover all of the step.
-// The including kernel declares candidate_places[] and candidate_leaves[] and includes contact_query.glsl and
+// The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl and
 // collider_pose.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
-// Set in a leaf of the list: it is a slot of a padded tree.
-#define VOILE_CANDIDATE_DEFORMS VOILE_BVH_LEAF_BIT
+// The margin, as a share of the thickness, that a vertex at rest has.
+#define VOILE_CANDIDATE_MARGIN 0.5
+// What of the thickness the ball has beyond the margin: it, and the roundings of where it is.
+#define VOILE_CANDIDATE_REACH 1.001
+// The margin narrows where a list would be longer, and after that grows again by this factor from list to list.
+#define VOILE_CANDIDATE_AIM 11
+#define VOILE_CANDIDATE_GROWTH 1.5
+
+// Words of the list: its head, with its length, and the radius that it was to have; then entries: the triangle, or the slot of
+// a padded tree, and its distance from the middle of the ball as a share of that radius.
+#define VOILE_CANDIDATE_HEAD 0
+#define VOILE_CANDIDATE_RADIUS 1
+#define VOILE_CANDIDATE_ENTRIES 2
+#define VOILE_CANDIDATE_SLOT 0x80000000u // the entry is a slot
+#define VOILE_CANDIDATE_LEVELS 31
+#define VOILE_CANDIDATE_TRIANGLE_MASK ((1u << VOILE_CANDIDATE_TRIANGLE_BITS) - 1)
 
 struct Candidates
 {
     uint vertex;
     uint count;   // VOILE_CANDIDATES + 1: more than fit
-    bool collect; // take_leaf puts them into the list; else it visits their triangles
-    vec3 place;   // m, world: the middle of what the list covers
-    float cover;  // m, half the side of that box, with what contact reaches
+    bool collect; // take_leaf puts triangles into the list; else it visits them
+    vec3 place;   // m, world: the middle of the ball that the list covers
+    float cover;  // m, radius of the ball
+    float wished; // m, that it was to have
+    float least;  // m, that it must have
     float made;   // progress of the step when the list was made; < 0: in a step before
-    uint kind;    // VOILE_CANDIDATE_DEFORMS, or 0: of the mesh that is traversed
+    // Of the mesh that is traversed to collect
+    vec3 middle;        // m, of the ball in its space
+    uint kind;          // VOILE_CANDIDATE_SLOT if it deforms, else 0
+    uvec2 first_corner; // as in MeshQuery
 };
 Candidates candidates;
 
-void take_leaf(uint first, uint count)
+// Neighbouring threads read the same word at the same time: word after word, not vertex after vertex.
+uint candidate_word(uint word) { return word * push.vertices + candidates.vertex; }
+
+// m, at least: how far an entry is from the middle of the ball.
+float entry_distance(uint entry)
 {
-    if (!candidates.collect)
-    {
-        for (uint t = first; t < first + count; ++t)
-            visit_triangle(t);
-        return;
-    }
-    if (candidates.count < VOILE_CANDIDATES)
-        candidate_leaves[candidates.vertex * (VOILE_CANDIDATES + 1) + 1 + candidates.count] =
-            candidates.kind | (count - 1) << VOILE_BVH_COUNT_SHIFT | first;
-    candidates.count = min(candidates.count + 1, VOILE_CANDIDATES + 1);
+    const uint level = entry >> VOILE_CANDIDATE_TRIANGLE_BITS & VOILE_CANDIDATE_LEVELS;
+    return float(level) / VOILE_CANDIDATE_LEVELS * candidates.wished;
 }
 
+// Narrows the ball until the list is short, as far as that goes.
+void narrow()
+{
+    while (candidates.count >= VOILE_CANDIDATE_AIM)
+    {
+        const float spare = candidates.cover - candidates.least;
+        if (spare * VOILE_CANDIDATE_LEVELS < candidates.wished)
+            return;
+        candidates.cover = candidates.least + 0.5 * spare;
+        uint kept = 0;
+        for (uint i = 0; i < candidates.count; ++i)
+        {
+            const uint entry = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + i)];
+            if (entry_distance(entry) <= candidates.cover)
+                candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + kept++)] = entry;
+        }
+        candidates.count = kept;
+    }
+}
+
+// m, from the middle of the ball; of a triangle that deforms at least, throughout the step: it is never farther from where it
+// is halfway than half of the longest way of its corners.
+float triangle_distance(uint triangle)
+{
+    if (COLLIDERS_MOVE == 0 || candidates.kind == 0)
+    {
+        const BvhTriangle t = bvh_triangles[triangle];
+        return distance(candidates.middle, nearest_on_triangle(candidates.middle, t.a, t.b, t.c));
+    }
+    const MovingTriangle t = moving_triangle(triangle, candidates.first_corner, vec2(0, 1));
+    const float way = max(max(distance(t.start.a, t.end.a), distance(t.start.b, t.end.b)), distance(t.start.c, t.end.c));
+    const vec3 nearest = nearest_on_triangle(candidates.middle, 0.5 * (t.start.a + t.end.a), 0.5 * (t.start.b + t.end.b),
+                                             0.5 * (t.start.c + t.end.c));
+    return max(distance(candidates.middle, nearest) - 0.5 * way, 0);
+}
+
+void collect_triangle(uint triangle)
+{
+    if (candidates.count > VOILE_CANDIDATES)
+        return;
+    const float distance = triangle_distance(triangle);
+    if (distance <= candidates.cover)
+        narrow();
+    if (distance > candidates.cover)
+        return;
+    if (candidates.count < VOILE_CANDIDATES)
+    {
+        const uint level = uint(0.999 * distance / candidates.wished * VOILE_CANDIDATE_LEVELS);
+        candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + candidates.count)] =
+            candidates.kind | level << VOILE_CANDIDATE_TRIANGLE_BITS | triangle;
+    }
+    ++candidates.count;
+}
+
+void take_leaf(uint first, uint count)
+{
+    for (uint t = first; t < first + count; ++t)
+    {
+        if (candidates.collect)
+            collect_triangle(t);
+        else
+            visit_triangle(t);
+    }
+}
+
+// To collect, what of a tree reaches into the ball, as narrow as it is by then.
+bool query_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
+{
+    if (!candidates.collect)
+        return boxes_overlap(box_min, box_max, node_min, node_max);
+    return distance(candidates.middle, clamp(candidates.middle, node_min, node_max)) <= candidates.cover;
+}
+
+#define VOILE_REACHED query_reaches
 #include "bvh.glsl"
 #include "padded.glsl"
 
 void traverse(ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
-    const bool deforms = is_deforming(collider.flags);
-    candidates.kind = deforms ? VOILE_CANDIDATE_DEFORMS : 0;
-    if (deforms)
+    if (is_deforming(collider.flags))
         visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
     else
         visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
@@ -60,31 +148,33 @@ vec3 covered_middle(uint c, uint flags)
     return is_moved(flags) ? to_collider(pose_at(c, candidates.made), candidates.place) : candidates.place;
 }
 
-bool covers(uint c, uint flags, vec3 box_min, vec3 box_max)
+// m, the radius of a ball like the list's that has all that lies on the way from `from` to `to` or within `reach` of its end.
+float needed_cover(uint c, uint flags, vec3 from, vec3 to, float reach)
 {
     if (candidates.made < 0 && (is_moved(flags) || is_deforming(flags)))
-        return false;
+        return 3e38;
     const vec3 middle = covered_middle(c, flags);
-    return all(lessThanEqual(middle - candidates.cover, box_min)) &&
-           all(lessThanEqual(box_max, middle + candidates.cover));
+    return max(distance(middle, from), distance(middle, to) + reach);
 }
 
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
-    if (candidates.count > VOILE_CANDIDATES || !covers(c, collider.flags, box_min, box_max))
+    const float needed = needed_cover(c, collider.flags, query.from, query.to, query.thickness);
+    if (candidates.count > VOILE_CANDIDATES || needed > candidates.cover)
     {
         traverse(collider, box_min, box_max);
         return;
     }
-    const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_DEFORMS : 0;
-    const uint list = candidates.vertex * (VOILE_CANDIDATES + 1) + 1;
+    const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_SLOT : 0;
+    uint next = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES)]; // one ahead: it comes while one is tested
     for (uint i = 0; i < candidates.count; ++i)
     {
-        const uint leaf = candidate_leaves[list + i];
-        const uint first = leaf & VOILE_BVH_FIRST_MASK;
-        if ((leaf & VOILE_CANDIDATE_DEFORMS) == kind && first >= collider.first_triangle &&
-            first < collider.first_triangle + collider.triangles)
-            take_leaf(first, (leaf >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK) + 1);
+        const uint entry = next;
+        next = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + min(i + 1, VOILE_CANDIDATES - 1))];
+        const uint triangle = entry & VOILE_CANDIDATE_TRIANGLE_MASK;
+        if ((entry & VOILE_CANDIDATE_SLOT) == kind && entry_distance(entry) <= needed &&
+            triangle >= collider.first_triangle && triangle < collider.first_triangle + collider.triangles)
+            visit_triangle(triangle);
     }
 }
 
@@ -114,58 +204,82 @@ bool serves_moving(vec3 from, vec3 to, float reach, inout float way)
         if (!reaches(colliders[c], box_min, box_max))
             continue;
         way = max(way, gone);
-        serves = serves && covers(c, flags, box_min, box_max);
+        serves = serves && needed_cover(c, flags, a, b, reach) <= candidates.cover;
     }
     return serves;
 }
 
-void collect_leaves()
+void collect_triangles()
 {
     candidates.count = 0;
     candidates.collect = true;
     for (uint c = 0; c < push.colliders; ++c)
     {
-        if (colliders[c].kind != VOILE_COLLIDER_MESH)
+        const ColliderRecord collider = colliders[c];
+        if (collider.kind != VOILE_COLLIDER_MESH)
             continue;
-        const vec3 middle = covered_middle(c, colliders[c].flags);
-        const vec3 box_min = middle - candidates.cover;
-        const vec3 box_max = middle + candidates.cover;
-        if (reaches(colliders[c], box_min, box_max))
-            traverse(colliders[c], box_min, box_max);
+        candidates.middle = covered_middle(c, collider.flags);
+        candidates.kind = 0;
+        if (is_deforming(collider.flags))
+        {
+            candidates.kind = VOILE_CANDIDATE_SLOT;
+            candidates.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
+        }
+        const vec3 box_min = candidates.middle - candidates.cover;
+        const vec3 box_max = candidates.middle + candidates.cover;
+        if (reaches(collider, box_min, box_max))
+            traverse(collider, box_min, box_max);
     }
     candidates.collect = false;
 }
 
-// Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to` and what contact may add.
+// Makes a new list. `own_way`: m, what the ball must have of the substep's own way; `ahead`: m, the way to the next renewal.
+void renew_candidates(float own_way, float ahead, float thickness)
+{
+    const float reach = VOILE_CANDIDATE_REACH * thickness;
+    const float margin = max(VOILE_CANDIDATE_MARGIN * thickness, 2 * ahead);
+    // Where the last ball was narrowed, this one is to be little wider: what is found beyond would be lost again.
+    const float last = candidates.cover - reach;
+    const bool narrowed = last >= 0 && candidates.cover < candidates.wished;
+    const float grown = max(VOILE_CANDIDATE_GROWTH * last, 0.1 * VOILE_CANDIDATE_MARGIN * thickness);
+    candidates.least = reach + own_way;
+    candidates.wished = candidates.least + (narrowed ? min(margin, grown) : margin);
+    candidates.cover = candidates.wished;
+    collect_triangles();
+    if (candidates.count > VOILE_CANDIDATES)
+        candidates.cover = candidates.wished; // until the vertex has gone far: it would find as many
+    candidate_places[candidates.vertex] = vec4(candidates.place, candidates.cover - reach);
+    candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)] =
+        push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
+    candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)] = floatBitsToUint(candidates.wished);
+}
+
+// Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to`.
 void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thickness)
 {
-    const vec4 place = candidate_places[vertex]; // w: half the side of the box that the way must stay in; < 0: none
-    const float reach = 2 * thickness;           // the distance that contact keeps, from either side
-    const uint head = candidate_leaves[vertex * (VOILE_CANDIDATES + 1)];
-    const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     candidates.vertex = vertex;
     candidates.collect = false;
+    const vec4 place = candidate_places[vertex]; // w: m, how far from there the way may lead; < 0: there is no list
+    const uint head = candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)];
+    const float reach = VOILE_CANDIDATE_REACH * thickness;
+    const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
     candidates.place = place.xyz;
     candidates.cover = place.w + reach;
+    candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)]);
     candidates.made = made < push.first_substep
                           ? -1
                           : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
     const float used = push.renew == 1 ? 0.5 * place.w : place.w;
-    const bool serves =
-        all(lessThanEqual(abs(from - place.xyz), vec3(used))) && all(lessThanEqual(abs(to - place.xyz), vec3(used)));
+    const bool serves = distance(from, place.xyz) <= used && distance(to, place.xyz) <= used;
     float way = 0;
     const bool serves_all = serves_moving(from, to, reach, way);
     if (serves && serves_all)
         return;
     const float speed = length(velocity) + way / push.step;
-    const float margin = max(0.5 * thickness, 2 * speed * push.renewal_time) + 0.5 * distance(from, to) + way;
     candidates.place = 0.5 * (from + to);
-    candidates.cover = margin + reach;
     candidates.made = push.progress_to;
-    collect_leaves();
-    candidate_places[vertex] = vec4(candidates.place, margin);
-    candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] = push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
+    renew_candidates(0.5 * distance(from, to) + way, speed * push.renewal_time, thickness);
 }
 
 #endif

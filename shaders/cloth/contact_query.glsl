@@ -259,27 +259,14 @@ Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickn
     return contact;
 }
 
-// Whether the way from `from` to `to` leads through collider c; contact.direction is the side that it comes from.
-Contact path_contact(uint c, ColliderRecord collider, vec3 from, vec3 to)
-{
-    if (collider.kind != VOILE_COLLIDER_MESH)
-        return no_contact();
-    const vec3 box_min = min(from, to);
-    const vec3 box_max = max(from, to);
-    if (!reaches(collider, box_min, box_max))
-        return no_contact();
-    begin_query(c, collider, VOILE_METHOD_PATH_ALONE, from, to, vec3(0), 0);
-    visit_mesh(c, collider, box_min, box_max);
-    if (query.crossing <= 1)
-        return crossing_contact();
-    return no_contact();
-}
-
-// What a vertex that goes from `from` to `to` touches of collider c.
+// What a vertex that goes from `from` to `to` touches of collider c. VOILE_METHOD_PATH_ALONE: the side of a mesh through which
+// the way leads; the thickness is 0 then.
 Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
     if (collider.kind == VOILE_COLLIDER_MESH)
         return mesh_contact(c, collider, method, from, to, normal, thickness);
+    if (method == VOILE_METHOD_PATH_ALONE)
+        return no_contact();
     if (COLLIDERS_CONVEX == 0 || collider.kind == VOILE_COLLIDER_PLANE)
         return surface_contact(collider, plane_surface(collider, to), thickness);
     return convex_contact(collider, from, to, thickness);

@@ -2,9 +2,13 @@
 //
 // The including kernel declares `padded_boxes[]` and defines boxes_overlap and, before the include,
 //   void take_leaf(uint first, uint count)
-// which is called with a count of 1 for every leaf that the box reaches, once a triangle.
+// which is called with a count of 1 for every leaf that the box reaches, once a triangle. VOILE_REACHED: as in bvh.glsl.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
+
+#ifndef VOILE_REACHED
+#define VOILE_REACHED boxes_overlap
+#endif
 
 // Leaves that the traversal has found and not yet handed on, as in bvh.glsl.
 #define VOILE_PADDED_WAITING_LEAVES 8
@@ -12,7 +16,7 @@
 bool padded_box_overlaps(uint box, vec3 box_min, vec3 box_max)
 {
     const PaddedBox b = padded_boxes[box];
-    return boxes_overlap(box_min, box_max, b.min, b.max);
+    return VOILE_REACHED(box_min, box_max, b.min, b.max);
 }
 
 // A box's ancestors are its index modulo their levels' widths. So the stack is one word: bit d says that of the way's box

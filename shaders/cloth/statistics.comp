@@ -23,7 +23,7 @@ layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecor
 layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 11, std430) readonly buffer CandidateLeaves { uint candidate_leaves[]; };
+layout(set = 0, binding = 11, std430) readonly buffer CandidateTriangles { uint candidate_triangles[]; };
 layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
@@ -110,7 +110,7 @@ void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
 
 void count_candidates(uint vertex, inout StatisticsRecord record)
 {
-    const uint count = candidate_leaves[vertex * (VOILE_CANDIDATES + 1)] & VOILE_CANDIDATE_COUNT_MASK;
+    const uint count = candidate_triangles[vertex] & VOILE_CANDIDATE_COUNT_MASK;
     record.candidates = min(count, VOILE_CANDIDATES);
     record.overflowing_vertices = count > VOILE_CANDIDATES ? 1 : 0;
 }

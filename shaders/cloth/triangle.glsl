@@ -25,39 +25,36 @@ float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
 }
 
 // The point of triangle (a, b, c) that is nearest to p. Ericson 2004, Real-Time Collision Detection, 5.1.5: the Voronoi
-// region of p decides between the three vertices, the three edges and the face.
+// region of p decides between the three vertices, the three edges and the face. All are computed, the last that holds is
+// taken: neighbouring threads would branch apart.
 vec3 nearest_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
 {
     const vec3 ab = b - a;
     const vec3 ac = c - a;
     const vec3 ap = p - a;
+    const vec3 bp = p - b;
+    const vec3 cp = p - c;
     const float d1 = dot(ab, ap);
     const float d2 = dot(ac, ap);
-    if (d1 <= 0 && d2 <= 0)
-        return a;
-    const vec3 bp = p - b;
     const float d3 = dot(ab, bp);
     const float d4 = dot(ac, bp);
-    if (d3 >= 0 && d4 <= d3)
-        return b;
-    const float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        return a + d1 / (d1 - d3) * ab;
-    const vec3 cp = p - c;
     const float d5 = dot(ab, cp);
     const float d6 = dot(ac, cp);
-    if (d6 >= 0 && d5 <= d6)
-        return c;
-    const float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        return a + d2 / (d2 - d6) * ac;
-    const float va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-        return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-    // By the normal and not by the areas va, vb, vc: in a long thin triangle these are differences of large numbers, and
-    // the offset from a place that they give would lean along the triangle.
+    // By the normal and not by the areas: in a long thin triangle these are differences of large numbers, and the offset from
+    // a place that they give would lean along the triangle.
     const vec3 normal = cross(ab, ac);
-    return p - dot(ap, normal) / dot(normal, normal) * normal;
+    vec3 point = p - dot(ap, normal) / dot(normal, normal) * normal;
+    const float on_bc = d4 - d3;
+    const float on_cb = d5 - d6;
+    if (d3 * d6 - d5 * d4 <= 0 && on_bc >= 0 && on_cb >= 0)
+        point = b + on_bc / (on_bc + on_cb) * (c - b);
+    if (d5 * d2 - d1 * d6 <= 0 && d2 >= 0 && d6 <= 0)
+        point = a + d2 / (d2 - d6) * ac;
+    point = d6 >= 0 && d5 <= d6 ? c : point;
+    if (d1 * d4 - d3 * d2 <= 0 && d1 >= 0 && d3 <= 0)
+        point = a + d1 / (d1 - d3) * ab;
+    point = d3 >= 0 && d4 <= d3 ? b : point;
+    return d1 <= 0 && d2 <= 0 ? a : point;
 }
 
 #endif

@@ -53,8 +53,8 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.sums.positions, "cloth velocity sums", per_vertex},
         {&state.sums.velocities, "cloth acceleration sums", per_vertex},
         {&state.candidate_places, "cloth candidate places", per_vertex},
-        {&state.candidate_leaves, "cloth candidate leaves",
-         model.positions.size() * (VOILE_CANDIDATES + 1) * sizeof(uint32_t)},
+        {&state.candidate_triangles, "cloth candidate triangles",
+         model.positions.size() * VOILE_CANDIDATE_WORDS * sizeof(uint32_t)},
         {&state.normals, "cloth normals", per_vertex},
         {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
         {&state.result, "cloth statistics", statistics_slots * sizeof(shared::StatisticsRecord), gpu::Memory::readback},
@@ -120,7 +120,7 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                      s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
                      s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(),
                      s.sums.velocities.handle(), s.stage_a.velocities.handle(), s.candidate_places.handle(),
-                     s.candidate_leaves.handle(), s.collider_motions.handle(), s.padded_boxes.handle(),
+                     s.candidate_triangles.handle(), s.collider_motions.handle(), s.padded_boxes.handle(),
                      s.padded_leaves.handle(), s.deforming_positions.handle()});
     };
     bind(s.contact, s.stage_b.positions, s.stage_b.velocities);
@@ -190,7 +190,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
                  s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
-                 s.candidate_leaves.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
+                 s.candidate_triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
                  s.deforming_positions.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
     return binder.status;

@@ -46,8 +46,8 @@ struct DeviceState
     StateBuffers stage_a;         // written by stages 1 and 3
     StateBuffers stage_b;         // written by stages 2 and 4
     StateBuffers sums;            // running sums of the stages
-    gpu::Buffer candidate_places; // where the lists of leaves near each vertex hold
-    gpu::Buffer candidate_leaves; // their length, and the leaves
+    gpu::Buffer candidate_places; // where the lists of triangles near each vertex hold
+    gpu::Buffer candidate_triangles; // their length, and the triangles
     gpu::Buffer normals;
     gpu::Buffer partials; // statistics, one record a chunk
     gpu::Buffer result;   // statistics, one record a slot; the host reads it

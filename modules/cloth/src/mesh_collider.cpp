@@ -45,6 +45,9 @@ uint64_t Model::bytes_with_deforming(const MeshInput& mesh) const
                      vertices * std::max(2 * sizeof(glm::vec4), size_t{k_most_stride})});
 }
 
+// A word of contact's lists tells a triangle, or a slot of a padded tree, of which a mesh has less than two a triangle.
+constexpr size_t k_most_triangles = size_t{1} << VOILE_CANDIDATE_TRIANGLE_BITS;
+
 Result<ColliderId> Model::add(const MeshCollider& collider)
 {
     const auto mesh = prepare_mesh(collider);
@@ -54,8 +57,14 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
     const uint64_t bytes = collider.deforms
                                ? bytes_with_deforming(mesh.value())
                                : (triangles.size() + mesh.value().triangles.size()) * sizeof(shared::BvhTriangle);
+    // Before the hierarchy is built, which takes long.
     if (auto room = check_room(*this, "collider", collider.name, contents, bytes); !room)
-        return room.error(); // before the hierarchy is built, which takes long
+        return room.error();
+    const size_t listed = collider.deforms ? padded_leaves.size() + 2 * mesh.value().triangles.size()
+                                           : triangles.size() + mesh.value().triangles.size();
+    if (listed > k_most_triangles)
+        return invalid("collider", collider.name,
+                       contents + " are more than the colliders of a solver can have together");
     shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
     if (mesh.value().closed)
         record.flags |= VOILE_COLLIDER_CLOSED;

@@ -74,7 +74,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
-    fill(device.candidate_leaves, 0);
+    fill(device.candidate_triangles, 0);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
 }

@@ -147,6 +147,7 @@ void SubstepRecorder::record_contact(uint32_t substep, VkDescriptorSet set)
     push.progress_a_substep = 1 / static_cast<float>(substeps_);
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
+    push.vertices = device_.vertices;
     const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
                                 : solver_.passes.convex ? kernels_.contact_convex
                                                         : kernels_.contact;

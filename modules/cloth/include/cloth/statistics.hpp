@@ -16,8 +16,8 @@ struct Statistics
     uint32_t nan_vertices = 0;         // vertices whose position or velocity is not finite
     uint32_t limited_vertices = 0;     // vertices too stiff for the substep, which bore less than their inner forces
     uint32_t contacts = 0;             // vertices that touched a collider in the last substep
-    uint32_t candidates = 0;           // leaves of the colliders' hierarchies in the lists that vertices keep
-    uint32_t overflowing_vertices = 0; // vertices near more leaves than a list holds. They traverse the hierarchy in
+    uint32_t candidates = 0;           // triangles of colliders in the lists that vertices keep
+    uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
                                        // every substep: slower, and nothing is left out
 };
 

@@ -1,0 +1,99 @@
+// The lists of triangles that vertices keep from substep to substep: with them contact finds what it finds without.
+#include "cloth_harness.hpp"
+#include "collider_scenes.hpp"
+#include "hard_shapes.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace
+{
+
+constexpr float k_substep = 1.f / 4096; // s; sums of it are exact
+constexpr uint32_t k_substeps = 64;
+constexpr uint32_t k_other_layer = 2;
+
+struct Shot
+{
+    float thickness; // m
+    float speed;     // m/s, up and half of it aside
+    uint32_t rings;  // of the lump: its edges are some 0.5 m / rings long
+};
+
+class Scene : public tests::ClothHarness
+{
+public:
+    explicit Scene(const Shot& shot)
+        : tests::ClothHarness({.recovery = false}), mesh_(tests::lump_with_ears(shot.rings))
+    {
+        cloth::Grid grid = tests::flat_sheet(24, 0.45f, -0.325f); // under the lump: its ears are above
+        grid.transform = grid.transform * glm::mat4_cast(glm::quat(glm::vec3(0.05f, 0.7f, 0.02f)));
+        grid.velocity = {0.5f * shot.speed, shot.speed, 0};
+        tests::fabric_of(grid).thickness = shot.thickness;
+        id = engine::take(solver.add_cloth(grid));
+        (void)engine::take(solver.add_collider(tests::collider(mesh_)));
+        upload();
+    }
+
+    // An upload makes all lists anew.
+    void forget_lists()
+    {
+        (void)engine::take(solver.add_collider(cloth::SphereCollider{.radius = 0.1f, .layers = k_other_layer}));
+        upload();
+    }
+
+    cloth::ClothId id;
+
+private:
+    engine::Mesh mesh_;
+};
+
+bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    return a == b; // no component is NaN: a NaN differs from itself
+}
+
+// The same shot with lists that live on, and with lists that serve one substep.
+cloth::Statistics compare(const Shot& shot)
+{
+    CAPTURE(shot.thickness);
+    CAPTURE(shot.rings);
+    Scene kept(shot);
+    Scene fresh(shot);
+    REQUIRE(kept.solver.stable_substeps(k_substep * k_substeps) <= k_substeps);
+    cloth::Statistics most;
+    constexpr uint32_t k_a_step = 32;
+    for (uint32_t step = 0; step < k_substeps / k_a_step; ++step)
+    {
+        kept.step({.duration = k_a_step * k_substep, .substeps = k_a_step});
+        for (uint32_t i = 0; i < k_a_step; ++i)
+        {
+            fresh.forget_lists();
+            fresh.step({.duration = k_substep, .substeps = 1});
+        }
+        CHECK(same_bits(kept.positions(kept.id), fresh.positions(fresh.id)));
+        CHECK(same_bits(kept.velocities(kept.id), fresh.velocities(fresh.id)));
+        const cloth::Statistics now = kept.statistics();
+        most.contacts = std::max(most.contacts, now.contacts);
+        most.overflowing_vertices = std::max(most.overflowing_vertices, now.overflowing_vertices);
+    }
+    return most;
+}
+
+} // namespace
+
+TEST_CASE("lists of near triangles change no bit of what contact finds")
+{
+    const cloth::Statistics most = compare({.thickness = 0.005f, .speed = 3, .rings = 48});
+    CHECK(most.contacts > 20);
+    CHECK(most.overflowing_vertices == 0);
+}
+
+TEST_CASE("where more triangles are near than a list holds, nothing is lost")
+{
+    const cloth::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160});
+    CHECK(most.contacts > 20);
+    CHECK(most.overflowing_vertices > 0);
+}
