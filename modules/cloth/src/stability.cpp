@@ -20,6 +20,12 @@ bool uses_verlet(const shared::ClothRecord& record)
     return (record.flags & VOILE_CLOTH_VERLET) != 0;
 }
 
+double verlet_share(double load)
+{
+    const double borne = std::min(1.0, 1 / std::max(load, 1e-30));
+    return borne * std::max(borne, 0.5);
+}
+
 } // namespace
 
 StableShares stable_shares(const shared::ClothRecord& record, double substep)
@@ -28,9 +34,12 @@ StableShares stable_shares(const shared::ClothRecord& record, double substep)
     const auto decay = static_cast<double>(record.decay);
     if (uses_verlet(record))
     {
-        const double load = 0.25 * omega_squared * substep * substep + decay * substep;
-        const double share = std::min(1.0, k_margin * k_margin / std::max(load, 1e-30));
-        return {share, share};
+        constexpr double k_reach = k_margin * k_margin;
+        const double elastic = 0.25 * omega_squared * substep * substep;
+        const double damping = decay * substep;
+        const double stiffness = verlet_share((elastic + damping) / k_reach);
+        const double left = k_reach - stiffness * elastic;
+        return {stiffness, stiffness < 1 ? std::min(1.0, left / std::max(damping, 1e-30)) : 1};
     }
     const double reach = k_margin * k_rk4_reach / substep;
     return {std::min(1.0, reach * reach / std::max(omega_squared, 1e-30)),
