@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // One pass of the strain limit, after a step's last substep: where a spring is longer than its limit, both ends are moved
 // towards each other, each by its share of the masses, and the velocity that lengthens it on is taken from both alike. All
-// springs at once (Jacobi): what one end gets the other gets in return, so that momentum is kept.
+// springs at once (Jacobi): what one end gets the other gets in return, so that momentum is kept, save where cloth is so
+// crumpled that a vertex bears less than its share.
 //
 // A pass over neighbours carries a correction one spring far. On a grid, passes therefore go from coarse to fine: a level
 // moves only the vertices whose row and column are multiples of its spacing, and after it the vertices between take the mean
@@ -32,12 +33,16 @@ layout(push_constant, std430) uniform Push { StrainPush push; };
 #include "chunk.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
+#include "stability.glsl"
 
 struct Correction
 {
     vec3 x; // m
     vec3 v; // m/s
+    StiffnessSum taken; // of the springs at their limit: sum of share * (n n^T)
 };
+
+const StiffnessSum k_nothing = StiffnessSum(vec3(0), vec3(0));
 
 // Springs this near below their limit have their lengthening stopped too, or they would swing about it.
 const float k_taut = 0.995;
@@ -51,8 +56,20 @@ void add_limit(inout Correction correction, vec3 x, vec3 v, float own, uint othe
         return;
     const vec3 n = delta / distance;
     const float share = own / (own + theirs);
+    add_stiffness(correction.taken, share, n, 1);
     correction.x += share * max(distance - longest, 0) * n;
     correction.v += share * max(dot(velocities[other].xyz - v, n), 0) * n;
+}
+
+// What of `relaxation` is borne. All springs at once converge while twice the largest eigenvalue of what a vertex takes is
+// at most 2, as it is in a flat sheet. In crumpled cloth, whose springs fall into one line, it is up to twice that, and
+// corrections would grow from pass to pass.
+float borne(StiffnessSum taken, float relaxation)
+{
+    const float squares = dot(taken.diagonal, taken.diagonal) + 2 * dot(taken.mixed, taken.mixed);
+    if (relaxation * relaxation * squares <= 1) // the sum of the squared eigenvalues
+        return relaxation;
+    return min(relaxation, 1 / largest_eigenvalue(taken));
 }
 
 // How many lines of a grid move with a coarse line: the sum of the weights (1 - distance / spacing) of the lines around it,
@@ -82,7 +99,7 @@ float coarse_inverse_mass(uint cloth, ivec2 place, uint index, int spacing)
 Correction limit_grid(ChunkVertex self, vec3 x, vec3 v)
 {
     const uint cloth = self.cloth;
-    Correction correction = Correction(vec3(0), vec3(0));
+    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
     const uint columns = cloths[cloth].columns;
     const int spacing = int(push.spacing);
     const ivec2 place = self.place;
@@ -107,7 +124,7 @@ Correction limit_grid(ChunkVertex self, vec3 x, vec3 v)
 Correction between(ChunkVertex self)
 {
     const uint cloth = self.cloth;
-    Correction sum = Correction(vec3(0), vec3(0));
+    Correction sum = Correction(vec3(0), vec3(0), k_nothing);
     const int spacing = int(push.spacing);
     const ivec2 place = self.place;
     if (!on_level(place, spacing) || on_level(place, 2 * spacing))
@@ -127,12 +144,12 @@ Correction between(ChunkVertex self)
         sum.v += velocities[other].xyz - step_velocities[other].xyz;
         count += 1;
     }
-    return Correction(sum.x / count, sum.v / count);
+    return Correction(sum.x / count, sum.v / count, k_nothing);
 }
 
 Correction limit_mesh(uint cloth, uint local, vec3 x, vec3 v, float inverse_mass)
 {
-    Correction correction = Correction(vec3(0), vec3(0));
+    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
     const uint first = cloths[cloth].first_vertex;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
     for (uint s = 0; s < vertex.springs; ++s)
@@ -156,7 +173,7 @@ void main()
     const vec4 x = positions[i];
     const vec4 v = velocities[i];
     const bool grid = cloths[cloth].columns > 0;
-    Correction correction = Correction(vec3(0), vec3(0));
+    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
     const bool limited = cloths[cloth].strain_limit > 0 && x.w > 0;
     if (limited)
     {
@@ -171,6 +188,7 @@ void main()
         else
             correction =
                 limit_grid(self, x.xyz, v.xyz);
+        relaxation = borne(correction.taken, relaxation);
         correction.x *= relaxation;
         correction.v *= relaxation;
     }
@@ -178,5 +196,5 @@ void main()
     if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
         next_x = mix(next_positions[i].xyz, next_x, push.acceleration);
     next_positions[i] = vec4(next_x, x.w);
-    next_velocities[i] = vec4(v.xyz + correction.v, v.w);
+    next_velocities[i] = vec4(v.xyz + correction.v, uint(v.w) & ~VOILE_VERTEX_TOUCHES); // contact follows, and adds that
 }
