@@ -65,7 +65,7 @@ float stable_air(uint flags, float decay, float h)
 float stable_acceleration(uint flags, float omega_squared, float decay, float h)
 {
     if ((flags & VOILE_CLOTH_VERLET) != 0)
-        return min(1, 1 / max(verlet_load(omega_squared, decay, h), 1e-30));
+        return verlet_share(verlet_load(omega_squared, decay, h));
     const float reach = k_rk4_reach / h;
     return min(1, min(reach * reach / max(omega_squared, 1e-30), reach / max(decay, 1e-30)));
 }
