@@ -20,10 +20,7 @@ engine::Device& device()
 
 } // namespace
 
-Rig::Rig(const cloth::SolverOptions& options)
-    : solver(engine::take(cloth::Solver::create(device().context().handles, options))), frames_(device(), 1)
-{
-}
+Rig::Rig() : solver(engine::take(cloth::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
 
 void Rig::run(const std::function<void(VkCommandBuffer)>& record)
 {

@@ -16,7 +16,7 @@ constexpr double k_gravity = 9.81;
 class Rig
 {
 public:
-    explicit Rig(const cloth::SolverOptions& options = {});
+    Rig();
 
     void upload();
     void step(const cloth::Step& step, uint32_t times = 1);

@@ -236,9 +236,7 @@ struct Ratios
 
 Ratios ratios(uint32_t links, uint32_t segments)
 {
-    // The drum's long triangles reach its rims, so that its flats have features, which disturb the tensions of a strap
-    // that is one link wide: what is measured is the friction of vertices.
-    Rig rig({.feature_contact = false});
+    Rig rig;
     std::vector<Strap> straps = straps_side_by_side(links);
     for (Strap& strap : straps)
         add(rig, strap);

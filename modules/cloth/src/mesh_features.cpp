@@ -2,7 +2,8 @@
 //
 // A triangle is taken into account if the normals around it spread enough (normal_cones.hpp); of a smooth mesh, however
 // many triangles it has, none is. Where two of those that are meet in an edge, the angle between them says whether it
-// stands out by itself; where the mesh is narrow, a wire or a needle, all edges that turn at all do.
+// stands out by itself. Where the mesh is narrow, a wire or a needle, all edges that turn at all do; of a long one the
+// mesh must be narrow across, not at its ends: the flats of a cylinder are no edges because they reach its rims.
 #include "mesh_features.hpp"
 
 #include "mesh_input.hpp"
@@ -77,7 +78,7 @@ private:
         std::vector<glm::vec3> corners;
         for (uint32_t t = 0; t < tree_.triangles.size(); ++t)
         {
-            if (closed_ && surroundings_[t].spread < crease_ && !bends(t))
+            if (closed_ && surroundings_[t].spread < crease_)
                 continue;
             chosen_.push_back(t);
             const shared::BvhTriangle& triangle = tree_.triangles[t];
@@ -98,6 +99,11 @@ private:
     }
 
     [[nodiscard]] bool bends(uint32_t t) const { return surroundings_[t].narrow && surroundings_[t].spread >= bend_; }
+
+    [[nodiscard]] bool bends_across(const glm::vec3& a, const glm::vec3& b) const
+    {
+        return glm::distance(a, b) <= spacing_ || turn_about(tree_, a, b, scale_.edge / 2, bend_) >= bend_;
+    }
 
     // Normals by angle: Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal facets".
     void add_normals()
@@ -142,8 +148,9 @@ private:
         const glm::vec3 m = (agree ? 1.f : -1.f) * unit_normal(tree_.triangles[sides[1].triangle]);
         const float turn = std::acos(std::clamp(glm::dot(n, m), -1.f, 1.f));
         const bool convex = glm::dot(n, places_[sides[1].opposite] - a) < 0;
-        const bool bent = bends(first.triangle) || bends(sides[1].triangle);
-        if (turn < k_flat || (!convex && !two_sided_) || (!bent && turn / 2 < crease_))
+        if (turn < k_flat || (!convex && !two_sided_))
+            return;
+        if (turn / 2 < crease_ && !((bends(first.triangle) || bends(sides[1].triangle)) && bends_across(a, b)))
             return;
         const glm::vec3 outwards = n + m;
         if (two_sided_ || glm::length(outwards) < 1e-3f)

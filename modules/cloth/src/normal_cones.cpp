@@ -4,7 +4,9 @@
 #include "bvh_split.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace cloth
@@ -41,6 +43,13 @@ struct Child
     }
 };
 
+std::array<Child, 2> children(const MeshTree& tree, uint32_t n)
+{
+    const shared::BvhNode& node = tree.nodes[n];
+    return {Child{{node.left_min, node.left_max}, node.left, 2 * n},
+            Child{{node.right_min, node.right_max}, node.right, 2 * n + 1}};
+}
+
 class Walker
 {
 public:
@@ -48,7 +57,7 @@ public:
         : tree_(tree), width_(width), enough_(enough), cones_(2 * tree.nodes.size()), result_(tree.triangles.size())
     {
         for (size_t n = tree.nodes.size(); n-- > 0;) // children come after their parents
-            for (const Child& child : children(static_cast<uint32_t>(n)))
+            for (const Child& child : children(tree, static_cast<uint32_t>(n)))
                 if (child.exists())
                     cones_[child.cone] = cone_of(child);
     }
@@ -60,13 +69,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::array<Child, 2> children(uint32_t n) const
-    {
-        const shared::BvhNode& node = tree_.nodes[n];
-        return {Child{{node.left_min, node.left_max}, node.left, 2 * n},
-                Child{{node.right_min, node.right_max}, node.right, 2 * n + 1}};
-    }
-
     [[nodiscard]] Cone cone_of(const Child& child) const
     {
         if (!child.is_leaf())
@@ -79,7 +81,7 @@ private:
 
     void visit_node(uint32_t n)
     {
-        for (const Child& child : children(n))
+        for (const Child& child : children(tree_, n))
         {
             if (!child.exists())
                 continue;
@@ -104,7 +106,7 @@ private:
 
     void gather(uint32_t n, const Box& box, Cone& cone) const
     {
-        for (const Child& child : children(n))
+        for (const Child& child : children(tree_, n))
         {
             if (cone.angle > enough_ || !child.exists() || !overlap(child.box, box))
                 continue;
@@ -137,7 +139,7 @@ private:
             std::fill(result_.begin() + child.first(), result_.begin() + child.last() + 1, value);
             return;
         }
-        for (const Child& below : children(child.reference))
+        for (const Child& below : children(tree_, child.reference))
             if (below.exists())
                 mark(below, value);
     }
@@ -155,7 +157,88 @@ private:
     std::vector<Surroundings> result_;
 };
 
+// The fan of normals about an edge.
+class Fan
+{
+public:
+    Fan(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float reach, float enough)
+        : tree_(tree), origin_(a), direction_(glm::normalize(b - a)), length_(glm::distance(a, b)), reach_(reach),
+          enough_(enough)
+    {
+        box_.add(a);
+        box_.add(b);
+        box_.min -= reach;
+        box_.max += reach;
+    }
+
+    float run()
+    {
+        gather(0);
+        return cone_.angle;
+    }
+
+private:
+    void gather(uint32_t n)
+    {
+        for (const Child& child : children(tree_, n))
+        {
+            if (cone_.angle > enough_ || !child.exists() || !overlap(child.box, box_))
+                continue;
+            if (!child.is_leaf())
+                gather(child.reference);
+            else
+                for (uint32_t t = child.first(); t <= child.last(); ++t)
+                    add(tree_.triangles[t]);
+        }
+    }
+
+    void add(const shared::BvhTriangle& triangle)
+    {
+        constexpr float k_along = 0.5f; // the sine of 30 degrees: a normal nearer to the edge than this faces along it
+        const glm::vec3 normal = unit_normal(triangle);
+        const glm::vec3 across = normal - glm::dot(normal, direction_) * direction_;
+        if (glm::length(across) >= k_along && is_beside(triangle))
+            cone_ = merge(cone_, {glm::normalize(across), 0});
+    }
+
+    // Seen along the edge, where it is a point, a triangle that does not face along it is about as far as its nearest
+    // side.
+    [[nodiscard]] bool is_beside(const shared::BvhTriangle& triangle) const
+    {
+        const std::array<glm::vec3, 3> corners{triangle.a - origin_, triangle.b - origin_, triangle.c - origin_};
+        const std::array<float, 3> along{glm::dot(corners[0], direction_), glm::dot(corners[1], direction_),
+                                         glm::dot(corners[2], direction_)};
+        if (*std::max_element(along.begin(), along.end()) <= 0 ||
+            *std::min_element(along.begin(), along.end()) >= length_)
+            return false;
+        float nearest = std::numeric_limits<float>::infinity();
+        for (size_t i = 0; i < 3; ++i)
+        {
+            const size_t next = (i + 1) % 3;
+            const glm::vec3 from = corners[i] - along[i] * direction_;
+            const glm::vec3 side = corners[next] - along[next] * direction_ - from;
+            const float t = std::clamp(-glm::dot(from, side) / std::max(glm::dot(side, side), 1e-30f), 0.f, 1.f);
+            nearest = std::min(nearest, glm::length(from + t * side));
+        }
+        return nearest < reach_;
+    }
+
+    MeshTree tree_;
+    glm::vec3 origin_;
+    glm::vec3 direction_;
+    float length_;
+    float reach_;
+    float enough_;
+    Box box_;
+    Cone cone_;
+};
+
 } // namespace
+
+float turn_about(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float reach, float enough)
+{
+    return Fan(tree, a, b, reach, enough).run();
+}
 
 glm::vec3 unit_normal(const shared::BvhTriangle& triangle)
 {
