@@ -232,6 +232,7 @@ struct ContactPush
     uint substep;        // counted through all steps
     uint first_substep;  // of the step
     uint vertices;       // of all cloths
+    uint features;       // 1: colliders have corners or edges that may have met vertices
 };
 
 // Push constants of the pass that brings vertices out of closed meshes.

@@ -5,10 +5,12 @@
 // Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
-// Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state, own previous state.
+// Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
+// own previous state.
 // Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
+#include "feature_layout.h"
 #include "padded_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -36,6 +38,7 @@ layout(set = 0, binding = 15, std430) readonly buffer ColliderMotions { Collider
 layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorrection corrections[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -202,6 +205,17 @@ Meeting meet_all(inout Motion motion, ClothContact cloth)
     return meeting;
 }
 
+// What integration proposes, corrected by features where they have met the vertex in this substep.
+void propose(uint i, out vec4 position, out vec4 velocity)
+{
+    position = proposed_positions[i];
+    velocity = proposed_velocities[i];
+    if (push.features == 0 || corrections[i].substep != push.substep)
+        return;
+    position.xyz += corrections[i].shift;
+    velocity += vec4(corrections[i].change, VOILE_VERTEX_MEETS);
+}
+
 void main()
 {
     const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
@@ -209,8 +223,9 @@ void main()
         return;
     const uint i = self.index;
     const uint cloth = self.cloth;
-    const vec4 proposed = proposed_positions[i];
-    const vec4 proposed_velocity = proposed_velocities[i];
+    vec4 proposed;
+    vec4 proposed_velocity;
+    propose(i, proposed, proposed_velocity);
     Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz, cloth);
     bool touches = false;
     if (proposed.w > 0)

@@ -5,10 +5,11 @@
 //
 // A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
 // it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
-// and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the last word.
-// Reads: cloths, chunks, mesh lists, colliders and their motions, features and their hierarchy, positions before the
-// substep, proposed state.
-// Writes: the state that the contact pass takes in place of the proposed one, predicted velocities.
+// and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the
+// last word.
+// Reads: the chunks that are near (feature_reach.comp), cloths, chunks, mesh lists, colliders and their motions, features and
+// their hierarchy, positions before the substep, proposed state.
+// Writes: corrections of vertices that meet something, which the contact pass adds to the proposed state; predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "feature_layout.h"
@@ -20,8 +21,8 @@ layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(set = 0, binding = 2, std430) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
 layout(set = 0, binding = 3, std430) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Corrections { FeatureCorrection corrections[]; };
+layout(set = 0, binding = 5, std430) readonly buffer NearChunks { uint near_chunks[]; };
 layout(set = 0, binding = 6, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 layout(set = 0, binding = 7, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 8, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
@@ -45,8 +46,6 @@ const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1
 const float k_parallel = 0.03;
 // A cosine: so far beyond the limit a direction must be to be inside for certain.
 const float k_certain = 0.2;
-// Edges longer than so many times the longest one at rest may pass unseen.
-const float k_most_stretch = 4;
 // m/s, at which cloth comes away from what it is nearer to than the thickness.
 const float k_recovery = 0.2;
 // Barycentric coordinates this far below 0 count as inside, so that no place between two triangles is lost.
@@ -340,7 +339,7 @@ void visit_collider(uint c, vec2 fabric_friction)
     // Most vertices are told by their own place alone that they are far from everything.
     const vec3 low = min(a.from, a.to);
     const vec3 high = max(a.from, a.to);
-    const float loose = k_most_stretch * set.edge + self.thickness;
+    const float loose = VOILE_MOST_STRETCH * set.edge + self.thickness;
     if (!boxes_overlap(low - loose, high + loose, set.box_min, set.box_max))
         return;
     const float radius = min(ring_radius() + self.thickness, loose);
@@ -353,15 +352,14 @@ void visit_collider(uint c, vec2 fabric_friction)
 
 void main()
 {
-    self.vertex = chunk_vertex(gl_WorkGroupID.x);
+    self.vertex = chunk_vertex(near_chunks[gl_WorkGroupID.x]);
     if (!self.vertex.exists)
         return;
     const uint i = self.vertex.index;
     const uint cloth = self.vertex.cloth;
-    const vec4 velocity = proposed_velocities[i];
     self.earlier = earlier_positions[i].xyz;
     self.place = proposed_positions[i];
-    self.velocity = velocity.xyz;
+    self.velocity = proposed_velocities[i].xyz;
     self.thickness = cloths[cloth].thickness;
     self.shift = self.change = self.slowing = vec3(0);
     self.pressed = 0;
@@ -374,8 +372,9 @@ void main()
     }
     const bool verlet = (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0;
     const float drift = verlet ? push.step : 0.5 * push.step; // see contact.comp
-    positions[i] = vec4(self.place.xyz + self.shift + drift * self.slowing, self.place.w);
-    velocities[i] = vec4(self.velocity + self.change + self.slowing, velocity.w + (self.meets ? VOILE_VERTEX_MEETS : 0));
+    if (!self.meets)
+        return;
+    corrections[i] = FeatureCorrection(self.shift + drift * self.slowing, push.substep, self.change + self.slowing, 0);
     if (verlet)
         predicted[i] += vec4(self.change + self.slowing, 0);
 }

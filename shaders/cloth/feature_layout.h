@@ -1,9 +1,16 @@
 // Corners and edges of colliders as the GPU reads them. Written by modules/cloth/src/collider_features.cpp, read by
-// feature_contact.comp.
+// feature_reach.comp and feature_contact.comp.
 #ifndef VOILE_FEATURE_LAYOUT_H
 #define VOILE_FEATURE_LAYOUT_H
 
 #include "../shared_types.h"
+
+// Edges of a cloth longer than so many times the longest one at rest may pass unseen.
+#define VOILE_MOST_STRETCH 4
+// How many substeps lie between two looks at which chunks come near features.
+#define VOILE_FEATURE_PERIOD 16
+// The stamp of a correction that holds in no substep.
+#define VOILE_NO_SUBSTEP 0xffffffffu
 
 VOILE_SHARED_BEGIN(cloth)
 
@@ -32,6 +39,24 @@ struct FeatureSet
     uint padding_1;
 };
 
+// What features change of a vertex that integration proposes.
+struct FeatureCorrection
+{
+    vec3 shift;   // m
+    uint substep; // in which it holds, counted through all steps
+    vec3 change;  // m/s
+    uint padding;
+};
+
+// Push constants of the look at which chunks are near.
+struct FeatureReachPush
+{
+    float time;          // s, to the next look
+    float progress_from; // 0..1, of the step at its start
+    float progress_to;   // and at its end
+    uint colliders;
+};
+
 // Push constants of the pass over features.
 struct FeaturePush
 {
@@ -39,6 +64,7 @@ struct FeaturePush
     float progress_from; // 0..1, of the step at the substep's start
     float progress_to;   // and at its end
     uint colliders;
+    uint substep;        // counted through all steps
 };
 
 VOILE_SHARED_END

@@ -20,7 +20,8 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
 {
     const size_t chunk_count = data.chunks.chunks.size();
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+                                           VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const BufferRequest requests[] = {
         {&state.cloths, "cloth records", model.records.size() * sizeof(shared::ClothRecord)},
@@ -39,7 +40,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.feature_sets, "cloth feature sets", data.features.sets.size() * sizeof(shared::FeatureSet)},
         {&state.feature_nodes, "cloth feature nodes", data.features.nodes.size() * sizeof(shared::BvhNode)},
         {&state.features, "cloth features", data.features.features.size() * sizeof(shared::Feature)},
-        {&state.feature_velocities, "cloth feature velocities", data.features.features.empty() ? 0 : per_vertex},
+        {&state.feature_corrections, "cloth feature corrections",
+         data.features.features.empty() ? 0 : model.positions.size() * sizeof(shared::FeatureCorrection)},
+        {&state.feature_chunks, "cloth feature chunks", chunk_count * sizeof(uint32_t)},
+        {&state.feature_dispatch, "cloth feature dispatch", sizeof(VkDispatchIndirectCommand)},
         {&state.start, "cloth start", per_vertex},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
         {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
@@ -113,21 +117,34 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
 
 void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
 {
-    const auto bind = [&](VkDescriptorSet& set, const gpu::Buffer& positions, const gpu::Buffer& velocities)
-    {
-        binder.bind(set, kernels.contact,
-                    {s.cloths.handle(), s.chunks.handle(), positions.handle(), velocities.handle(),
-                     s.state.positions.handle(), s.state.velocities.handle(), s.colliders.handle(), s.nodes.handle(),
-                     s.triangles.handle(), s.mesh_vertices.handle(), s.mesh_corners.handle(),
-                     s.sums.velocities.handle(), s.stage_a.velocities.handle(), s.candidate_places.handle(),
-                     s.candidate_triangles.handle(), s.collider_motions.handle(), s.padded_boxes.handle(),
-                     s.padded_leaves.handle(), s.deforming_positions.handle()});
-    };
-    bind(s.contact, s.stage_b.positions, s.stage_b.velocities);
-    bind(s.contact_after_features, s.stage_a.positions, s.feature_velocities);
+    binder.bind(s.contact, kernels.contact,
+                {s.cloths.handle(),
+                 s.chunks.handle(),
+                 s.stage_b.positions.handle(),
+                 s.stage_b.velocities.handle(),
+                 s.state.positions.handle(),
+                 s.state.velocities.handle(),
+                 s.colliders.handle(),
+                 s.nodes.handle(),
+                 s.triangles.handle(),
+                 s.mesh_vertices.handle(),
+                 s.mesh_corners.handle(),
+                 s.sums.velocities.handle(),
+                 s.stage_a.velocities.handle(),
+                 s.candidate_places.handle(),
+                 s.candidate_triangles.handle(),
+                 s.collider_motions.handle(),
+                 s.padded_boxes.handle(),
+                 s.padded_leaves.handle(),
+                 s.deforming_positions.handle(),
+                 s.feature_corrections.handle()});
+    binder.bind(s.feature_reach, kernels.feature_reach,
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.colliders.handle(), s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
+                 s.feature_dispatch.handle(), s.feature_chunks.handle()});
     binder.bind(s.feature_contact, kernels.feature_contact,
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
-                 s.stage_a.positions.handle(), s.feature_velocities.handle(), s.sums.velocities.handle(),
+                 s.feature_corrections.handle(), s.feature_chunks.handle(), s.sums.velocities.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(), s.collider_motions.handle(),
                  s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle()});
 }

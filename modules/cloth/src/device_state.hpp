@@ -37,16 +37,18 @@ struct DeviceState
     gpu::Buffer feature_sets; // corners and edges of colliders
     gpu::Buffer feature_nodes;
     gpu::Buffer features;
-    gpu::Buffer feature_velocities; // after contact with them; positions are in stage A's
-    gpu::Buffer start;              // places at the start, and what density multiplies
+    gpu::Buffer feature_corrections; // what they change of vertices
+    gpu::Buffer feature_chunks;      // those that come near features
+    gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
+    gpu::Buffer start;               // places at the start, and what density multiplies
     gpu::Buffer anchors;
     gpu::Buffer holds;
     gpu::Buffer tethers;
-    StateBuffers state;           // what the cloth is between steps
-    StateBuffers stage_a;         // written by stages 1 and 3
-    StateBuffers stage_b;         // written by stages 2 and 4
-    StateBuffers sums;            // running sums of the stages
-    gpu::Buffer candidate_places; // where the lists of triangles near each vertex hold
+    StateBuffers state;              // what the cloth is between steps
+    StateBuffers stage_a;            // written by stages 1 and 3
+    StateBuffers stage_b;            // written by stages 2 and 4
+    StateBuffers sums;               // running sums of the stages
+    gpu::Buffer candidate_places;    // where the lists of triangles near each vertex hold
     gpu::Buffer candidate_triangles; // their length, and the triangles
     gpu::Buffer normals;
     gpu::Buffer partials; // statistics, one record a chunk
@@ -68,9 +70,9 @@ struct DeviceState
     VkDescriptorSet strain_back{};  // stage B to stage A
     VkDescriptorSet strain_forth{}; // stage A to stage B
     VkDescriptorSet edit{};
-    VkDescriptorSet contact{};         // from stage B
-    VkDescriptorSet feature_contact{}; // stage B to where contact_after_features takes it
-    VkDescriptorSet contact_after_features{};
+    VkDescriptorSet contact{}; // from stage B
+    VkDescriptorSet feature_reach{};
+    VkDescriptorSet feature_contact{}; // corrections of stage B
     VkDescriptorSet recover{};
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};

@@ -26,6 +26,8 @@ struct Kernels
     gpu::Kernel contact;        // with meshes and planes
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
+    gpu::Kernel feature_reach;
+    gpu::Kernel feature_reach_moving;
     gpu::Kernel feature_contact;
     gpu::Kernel feature_contact_moving;
     gpu::Kernel recover;        // out of meshes at rest

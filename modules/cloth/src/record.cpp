@@ -30,7 +30,7 @@ void end_scope(gpu::Recorder& recorder)
                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
-// The number of a step's first substep. Where the numbers are used up, all lists of candidates are made anew.
+// The number of a step's first substep. Where the numbers are used up, all that is told apart by them is made anew.
 uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t substeps)
 {
     const uint32_t taken = substeps + 1; // the strain limit has one of its own
@@ -75,6 +75,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
     fill(device.candidate_triangles, 0);
+    fill(device.feature_corrections, VOILE_NO_SUBSTEP);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
 }
@@ -131,7 +132,9 @@ uint32_t Solver::dispatches(const Step& step) const
         const auto levels = static_cast<uint32_t>(std::bit_width(passes.strain_spacing));
         strain = 1 + ((levels * (k_strain_passes + 1) - 1) | 1u);
     }
-    return State::substeps(*this, step) * a_substep + (verlet ? 1 : 0) + strain + (passes.recover ? 1 : 0) + 1;
+    const uint32_t substeps = State::substeps(*this, step);
+    const uint32_t looks = passes.features ? (substeps + VOILE_FEATURE_PERIOD - 1) / VOILE_FEATURE_PERIOD : 0;
+    return substeps * a_substep + (verlet ? 1 : 0) + looks + strain + (passes.recover ? 1 : 0) + 1;
 }
 
 } // namespace cloth

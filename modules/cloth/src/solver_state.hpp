@@ -101,7 +101,8 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
-// Empties the lists of candidates: the next contact pass makes them anew. Between barriers of its own.
+// Empties the lists of candidates and the corrections by features, both told apart by substeps: the next contact pass
+// makes lists anew. Between barriers of its own.
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 
 // vkCmdUpdateBuffer takes at most 64 KiB at a time, and multiples of 4 bytes.

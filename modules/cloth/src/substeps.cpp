@@ -1,6 +1,7 @@
 // The passes of one step, as ARCHITECTURE.md lists them.
 #include "substeps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,12 +45,16 @@ void SubstepRecorder::record()
 {
     for (uint32_t substep = 0; substep < substeps_; ++substep)
     {
+        if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
+            record_feature_reach(substep);
         const shared::StagePush push = make_push(substep);
         record_rk4(push, substep);
         record_verlet(push, substep);
         record_holds(substep);
+        if (solver_.passes.features)
+            record_features(substep);
         if (commits_)
-            record_contact(substep, record_features(substep));
+            record_contact(substep);
     }
     finish_verlet(make_push(substeps_));
     if (solver_.passes.strain_spacing > 0)
@@ -125,17 +130,37 @@ float SubstepRecorder::progress(uint32_t substeps_done) const
     return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
 }
 
-VkDescriptorSet SubstepRecorder::record_features(uint32_t substep)
+void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    if (!solver_.passes.features)
-        return device_.contact;
-    const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count};
-    recorder_.dispatch(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-                       device_.feature_contact, device_.chunk_count * group_, group_, push);
-    return device_.contact_after_features;
+    constexpr VkDispatchIndirectCommand k_none{0, 1, 1};
+    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_indirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR;
+    // Earlier dispatches have read the size; what they have written is of no concern here.
+    recorder_.barrier(k_compute | k_indirect, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_transfer,
+                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    recorder_.context().fn.vkCmdUpdateBuffer(recorder_.cmd(), device_.feature_dispatch.handle(), 0, sizeof(k_none),
+                                             &k_none);
+    recorder_.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+    const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
+    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), progress(substep), progress(next),
+                                        device_.collider_count};
+    recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
+                       device_.feature_reach, device_.chunk_count * group_, group_, push);
+    recorder_.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_indirect,
+                      VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
 }
 
-void SubstepRecorder::record_contact(uint32_t substep, VkDescriptorSet set)
+void SubstepRecorder::record_features(uint32_t substep)
+{
+    const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count,
+                                   first_substep_ + substep};
+    recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
+                                device_.feature_contact, device_.feature_dispatch.handle(), push);
+}
+
+void SubstepRecorder::record_contact(uint32_t substep)
 {
     shared::ContactPush push{};
     push.step = h_;
@@ -148,10 +173,11 @@ void SubstepRecorder::record_contact(uint32_t substep, VkDescriptorSet set)
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
     push.vertices = device_.vertices;
+    push.features = solver_.passes.features ? 1 : 0;
     const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
                                 : solver_.passes.convex ? kernels_.contact_convex
                                                         : kernels_.contact;
-    recorder_.dispatch(kernel, set, device_.chunk_count * group_, group_, push);
+    recorder_.dispatch(kernel, device_.contact, device_.chunk_count * group_, group_, push);
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
@@ -183,7 +209,7 @@ void SubstepRecorder::record_strain_limit()
     }
     if (pass % 2 == 0)
         record_pass({1, 0, 1});
-    record_contact(substeps_, device_.contact);
+    record_contact(substeps_);
 }
 
 } // namespace cloth

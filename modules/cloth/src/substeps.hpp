@@ -22,9 +22,10 @@ private:
     void finish_verlet(shared::StagePush push);
     void record_holds(uint32_t substep);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
-    // The set with what the contact pass takes after it.
-    VkDescriptorSet record_features(uint32_t substep);
-    void record_contact(uint32_t substep, VkDescriptorSet set);
+    // Which chunks come near corners and edges of colliders, until the next such look.
+    void record_feature_reach(uint32_t substep);
+    void record_features(uint32_t substep);
+    void record_contact(uint32_t substep);
     void record_strain_limit();
     // Where nothing commits what a substep proposes, Verlet goes back and forth between the state and stage B.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !commits_ && substep % 2 == 1; }

@@ -28,32 +28,57 @@ LabelScope::~LabelScope()
         context_.end_label(cmd_);
 }
 
+void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push)
+{
+    // A mismatch would read past the caller's struct or leave constants undefined: a bug that no run survives.
+    if (push.size() != kernel.push_bytes())
+        std::abort();
+    context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+    context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0, nullptr);
+    if (!push.empty())
+        context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                       static_cast<uint32_t>(push.size()), push.data());
+}
+
+void Recorder::compute_barrier()
+{
+    barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+}
+
+void Recorder::finish_dispatch()
+{
+    ++dispatches_;
+    if (split_ != nullptr)
+        cmd_ = split_(split_user_, cmd_);
+}
+
 void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
                         std::span<const std::byte> push, Ordering ordering)
 {
     if (threads == 0)
         return;
-    // A mismatch would read past the caller's struct or leave constants undefined: a bug that no run survives.
-    if (push.size() != kernel.push_bytes())
-        std::abort();
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
-        context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-        context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
-                                            nullptr);
-        if (!push.empty())
-            context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                           static_cast<uint32_t>(push.size()), push.data());
+        bind(kernel, set, push);
         context_.fn.vkCmdDispatch(cmd_, (threads + group_size - 1) / group_size, 1, 1);
-        ++dispatches_;
-        // Within the pass: where waiting costs something, it is the pass's cost, and some devices only finish here.
         if (ordering == Ordering::ordered)
-            barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
-                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+            compute_barrier();
     }
-    if (split_ != nullptr)
-        cmd_ = split_(split_user_, cmd_);
+    finish_dispatch();
+}
+
+void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes,
+                                 std::span<const std::byte> push)
+{
+    {
+        const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
+        bind(kernel, set, push);
+        context_.fn.vkCmdDispatchIndirect(cmd_, sizes, 0);
+        compute_barrier();
+    }
+    finish_dispatch();
 }
 
 void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,

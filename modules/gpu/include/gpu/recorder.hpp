@@ -62,6 +62,16 @@ public:
         dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
     }
 
+    // The same with the workgroups that `sizes` holds at its start, three words; an earlier dispatch may have written
+    // them, if a barrier has made them visible to indirect commands.
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, std::span<const std::byte> push);
+
+    template <typename Push>
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, const Push& push)
+    {
+        dispatch_indirect(kernel, set, sizes, std::as_bytes(std::span(&push, 1)));
+    }
+
     // A global memory barrier between two scopes.
     void barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
                  VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access);
@@ -72,6 +82,11 @@ public:
     [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
 
 private:
+    void bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push);
+    // Within the pass: where waiting costs something, it is the pass's cost, and some devices only finish here.
+    void compute_barrier();
+    void finish_dispatch(); // counts it, and splits
+
     const Context& context_;
     VkCommandBuffer cmd_;
     Timestamps* timestamps_;
