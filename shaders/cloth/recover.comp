@@ -10,7 +10,8 @@
 // and are not torn apart in the middle. A vertex goes push.reach in a step, and no more than half of the cloth's spacing, or
 // neighbours that go different ways would stretch the cloth into a tangle. It gets no velocity from that. Inside, it has the
 // surface's, and does not fall.
-// Reads: cloths, chunks, normals, colliders and their motions, hierarchies. Writes: state, of the vertices inside.
+// Reads: cloths, chunks, normals, colliders and their motions, hierarchies. Writes: state, of the vertices inside; if there are
+// any, the size of the next step's dispatch.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "padded_layout.h"
@@ -30,6 +31,8 @@ layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle 
 layout(set = 0, binding = 9, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(set = 0, binding = 10, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+
+layout(set = 0, binding = 12, std430) buffer NextDispatch { uint next_dispatch[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
 
@@ -206,6 +209,7 @@ void main()
         if (!is_inside(c, collider, local))
             continue;
         recover(self.index, self.cloth, c, collider, local);
+        atomicMax(next_dispatch[0], gl_NumWorkGroups.x);
         return;
     }
 }

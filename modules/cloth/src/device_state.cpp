@@ -44,6 +44,8 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
          data.features.features.empty() ? 0 : model.positions.size() * sizeof(shared::FeatureCorrection)},
         {&state.feature_chunks, "cloth feature chunks", chunk_count * sizeof(uint32_t)},
         {&state.feature_dispatch, "cloth feature dispatch", sizeof(VkDispatchIndirectCommand)},
+        {&state.recover_dispatch[0], "cloth recover dispatch a", sizeof(VkDispatchIndirectCommand)},
+        {&state.recover_dispatch[1], "cloth recover dispatch b", sizeof(VkDispatchIndirectCommand)},
         {&state.start, "cloth start", per_vertex},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
         {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
@@ -192,11 +194,12 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
     bind_contact(s, kernels, binder);
-    binder.bind(s.recover, kernels.recover,
-                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
-                 s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
-                 s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                 s.deforming_positions.handle()});
+    for (size_t i = 0; i < 2; ++i)
+        binder.bind(s.recover[i], kernels.recover,
+                    {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                     s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
+                     s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
+                     s.deforming_positions.handle(), s.recover_dispatch[i].handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});

@@ -40,7 +40,9 @@ struct DeviceState
     gpu::Buffer feature_corrections; // what they change of vertices
     gpu::Buffer feature_chunks;      // those that come near features
     gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
-    gpu::Buffer start;               // places at the start, and what density multiplies
+    std::array<gpu::Buffer, 2>
+        recover_dispatch; // workgroups that bring vertices out of meshes, of this step and the next
+    gpu::Buffer start;    // places at the start, and what density multiplies
     gpu::Buffer anchors;
     gpu::Buffer holds;
     gpu::Buffer tethers;
@@ -72,8 +74,8 @@ struct DeviceState
     VkDescriptorSet edit{};
     VkDescriptorSet contact{}; // from stage B
     VkDescriptorSet feature_reach{};
-    VkDescriptorSet feature_contact{}; // corrections of stage B
-    VkDescriptorSet recover{};
+    VkDescriptorSet feature_contact{};        // corrections of stage B
+    std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};

@@ -50,6 +50,9 @@ void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 }
 
 // Brings vertices out of closed meshes. Nothing is recorded where there are none.
+//
+// Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
+// and every few steps for what rounding has; besides, as long as the step before has found one inside.
 void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
 {
     if (!solver.passes.recover)
@@ -59,12 +62,39 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    recorder.dispatch(
-        kernel, device.recover, device.chunk_count * group, group,
-        shared::RecoverPush{step.gravity, step.duration, k_recovery_speed * step.duration, device.collider_count});
+    const shared::RecoverPush push{step.gravity, step.duration, k_recovery_speed * step.duration,
+                                   device.collider_count};
+    const bool periodic = solver.recovery_step % k_recovery_period == 0;
+    const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
+    const size_t now = solver.recovery_step++ % 2;
+    const size_t next = 1 - now;
+    clear_dispatch(recorder, device.recover_dispatch[next]);
+    if (all)
+        recorder.dispatch(kernel, device.recover[next], device.chunk_count * group, group, push);
+    else
+        recorder.dispatch_indirect(kernel, device.recover[next], device.recover_dispatch[now].handle(), push);
+    publish_dispatch(recorder);
 }
 
 } // namespace
+
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size)
+{
+    constexpr VkDispatchIndirectCommand k_none{0, 1, 1};
+    constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), 0, sizeof(k_none), &k_none);
+    recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                     k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
+                     k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+}
+
+void publish_dispatch(gpu::Recorder& recorder)
+{
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
+                     VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+}
 
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
 {
@@ -91,6 +121,7 @@ void Solver::record(gpu::Recorder& recorder, const Step& step)
     if (!state_->device || state_->device->chunk_count == 0)
         return;
     begin_scope(recorder);
+    state_->recovery_due |= state_->edits.any();
     record_edits(recorder, *state_, step);
     record_recovery(recorder, *state_, step);
     const uint32_t substeps = State::substeps(*this, step);

@@ -111,6 +111,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), streams.buffers[i], 1, &region);
     }
     barrier(state_->context, cmd, false);
+    state_->recovery_due = true;
     return {};
 }
 

@@ -56,6 +56,8 @@ constexpr float k_strain_radius = 0.95f; // of the iteration, for its accelerati
 
 // How fast a vertex comes out of a closed mesh, m/s.
 constexpr float k_recovery_speed = 2;
+// Steps from one look at all vertices to the next, where none was inside.
+constexpr uint32_t k_recovery_period = 8;
 
 struct Solver::State
 {
@@ -70,6 +72,8 @@ struct Solver::State
     std::vector<Deformation> deformations; // of model.deforming
     bool refit_due = false;                // boxes do not fit: after an upload, and after a mesh came to rest
     bool normals_due = false;              // they are of other places: after an upload, and after cloths were moved
+    bool recovery_due = false;             // vertices may have got into solids otherwise than by moving
+    uint32_t recovery_step = 0;            // counts the steps with recovery
     uint32_t next_substep = 0;             // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
     Edits edits;
@@ -100,6 +104,12 @@ struct Solver::State
 // compute, the passes. Both do nothing where no mesh deforms.
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
+
+// Sets the size of an indirect dispatch to no workgroups. Between barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size);
+
+// Makes the size of an indirect dispatch visible that a dispatch has written.
+void publish_dispatch(gpu::Recorder& recorder);
 
 // Empties the lists of candidates and the corrections by features, both told apart by substeps: the next contact pass
 // makes lists anew. Between barriers of its own.

@@ -132,24 +132,13 @@ float SubstepRecorder::progress(uint32_t substeps_done) const
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    constexpr VkDispatchIndirectCommand k_none{0, 1, 1};
-    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
-    constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
-    constexpr VkPipelineStageFlags2KHR k_indirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR;
-    // Earlier dispatches have read the size; what they have written is of no concern here.
-    recorder_.barrier(k_compute | k_indirect, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_transfer,
-                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    recorder_.context().fn.vkCmdUpdateBuffer(recorder_.cmd(), device_.feature_dispatch.handle(), 0, sizeof(k_none),
-                                             &k_none);
-    recorder_.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
-                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+    clear_dispatch(recorder_, device_.feature_dispatch);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
     const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), progress(substep), progress(next),
                                         device_.collider_count};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
                        device_.feature_reach, device_.chunk_count * group_, group_, push);
-    recorder_.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_indirect,
-                      VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+    publish_dispatch(recorder_);
 }
 
 void SubstepRecorder::record_features(uint32_t substep)

@@ -157,6 +157,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.edits.colliders.clear();
     s.refit_due = !s.model.deforming.empty();
     s.normals_due = true;
+    s.recovery_due = true;
     s.edits.holds = s.edits.tethers = false;
     s.edits.pins |= s.hold_lists.pins > 0; // anchors are not uploaded: the next step sets them
     s.update_passes();

@@ -105,7 +105,8 @@ enum class Sides
 //
 // Vertices of cloth that are inside a closed mesh which pushes outwards at the start of a step are brought out, half of
 // the cloth's spacing a step and at most 2 m/s, as long as they are; pins stay. A cloth that is added there comes out
-// in some steps, and without a blow unless its spacing is below twice its thickness.
+// in some steps, and without a blow unless its spacing is below twice its thickness. All are looked at after uploads,
+// edits and snapshots, as long as any is inside, where colliders move, and every eighth step.
 //
 // The hierarchy over the triangles of one that keeps its shape is built when it is added, by one thread a core; 2
 // million triangles take some 0.9 s on two cores. It is kept for when the same mesh is added again, to any solver:

@@ -24,8 +24,10 @@
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
 //   colliders, motions, ColliderRecord,      upload, edits          recovery, contact, statistics
 //   nodes, triangles    -Motion, Bvh...
-//   features, their   Feature, vec4          upload, feature        feature contact, contact
-//     velocities                               contact
+//   features, their   Feature,               upload, feature        feature reach, feature contact, contact
+//     corrections       FeatureCorrection      contact
+//   near chunks, sizes uint, 3 words         feature reach, recovery  feature contact, indirect dispatches
+//     of dispatches
 //   partials, result  StatisticsRecord       statistics             the host (result)
 #pragma once
 
