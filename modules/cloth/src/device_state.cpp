@@ -233,8 +233,8 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 26;
-    constexpr uint32_t k_most_bindings = 19;
+    constexpr uint32_t k_sets = 27;
+    constexpr uint32_t k_most_bindings = 20;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

@@ -153,6 +153,8 @@ BindingPool& BindingPool::operator=(BindingPool&& other) noexcept
 {
     std::swap(context_, other.context_);
     std::swap(pool_, other.pool_);
+    std::swap(sets_left_, other.sets_left_);
+    std::swap(buffers_left_, other.buffers_left_);
     return *this;
 }
 
@@ -166,6 +168,8 @@ Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_set
     info.pPoolSizes = &size;
     BindingPool result;
     result.context_ = context;
+    result.sets_left_ = max_sets;
+    result.buffers_left_ = max_buffers;
     const VkResult status = context.fn.vkCreateDescriptorPool(context.device(), &info, nullptr, &result.pool_);
     if (status != VK_SUCCESS)
         return Error{"descriptor pool cannot be made: " + to_string(status)};
@@ -177,6 +181,8 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::initializer
     if (buffers.size() != kernel.buffers())
         return Error{std::string("kernel \"") + kernel.name() + "\" has " + std::to_string(kernel.buffers()) +
                      " bindings, " + std::to_string(buffers.size()) + " buffers were given"};
+    if (sets_left_ == 0 || buffers_left_ < kernel.buffers())
+        return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": the pool is used up"};
     const VkDescriptorSetLayout layout = kernel.set_layout();
     VkDescriptorSetAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
@@ -187,6 +193,8 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::initializer
     const VkResult status = context_.fn.vkAllocateDescriptorSets(context_.device(), &info, &set);
     if (status != VK_SUCCESS)
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": " + to_string(status)};
+    --sets_left_;
+    buffers_left_ -= kernel.buffers();
 
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(buffers.size());

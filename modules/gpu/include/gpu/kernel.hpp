@@ -60,12 +60,15 @@ public:
 
     static Result<BindingPool> create(const Context& context, uint32_t max_sets, uint32_t max_buffers);
 
-    // Binds `buffers` (one a binding, in order, whole) for `kernel`. The set lives as long as the pool.
+    // Binds `buffers` (one a binding, in order, whole) for `kernel`. The set lives as long as the pool. Error where the
+    // pool's sets or buffers are used up, whatever the driver has beyond them.
     Result<VkDescriptorSet> bind(const Kernel& kernel, std::initializer_list<VkBuffer> buffers);
 
 private:
     Context context_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    uint32_t sets_left_ = 0;
+    uint32_t buffers_left_ = 0;
 };
 
 } // namespace gpu
