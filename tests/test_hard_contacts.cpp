@@ -146,7 +146,7 @@ TEST_CASE("cloth comes to rest on a needle")
 
 TEST_CASE("cloth comes to rest on the edge of a box")
 {
-    let_rest(at_length(edge_of_a_box(false)), 270);
+    let_rest(at_length(edge_of_a_box(false)), 400);
 }
 
 TEST_CASE("cloth comes to rest in a bowl")

@@ -25,7 +25,7 @@ public:
     TwoDispatches()
         : kernels_(engine::take(cloth::create_kernels(context(), {}))), first_(buffer("first")),
           second_(buffer("second")), third_(buffer("third")),
-          pool_(engine::take(gpu::BindingPool::create(context(), 4, 2)))
+          pool_(engine::take(gpu::BindingPool::create(context(), 4, 8)))
     {
     }
 

@@ -2,8 +2,8 @@
 // order never changes).
 //
 // The including kernel declares cloths[], stage_positions[], stage_velocities[], mesh_vertices[], mesh_springs[],
-// mesh_corners[] and `push` (StagePush), and the constant MEASURE: whether the stiffness of the springs in their present
-// directions is summed up too, for the share of the acceleration that a step bears (stability.glsl).
+// mesh_corners[] and `push` (StagePush), and the constants VERLET (see stability.glsl) and MEASURE: whether the stiffness of
+// the springs in their present directions is summed up too, for the share of the acceleration that a step bears.
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
@@ -210,8 +210,7 @@ vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout fl
     g.air_rate = 0;
     g.wind = wind_at(x);
     g.stiffness = g.damping = StiffnessSum(vec3(0), vec3(0));
-    const uint flags = cloths[cloth].flags;
-    const Shares shares = stable_shares(flags, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    const Shares shares = stable_shares(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
     g.bending_stiffness = shares.stiffness;
     g.bending_damping = shares.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
@@ -220,7 +219,7 @@ vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout fl
         gather_mesh(g, cloth, self.local, shares);
     const float drag = shares.damping * cloths[cloth].linear_drag; // N s/m
     const float air_decay = inverse_mass * g.air_rate;             // 1/s
-    const float air_share = stable_air(flags, air_decay, push.step);
+    const float air_share = stable_air(air_decay, push.step);
     if (MEASURE)
     {
         // The largest eigenvalue of M^-1 K is at most twice that of a vertex's own block: u^T K u = sum k (d . (u_i -
@@ -229,7 +228,7 @@ vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout fl
         const float omega_squared = 2 * inverse_mass * largest_eigenvalue(g.stiffness) + shares.stiffness * bending;
         const float decay = inverse_mass * (2 * largest_eigenvalue(g.damping) + drag) +
                             g.bending_damping * bending + 2 * air_share * air_decay;
-        share = stable_acceleration(flags, omega_squared, decay, push.step);
+        share = stable_acceleration(omega_squared, decay, push.step);
     }
     return push.gravity + inverse_mass * (share * (g.force + g.bending + drag * (g.wind - v)) + air_share * g.air);
 }

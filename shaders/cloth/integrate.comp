@@ -30,6 +30,7 @@ layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner m
 layout(push_constant, std430) uniform Push { StagePush push; };
 
 layout(constant_id = 3) const uint MEASURES = 1;
+const bool VERLET = false;
 const bool MEASURE = STAGE == 1 && MEASURES == 1;
 #include "forces.glsl"
 

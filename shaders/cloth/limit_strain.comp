@@ -33,7 +33,7 @@ layout(push_constant, std430) uniform Push { StrainPush push; };
 #include "chunk.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
-#include "stability.glsl"
+#include "stiffness_sum.glsl"
 
 struct Correction
 {

@@ -1,8 +1,11 @@
 // What keeps an explicit step stable: the shares of stiffness and damping that a step of a given length bears.
 //
-// The same formulas stand in modules/cloth/src/stability.cpp, which derives the substeps from them.
+// The same formulas stand in modules/cloth/src/stability.cpp, which derives the substeps from them. The including kernel
+// declares a constant VERLET: whether it is that method's; else RK4's.
 #ifndef VOILE_STABILITY_GLSL
 #define VOILE_STABILITY_GLSL
+
+#include "stiffness_sum.glsl"
 
 // RK4's stability region reaches 2.83 along the imaginary axis, 2.78 along the negative real one, and in the left half
 // plane comes nowhere nearer to the origin than 2.6.
@@ -36,9 +39,9 @@ struct Shares
 };
 
 // The shares of a cloth's stiffness and damping that a step of h seconds bears at rest.
-Shares stable_shares(uint flags, float omega_squared, float decay, float h)
+Shares stable_shares(float omega_squared, float decay, float h)
 {
-    if ((flags & VOILE_CLOTH_VERLET) != 0)
+    if (VERLET)
     {
         // Damping has what stiffness leaves: it takes energy out.
         const float reach = k_stability_margin * k_stability_margin;
@@ -52,52 +55,22 @@ Shares stable_shares(uint flags, float omega_squared, float decay, float h)
 
 // The share of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic
 // in the velocity grows twice as fast with it as its rate says, and may take up what the margin leaves of the reach.
-float stable_air(uint flags, float decay, float h)
+float stable_air(float decay, float h)
 {
-    const float reach = (flags & VOILE_CLOTH_VERLET) != 0 ? 1 - k_stability_margin * k_stability_margin
-                                                          : k_rk4_reach * (1 - k_stability_margin);
+    const float reach =
+        VERLET ? 1 - k_stability_margin * k_stability_margin : k_rk4_reach * (1 - k_stability_margin);
     return min(1, 0.5 * reach / max(decay * h, 1e-30));
 }
 
-// The share of its acceleration by inner forces and linear drag that a vertex keeps, given what its springs amount to in their present
-// directions. Below 1 only where cloth is crumpled or torn so far that it is stiffer than the margin foresees: the vertex
-// then is as if it were heavier.
-float stable_acceleration(uint flags, float omega_squared, float decay, float h)
+// The share of its acceleration by inner forces and linear drag that a vertex keeps, given what its springs amount to in
+// their present directions. Below 1 only where cloth is crumpled or torn so far that it is stiffer than the margin foresees:
+// the vertex then is as if it were heavier.
+float stable_acceleration(float omega_squared, float decay, float h)
 {
-    if ((flags & VOILE_CLOTH_VERLET) != 0)
+    if (VERLET)
         return verlet_share(verlet_load(omega_squared, decay, h));
     const float reach = k_rk4_reach / h;
     return min(1, min(reach * reach / max(omega_squared, 1e-30), reach / max(decay, 1e-30)));
-}
-
-// Sum of stiffness * (d d^T) over the springs of a vertex: a symmetric matrix, N/m.
-struct StiffnessSum
-{
-    vec3 diagonal; // xx yy zz
-    vec3 mixed;    // xy xz yz
-};
-
-// Adds a spring of length l > L along the unit vector d: k (L/l d d^T + (1 - L/l) I), what it resists displacement with;
-// a shorter one, which buckles, k d d^T.
-void add_stiffness(inout StiffnessSum sum, float stiffness, vec3 d, float rest_over_length)
-{
-    const float along = stiffness * min(rest_over_length, 1);
-    sum.diagonal += along * d * d + (stiffness - along);
-    sum.mixed += along * vec3(d.x * d.y, d.x * d.z, d.y * d.z);
-}
-
-// The largest eigenvalue of the matrix (Smith 1961, "Eigenvalues of a symmetric 3 x 3 matrix").
-float largest_eigenvalue(StiffnessSum m)
-{
-    const float mean = (m.diagonal.x + m.diagonal.y + m.diagonal.z) / 3;
-    const vec3 d = m.diagonal - mean;
-    const float p = sqrt((dot(d, d) + 2 * dot(m.mixed, m.mixed)) / 6);
-    if (p <= 1e-6 * mean)
-        return mean;
-    const float determinant = d.x * (d.y * d.z - m.mixed.z * m.mixed.z) - m.mixed.x * (m.mixed.x * d.z - m.mixed.z * m.mixed.y) +
-                              m.mixed.y * (m.mixed.x * m.mixed.z - d.y * m.mixed.y);
-    const float angle = acos(clamp(0.5 * determinant / (p * p * p), -1, 1)) / 3;
-    return mean + 2 * p * cos(angle);
 }
 
 #endif
