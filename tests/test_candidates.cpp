@@ -3,10 +3,14 @@
 #include "collider_scenes.hpp"
 #include "hard_shapes.hpp"
 
+#include "cloth/mesh_checks.hpp"
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <vector>
+
+using tests::ClothHarness;
 
 namespace
 {
@@ -22,11 +26,10 @@ struct Shot
     uint32_t rings;  // of the lump: its edges are some 0.5 m / rings long
 };
 
-class Scene : public tests::ClothHarness
+class Scene : public ClothHarness
 {
 public:
-    explicit Scene(const Shot& shot)
-        : tests::ClothHarness({.recovery = false}), mesh_(tests::lump_with_ears(shot.rings))
+    explicit Scene(const Shot& shot) : ClothHarness({.recovery = false}), mesh_(tests::lump_with_ears(shot.rings))
     {
         cloth::Grid grid = tests::flat_sheet(24, 0.45f, -0.325f); // under the lump: its ears are above
         grid.transform = grid.transform * glm::mat4_cast(glm::quat(glm::vec3(0.05f, 0.7f, 0.02f)));
@@ -96,4 +99,30 @@ TEST_CASE("where more triangles are near than a list holds, nothing is lost")
     const cloth::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160});
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices > 0);
+}
+
+// The lists of cloth at rest are old, and were made for what is near by the thickness that it had.
+TEST_CASE("cloth at rest that becomes thicker rises by as much, on triangles that no list had")
+{
+    const engine::Mesh lump = tests::lump_with_ears(96);
+    ClothHarness harness({.feature_contact = false});
+    cloth::Grid grid = tests::flat_sheet(24, 0.35f, -0.29f);
+    grid.transform = tests::moved({0, -0.302f, 0});
+    cloth::Fabric& fabric = tests::fabric_of(grid);
+    fabric.thickness = 0.004f;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    const cloth::MeshCollider collider = tests::collider(lump);
+    (void)engine::take(harness.solver.add_collider(collider));
+    harness.upload();
+    const cloth::Step pressed{.gravity = {0, 9.81f, 0}}; // upwards, against the side without ears
+    harness.step(pressed, 15);
+    fabric.thickness = 0.0065f; // wider than a list's ball is
+    REQUIRE(harness.solver.set_material(id, fabric));
+    harness.step(pressed);
+    const cloth::MeshDistance distance = engine::take(cloth::MeshDistance::create(collider));
+    double nearest = 1;
+    for (const glm::vec4& p : harness.positions(id))
+        nearest = std::min(nearest, distance.nearest(glm::dvec3(p)).signed_distance);
+    CHECK(nearest > 0.0065 - 1e-6);
+    CHECK(nearest < 0.0075);
 }

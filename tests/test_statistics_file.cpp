@@ -61,8 +61,9 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
     CHECK(keys(json) == Keys{"scene", "device", "driver", "frames", "summary", "per_frame"});
     CHECK(keys(json["summary"]) == Keys{"substeps_per_frame", "vertices", "triangles", "max_stretch", "mean_stretch",
                                         "kinetic_energy", "penetrating_vertices", "deepest_penetration",
-                                        "self_intersections", "nan_vertices", "contact_overflows", "verified", "gpu_ms",
-                                        "cpu_record_ms", "state_hash"});
+                                        "self_intersections", "nan_vertices", "contacts", "candidates",
+                                        "contact_overflows", "limited_vertices", "verified", "gpu_ms", "cpu_record_ms",
+                                        "state_hash"});
     CHECK(keys(json["summary"]["gpu_ms"]) == Keys{"frame", "cloth", "passes"});
     CHECK(keys(json["summary"]["gpu_ms"]["frame"]) == Keys{"median", "p95"});
     CHECK(keys(json["summary"]["gpu_ms"]["cloth"]) == Keys{"median", "p95"});
@@ -70,8 +71,9 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
     CHECK(keys(json["summary"]["cpu_record_ms"]) == Keys{"median", "p95"});
     REQUIRE(json["per_frame"].size() == 2);
     CHECK(keys(json["per_frame"][0]) == Keys{"frame", "substeps", "max_stretch", "mean_stretch", "kinetic_energy",
-                                             "penetrating_vertices", "deepest_penetration", "nan_vertices",
-                                             "contact_overflows", "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
+                                             "penetrating_vertices", "deepest_penetration", "nan_vertices", "contacts",
+                                             "candidates", "contact_overflows", "limited_vertices", "gpu_frame_ms",
+                                             "gpu_cloth_ms", "cpu_record_ms"});
 }
 
 TEST_CASE("values come back, and what was not measured is null")

@@ -65,7 +65,10 @@ void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame
     entry.penetrating_vertices = measured.penetrating_vertices;
     entry.deepest_penetration = static_cast<double>(measured.deepest_penetration);
     entry.nan_vertices = measured.nan_vertices;
-    entry.contact_overflows = 0; // contacts are found and answered in place: there is no list that could overflow
+    entry.contacts = measured.contacts;
+    entry.candidates = measured.candidates;
+    entry.contact_overflows = measured.overflowing_vertices;
+    entry.limited_vertices = measured.limited_vertices;
     if (frame.timestamps != nullptr)
         for (const gpu::PassTime& pass : frame.timestamps->read(frame.slot))
         {
@@ -118,7 +121,10 @@ Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, con
     summary.penetrating_vertices = last.penetrating_vertices;
     summary.deepest_penetration = last.deepest_penetration;
     summary.nan_vertices = last.nan_vertices;
+    summary.contacts = last.contacts;
+    summary.candidates = last.candidates;
     summary.contact_overflows = last.contact_overflows;
+    summary.limited_vertices = last.limited_vertices;
     return result;
 }
 

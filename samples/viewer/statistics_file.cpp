@@ -48,7 +48,10 @@ Json summary_json(const StatisticsSummary& summary)
                    {"deepest_penetration", number(summary.deepest_penetration)},
                    {"self_intersections", count(summary.self_intersections)},
                    {"nan_vertices", count(summary.nan_vertices)},
+                   {"contacts", count(summary.contacts)},
+                   {"candidates", count(summary.candidates)},
                    {"contact_overflows", count(summary.contact_overflows)},
+                   {"limited_vertices", count(summary.limited_vertices)},
                    {"verified", summary.verified}};
     result["gpu_ms"] = std::move(gpu);
     result["cpu_record_ms"] = pair(summary.cpu_record_ms);
@@ -66,7 +69,10 @@ Json frame_json(const FrameStatistics& frame)
             {"penetrating_vertices", count(frame.penetrating_vertices)},
             {"deepest_penetration", number(frame.deepest_penetration)},
             {"nan_vertices", count(frame.nan_vertices)},
+            {"contacts", count(frame.contacts)},
+            {"candidates", count(frame.candidates)},
             {"contact_overflows", count(frame.contact_overflows)},
+            {"limited_vertices", count(frame.limited_vertices)},
             {"gpu_frame_ms", number(frame.gpu_frame_ms)},
             {"gpu_cloth_ms", number(frame.gpu_cloth_ms)},
             {"cpu_record_ms", number(frame.cpu_record_ms)}};

@@ -45,10 +45,13 @@ struct StatisticsSummary
     double deepest_penetration = k_not_measured; // m
     std::optional<uint64_t> self_intersections;  // pairs of triangles; only --verify counts them
     std::optional<uint64_t> nan_vertices;
-    std::optional<uint64_t> contact_overflows;
-    bool verified = false;                                   // the counts are those of --verify, on the CPU
-    Percentiles gpu_frame_ms;                                // the whole frame
-    Percentiles gpu_cloth_ms;                                // the cloth's passes
+    std::optional<uint64_t> contacts;          // vertices that touch a collider
+    std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
+    std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
+    std::optional<uint64_t> limited_vertices;  // too stiff for the substep: they bore less than their inner forces
+    bool verified = false;                     // the counts are those of --verify, on the CPU
+    Percentiles gpu_frame_ms;                  // the whole frame
+    Percentiles gpu_cloth_ms;                  // the cloth's passes
     std::vector<std::pair<std::string, double>> gpu_pass_ms; // median a frame, by the pass's name
     Percentiles cpu_record_ms;
     uint64_t state_hash = 0; // written as 16 hexadecimal digits
@@ -64,7 +67,10 @@ struct FrameStatistics
     std::optional<uint64_t> penetrating_vertices;
     double deepest_penetration = k_not_measured; // m
     std::optional<uint64_t> nan_vertices;
-    std::optional<uint64_t> contact_overflows;
+    std::optional<uint64_t> contacts;          // vertices that touch a collider
+    std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
+    std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
+    std::optional<uint64_t> limited_vertices;  // too stiff for the substep: they bore less than their inner forces
     double gpu_frame_ms = k_not_measured;
     double gpu_cloth_ms = k_not_measured;
     double cpu_record_ms = k_not_measured;

@@ -42,6 +42,12 @@ layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorre
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
+// m: what lies nearer together than this, near x, is the same to a few roundings of a coordinate.
+float rounding(vec3 x)
+{
+    return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
+}
+
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #include "vertex_normal.glsl"
 #include "collider_pose.glsl"
@@ -101,12 +107,6 @@ vec3 surface_way(Passage passage, vec3 place, vec3 way)
 vec3 world_direction(Passage passage, vec3 direction)
 {
     return passage.moves ? rotate(passage.end.rotation, direction) : direction;
-}
-
-// m: what lies nearer together than this, near x, is the same to a few roundings of a coordinate.
-float rounding(vec3 x)
-{
-    return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
 }
 
 bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0; }

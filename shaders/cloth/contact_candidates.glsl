@@ -15,7 +15,7 @@
 
 // The margin, as a share of the thickness, that a vertex at rest has.
 #define VOILE_CANDIDATE_MARGIN 0.5
-// What of the thickness the ball has beyond the margin: it, and the roundings of where it is.
+// How far contact looks, as a share of the thickness: it, and the roundings of distances.
 #define VOILE_CANDIDATE_REACH 1.001
 // The margin narrows where a list would be longer, and after that grows again by this factor from list to list.
 #define VOILE_CANDIDATE_AIM 11
@@ -233,22 +233,21 @@ void collect_triangles()
     candidates.collect = false;
 }
 
-// Makes a new list. `own_way`: m, what the ball must have of the substep's own way; `ahead`: m, the way to the next renewal.
-void renew_candidates(float own_way, float ahead, float thickness)
+// Makes a new list. `own_way`: m, what the ball must have of the substep's own way; `margin`: m, what it is to have beyond it;
+// `reach`: m, how far from the vertex contact looks.
+void renew_candidates(float own_way, float margin, float reach)
 {
-    const float reach = VOILE_CANDIDATE_REACH * thickness;
-    const float margin = max(VOILE_CANDIDATE_MARGIN * thickness, 2 * ahead);
     // Where the last ball was narrowed, this one is to be little wider: what is found beyond would be lost again.
     const float last = candidates.cover - reach;
     const bool narrowed = last >= 0 && candidates.cover < candidates.wished;
-    const float grown = max(VOILE_CANDIDATE_GROWTH * last, 0.1 * VOILE_CANDIDATE_MARGIN * thickness);
+    const float grown = max(VOILE_CANDIDATE_GROWTH * last, 0.1 * VOILE_CANDIDATE_MARGIN * reach);
     candidates.least = reach + own_way;
     candidates.wished = candidates.least + (narrowed ? min(margin, grown) : margin);
     candidates.cover = candidates.wished;
     collect_triangles();
     if (candidates.count > VOILE_CANDIDATES)
-        candidates.cover = candidates.wished; // until the vertex has gone far: it would find as many
-    candidate_places[candidates.vertex] = vec4(candidates.place, candidates.cover - reach);
+        candidates.cover = candidates.wished; // until the vertex has gone far or slows down: it would find as many
+    candidate_places[candidates.vertex] = vec4(candidates.place, candidates.cover);
     candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)] =
         push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
     candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)] = floatBitsToUint(candidates.wished);
@@ -259,27 +258,31 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
 {
     candidates.vertex = vertex;
     candidates.collect = false;
-    const vec4 place = candidate_places[vertex]; // w: m, how far from there the way may lead; < 0: there is no list
+    const vec4 place = candidate_places[vertex]; // w: m, the radius of the ball; < 0: there is no list
     const uint head = candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)];
-    const float reach = VOILE_CANDIDATE_REACH * thickness;
+    const float reach = VOILE_CANDIDATE_REACH * thickness + rounding(to);
     const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
     candidates.place = place.xyz;
-    candidates.cover = place.w + reach;
+    candidates.cover = place.w;
     candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)]);
     candidates.made = made < push.first_substep
                           ? -1
                           : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
-    const float used = push.renew == 1 ? 0.5 * place.w : place.w;
+    const float margin = place.w - reach; // below 0 where the cloth has become thicker
+    const float used = push.renew == 1 ? 0.5 * margin : margin;
     const bool serves = distance(from, place.xyz) <= used && distance(to, place.xyz) <= used;
     float way = 0;
     const bool serves_all = serves_moving(from, to, reach, way);
-    if (serves && serves_all)
-        return;
     const float speed = length(velocity) + way / push.step;
+    const float wanted = max(VOILE_CANDIDATE_MARGIN * thickness, 2 * speed * push.renewal_time);
+    // A list that had no room when the vertex was fast has some when it has slowed down.
+    const bool may_fit = push.renew == 1 && candidates.count > VOILE_CANDIDATES && margin > 2 * wanted;
+    if (serves && serves_all && !may_fit)
+        return;
     candidates.place = 0.5 * (from + to);
     candidates.made = push.progress_to;
-    renew_candidates(0.5 * distance(from, to) + way, speed * push.renewal_time, thickness);
+    renew_candidates(0.5 * distance(from, to) + way, wanted, reach);
 }
 
 #endif

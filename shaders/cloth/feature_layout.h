@@ -52,6 +52,7 @@ struct FeatureCorrection
 struct FeatureReachPush
 {
     float time;          // s, to the next look
+    float sudden;        // m/s, that a vertex at rest may come to have until then
     float progress_from; // 0..1, of the step at its start
     float progress_to;   // and at its end
     uint colliders;

@@ -28,9 +28,6 @@ layout(push_constant, std430) uniform Push { FeatureReachPush push; };
 #include "chunk.glsl"
 #include "collider_pose.glsl"
 
-// m/s: a vertex that something hits is seen in time if it is no faster than this.
-const float k_sudden = 10;
-
 shared uint near_vertices;
 bool is_near = false;
 
@@ -79,7 +76,7 @@ void main()
     const vec4 place = self.exists ? positions[self.index] : vec4(0);
     if (place.w > 0)
     {
-        const float margin = max(2 * length(velocities[self.index].xyz), k_sudden) * push.time;
+        const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
         for (uint c = 0; c < push.colliders; ++c)
             if (feature_sets[c].features > 0)
                 look(c, self.cloth, place.xyz, margin);

@@ -142,8 +142,8 @@ vec3 direction_out(Field field, vec3 normal)
     return size > 0 ? sum / size : vec3(0, 1, 0);
 }
 
-// m/s, of the collider's rigid motion at a place of its space; no faster than recovery is, or a collider that jumps would throw what it
-// leaves behind.
+// m/s, of the collider's rigid motion at a place of its space; no faster than recovery is, or a collider that jumps would throw
+// what it leaves behind.
 vec3 surface_velocity(uint c, uint flags, vec3 place)
 {
     if (!is_moved(flags))

@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // Statistics of one chunk of vertices: stretch, kinetic energy, values that are not finite, penetration.
 //
-// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and how deep it lies
-// under the surface of a collider. Reads: cloths, chunks, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
+// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and how
+// deep it lies under the surface of a collider.
+// Reads: cloths, chunks, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "padded_layout.h"

@@ -64,7 +64,8 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
                                            : triangles.size() + mesh.value().triangles.size();
     if (listed > k_most_triangles)
         return invalid("collider", collider.name,
-                       contents + " are more than the colliders of a solver can have together");
+                       contents + ", and the colliders of a solver can have " + std::to_string(k_most_triangles) +
+                           " together");
     shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
     if (mesh.value().closed)
         record.flags |= VOILE_COLLIDER_CLOSED;

@@ -21,9 +21,6 @@ Result<void> validate(const MeshCollider& collider)
         return bad("its transform is not finite");
     if (auto valid = validate_triangles("collider", collider.name, collider.positions, collider.triangles); !valid)
         return valid.error();
-    if (collider.triangles.size() > VOILE_BVH_FIRST_MASK)
-        return bad(std::to_string(collider.triangles.size()) + " triangles, at most " +
-                   std::to_string(VOILE_BVH_FIRST_MASK));
     return check_friction(collider.name, collider.friction);
 }
 

@@ -50,7 +50,8 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
 
 Result<ClothId> Solver::add_cloth(const Grid& grid)
 {
-    const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * sizeof(glm::vec4);
+    constexpr uint64_t k_bytes_a_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
+    const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
     if (auto room = check_room(state_->model, "cloth", grid.name,
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
         !room)

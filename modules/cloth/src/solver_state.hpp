@@ -70,6 +70,7 @@ struct Solver::State
     std::vector<ColliderPose> colliders;
     bool colliders_moved = false;          // in the last step
     std::vector<Deformation> deformations; // of model.deforming
+    float farthest_motion = 0;             // m, of anchors and colliders in the step that is recorded
     bool refit_due = false;                // boxes do not fit: after an upload, and after a mesh came to rest
     bool normals_due = false;              // they are of other places: after an upload, and after cloths were moved
     bool recovery_due = false;             // vertices may have got into solids otherwise than by moving

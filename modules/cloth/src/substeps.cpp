@@ -134,8 +134,11 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
     clear_dispatch(recorder_, device_.feature_dispatch);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), progress(substep), progress(next),
-                                        device_.collider_count};
+    // What something hits or drags becomes no faster than that, or than this without.
+    constexpr float k_sudden = 10; // m/s
+    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
+                                        std::max(k_sudden, solver_.farthest_motion / step_.duration), progress(substep),
+                                        progress(next), device_.collider_count};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
                        device_.feature_reach, device_.chunk_count * group_, group_, push);
     publish_dispatch(recorder_);

@@ -150,6 +150,10 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     upload.contents_->staging = uploader.record();
     gpu::Recorder recorder(s.context, cmd);
     forget_candidates(recorder, next);
+    // What a recorded step reads may not have been written: steps can be recorded and not submitted.
+    clear_dispatch(recorder, next.feature_dispatch);
+    for (const gpu::Buffer& size : next.recover_dispatch)
+        clear_dispatch(recorder, size);
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;

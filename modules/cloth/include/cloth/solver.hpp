@@ -9,9 +9,9 @@
 //
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
 //   buffer            format                 written by             read by
-//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, contact, normals, statistics,
-//                                            Verlet, recovery       recovery, drawing
-//   velocities        vec4, w: touches       the same               stage 1, Verlet, statistics
+//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, feature reach and contact, contact,
+//                                            Verlet, recovery       normals, statistics, recovery, drawing
+//   velocities        vec4, w: touches       the same               stage 1, Verlet, feature reach, statistics
 //   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
 //                                            holds, strain limit
 //   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
@@ -22,12 +22,14 @@
 //   anchors, holds,   AnchorRecord,          upload, edits          pins, holds, tethers
 //   tethers           HoldRecord, TetherRecord
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
-//   colliders, motions, ColliderRecord,      upload, edits          recovery, contact, statistics
+//   colliders, motions, ColliderRecord,      upload, edits          recovery, features, contact, statistics
 //   nodes, triangles    -Motion, Bvh...
+//   candidates        vec4, 25 words         contact                contact, statistics
 //   features, their   Feature,               upload, feature        feature reach, feature contact, contact
 //     corrections       FeatureCorrection      contact
-//   near chunks, sizes uint, 3 words         feature reach, recovery  feature contact, indirect dispatches
-//     of dispatches
+//   near chunks,      uint,                  feature reach          feature contact
+//   dispatch sizes    3 words                feature reach,         indirect dispatches
+//                                              recovery
 //   partials, result  StatisticsRecord       statistics             the host (result)
 #pragma once
 
@@ -179,7 +181,8 @@ public:
     // the next record after it), without new buffers. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
-    // isometric bending of a mesh that was added without.
+    // isometric bending of a mesh that was added without. Which corners and edges of colliders count follows a new
+    // thickness with the next upload.
     Result<void> set_material(ClothId cloth, const ClothMaterial& material);
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
 
