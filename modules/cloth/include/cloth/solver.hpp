@@ -9,8 +9,8 @@
 //
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
 //   buffer            format                 written by             read by
-//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, feature reach and contact, contact,
-//                                            Verlet, recovery       normals, statistics, recovery, drawing
+//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, features, contact, normals,
+//                                            Verlet, recovery       statistics, recovery, drawing
 //   velocities        vec4, w: touches       the same               stage 1, Verlet, feature reach, statistics
 //   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
 //                                            holds, strain limit
