@@ -200,8 +200,8 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     harness.solver.record(recorder, {.substeps = 3});
     harness.solver.record(recorder, {.substeps = 2});
     buffers.submit();
-    // One a dispatch, and the one that follows the last: six a substep; normals, recovery, which needs the normals of the
-    // start, and one look at what comes near features a step.
+    // One a dispatch, and the one that follows the last: six a substep; normals, recovery, which needs the normals of
+    // the start, and one look at what comes near features a step.
     CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
 }
 

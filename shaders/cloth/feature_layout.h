@@ -65,7 +65,7 @@ struct FeaturePush
     float progress_from; // 0..1, of the step at the substep's start
     float progress_to;   // and at its end
     uint colliders;
-    uint substep;        // counted through all steps
+    uint substep; // counted through all steps
 };
 
 VOILE_SHARED_END
