@@ -29,6 +29,30 @@ inline engine::Mesh needle(float length, float thin)
     return mesh;
 }
 
+// A closed cylinder, or prism, about the z axis from `first` to `last`: two triangles a flat, as long as it is, and
+// fans at both ends.
+inline engine::Mesh closed_cylinder(double radius, double first, double last, uint32_t sides)
+{
+    engine::Mesh mesh;
+    for (uint32_t i = 0; i < sides; ++i)
+    {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        for (const double z : {first, last})
+            mesh.positions.emplace_back(glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), z));
+    }
+    mesh.positions.emplace_back(glm::dvec3(0, 0, first));
+    mesh.positions.emplace_back(glm::dvec3(0, 0, last));
+    for (uint32_t i = 0; i < sides; ++i)
+    {
+        const uint32_t next = (i + 1) % sides;
+        mesh.triangles.emplace_back(2 * i, 2 * next, 2 * i + 1);
+        mesh.triangles.emplace_back(2 * next, 2 * next + 1, 2 * i + 1);
+        mesh.triangles.emplace_back(2 * next, 2 * i, 2 * sides);
+        mesh.triangles.emplace_back(2 * i + 1, 2 * next + 1, 2 * sides + 1);
+    }
+    return mesh;
+}
+
 // Half a sphere, open at the top, its lowest point at y = 0; it faces inwards.
 inline engine::Mesh round_bowl(float radius)
 {

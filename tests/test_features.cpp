@@ -2,6 +2,7 @@
 // others.
 #include "collider_features.hpp"
 #include "collider_scenes.hpp"
+#include "hard_shapes.hpp"
 
 #include "engine/assets/shapes.hpp"
 
@@ -16,27 +17,10 @@ namespace
 constexpr float k_thickness = 0.003f; // m
 constexpr float k_length = 1;         // m, of prisms, along z
 
-// A prism about the z axis with `sides` flats, closed: two triangles a flat, as long as it is, and fans at both ends.
-engine::Mesh prism(float radius, uint32_t sides)
+engine::Mesh prism(double radius, uint32_t sides)
 {
-    engine::Mesh mesh;
-    for (uint32_t i = 0; i < sides; ++i)
-    {
-        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
-        for (const float z : {-k_length / 2, k_length / 2})
-            mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-    }
-    mesh.positions.emplace_back(0, 0, -k_length / 2);
-    mesh.positions.emplace_back(0, 0, k_length / 2);
-    for (uint32_t i = 0; i < sides; ++i)
-    {
-        const uint32_t next = (i + 1) % sides;
-        mesh.triangles.emplace_back(2 * i, 2 * next, 2 * i + 1);
-        mesh.triangles.emplace_back(2 * next, 2 * next + 1, 2 * i + 1);
-        mesh.triangles.emplace_back(2 * next, 2 * i, 2 * sides);
-        mesh.triangles.emplace_back(2 * i + 1, 2 * next + 1, 2 * sides + 1);
-    }
-    return mesh;
+    constexpr double k_half = k_length / 2;
+    return tests::closed_cylinder(radius, -k_half, k_half, sides);
 }
 
 struct Count
@@ -72,7 +56,7 @@ Count count(const engine::Mesh& mesh)
 TEST_CASE("the flats of a cylinder are no edges, though they reach its rims")
 {
     // Across 5 cm of it normals turn by 2.9 degrees on either side; 10.2 would count.
-    const Count found = count(prism(0.5f, 64));
+    const Count found = count(prism(0.5, 64));
     CHECK(found.along == 0);
     CHECK(found.around == 2 * 64);
     CHECK(found.corners > 64);
@@ -80,14 +64,14 @@ TEST_CASE("the flats of a cylinder are no edges, though they reach its rims")
 
 TEST_CASE("all edges of a thin rod stand out, however little each of them turns")
 {
-    const Count found = count(prism(0.01f, 32)); // 11 degrees an edge
+    const Count found = count(prism(0.01, 32)); // 11 degrees an edge
     CHECK(found.along >= 32);
     CHECK(found.corners >= 2);
 }
 
 TEST_CASE("the edges of a prism stand out where the angle is sharp, its flats' diagonals never")
 {
-    const Count found = count(prism(0.5f, 6));
+    const Count found = count(prism(0.5, 6));
     CHECK(found.along == 6);
     CHECK(found.around == 2 * 6);
     CHECK(found.corners == 2 * 6);

@@ -1,4 +1,5 @@
 // Coulomb friction around a drum: T2 / T1 = exp(mu phi) where a strap slides, and where it is about to.
+#include "hard_shapes.hpp"
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -33,30 +34,6 @@ const char* const k_remark =
     "segments, which averages out over a path of a segment, and shows as jolts in the stretch. The thickness "
     "moves the strap outwards and does not enter. What lies on the drum weighs 0.4 % of the lighter weight. The "
     "drum's triangles are 0.4 m long and 5 or 1.2 mm wide, as modelling programs write cylinders.";
-
-// A closed cylinder about the z axis, its normals outwards. Its triangles are as long as it is, and as narrow as a
-// segment.
-TriangleMesh drum(double first, double last, uint32_t segments)
-{
-    TriangleMesh mesh;
-    for (uint32_t i = 0; i < segments; ++i)
-    {
-        const double angle = 2 * std::numbers::pi * i / segments;
-        for (const double z : {first, last})
-            mesh.positions.emplace_back(k_radius * std::cos(angle), k_radius * std::sin(angle), z);
-    }
-    mesh.positions.emplace_back(0, 0, first);
-    mesh.positions.emplace_back(0, 0, last);
-    for (uint32_t i = 0; i < segments; ++i)
-    {
-        const uint32_t next = (i + 1) % segments;
-        mesh.triangles.emplace_back(2 * i, 2 * next, 2 * i + 1);
-        mesh.triangles.emplace_back(2 * next, 2 * next + 1, 2 * i + 1);
-        mesh.triangles.emplace_back(2 * next, 2 * i, 2 * segments);
-        mesh.triangles.emplace_back(2 * i + 1, 2 * next + 1, 2 * segments + 1);
-    }
-    return mesh;
-}
 
 // A strap one link wide over the upper half of the drum, a weight at either end, stretched as its tensions have it.
 struct Strap
@@ -240,7 +217,7 @@ Ratios ratios(uint32_t links, uint32_t segments)
     std::vector<Strap> straps = straps_side_by_side(links);
     for (Strap& strap : straps)
         add(rig, strap);
-    const TriangleMesh mesh = drum(-0.05, straps.back().across + 0.05, segments);
+    const engine::Mesh mesh = tests::closed_cylinder(k_radius, -0.05, straps.back().across + 0.05, segments);
     (void)engine::take(
         rig.solver.add_collider(cloth::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
     rig.upload();

@@ -72,6 +72,34 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
         update_colliders(recorder, solver);
 }
 
+// m, at most: how far a pose takes what lies within `radius` of `center`.
+float way_of(const glm::mat4& from, const glm::mat4& to, const glm::vec3& center, float radius)
+{
+    const glm::mat4 change = to - from;
+    float squares = 0;
+    for (int column = 0; column < 3; ++column)
+        squares += glm::dot(glm::vec3(change[column]), glm::vec3(change[column]));
+    return glm::length(glm::vec3(change * glm::vec4(center, 1))) + std::sqrt(squares) * radius;
+}
+
+// Of anchors, and of colliders that have no box, what lies within a metre of their origin counts.
+float farthest_motion(const Solver::State& solver)
+{
+    float farthest = 0;
+    for (const Anchor& anchor : solver.anchors)
+        farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::vec3(0), 1));
+    for (size_t i = 0; i < solver.colliders.size(); ++i)
+    {
+        const ColliderPose& pose = solver.colliders[i];
+        const shared::ColliderRecord& record = solver.model.colliders[i];
+        const bool has_box = record.kind == VOILE_COLLIDER_MESH;
+        const glm::vec3 center = has_box ? 0.5f * (record.box_min + record.box_max) : glm::vec3(0);
+        const float radius = has_box ? 0.5f * glm::distance(record.box_min, record.box_max) : 1;
+        farthest = std::max(farthest, way_of(pose.from, pose.to, center, radius));
+    }
+    return farthest;
+}
+
 } // namespace
 
 void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
@@ -132,42 +160,10 @@ void Solver::State::update_passes()
     passes.commit = !model.colliders.empty() || passes.holds > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
 }
 
-namespace
-{
-
-// m, at most: how far a pose takes what lies within `radius` of `center`.
-float way_of(const glm::mat4& from, const glm::mat4& to, const glm::vec3& center, float radius)
-{
-    const glm::mat4 change = to - from;
-    float squares = 0;
-    for (int column = 0; column < 3; ++column)
-        squares += glm::dot(glm::vec3(change[column]), glm::vec3(change[column]));
-    return glm::length(glm::vec3(change * glm::vec4(center, 1))) + std::sqrt(squares) * radius;
-}
-
-// Of anchors, and of colliders that have no box, what lies within a metre of their origin counts.
-float farthest_motion(const Solver::State& solver)
-{
-    float farthest = 0;
-    for (const Anchor& anchor : solver.anchors)
-        farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::vec3(0), 1));
-    for (size_t i = 0; i < solver.colliders.size(); ++i)
-    {
-        const ColliderPose& pose = solver.colliders[i];
-        const shared::ColliderRecord& record = solver.model.colliders[i];
-        const bool has_box = record.kind == VOILE_COLLIDER_MESH;
-        const glm::vec3 center = has_box ? 0.5f * (record.box_min + record.box_max) : glm::vec3(0);
-        const float radius = has_box ? 0.5f * glm::distance(record.box_min, record.box_max) : 1;
-        farthest = std::max(farthest, way_of(pose.from, pose.to, center, radius));
-    }
-    return farthest;
-}
-
-} // namespace
-
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
 {
-    solver.farthest_motion = farthest_motion(solver);
+    if (solver.passes.features)
+        solver.farthest_motion = farthest_motion(solver);
     if (solver.dirty)
         return;
     const DeviceState& device = *solver.device;

@@ -70,12 +70,12 @@ struct Solver::State
     std::vector<ColliderPose> colliders;
     bool colliders_moved = false;          // in the last step
     std::vector<Deformation> deformations; // of model.deforming
-    float farthest_motion = 0;             // m, of anchors and colliders in the step that is recorded
-    bool refit_due = false;                // boxes do not fit: after an upload, and after a mesh came to rest
-    bool normals_due = false;              // they are of other places: after an upload, and after cloths were moved
-    bool recovery_due = false;             // vertices may have got into solids otherwise than by moving
-    uint32_t recovery_step = 0;            // counts the steps with recovery
-    uint32_t next_substep = 0;             // counted through all steps, below k_substeps_counted
+    float farthest_motion = 0;  // m, of anchors and colliders in the step that is recorded, if there are features
+    bool refit_due = false;     // boxes do not fit: after an upload, and after a mesh came to rest
+    bool normals_due = false;   // they are of other places: after an upload, and after cloths were moved
+    bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
+    uint32_t recovery_step = 0; // counts the steps with recovery
+    uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
     Edits edits;
     Passes passes;
