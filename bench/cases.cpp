@@ -161,6 +161,27 @@ Cloths add_icosphere(cloth::Solver& solver)
     return {engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
+// As a scan is: no triangle lies in its neighbour's plane.
+Cloths add_rough_sphere(cloth::Solver& solver)
+{
+    constexpr float k_roughness = 0.004f; // m, either way; edges are 15 mm long
+    engine::Mesh mesh = case_icosphere(6);
+    std::mt19937 random(1);
+    for (glm::vec3& p : mesh.positions)
+        p += glm::normalize(p) * k_roughness * (static_cast<float>(random()) / 0x1p31f - 1);
+    add_mesh(solver, "rough sphere", mesh);
+    return {engine::take(solver.add_cloth(drape_grid(128)))};
+}
+
+// A sheet eight times as thick as the triangles are long.
+Cloths add_thick_sheet(cloth::Solver& solver)
+{
+    add_mesh(solver, "icosphere", case_icosphere(8));
+    cloth::Grid grid = drape_grid(128);
+    std::get<cloth::Fabric>(grid.material).thickness = 0.03f;
+    return {engine::take(solver.add_cloth(grid))};
+}
+
 // And on a box, over whose edges it hangs.
 Cloths add_box(cloth::Solver& solver)
 {
@@ -232,6 +253,10 @@ constexpr Case k_cases[] = {
     {"icosphere-1310720", "of 1,310,720", add_icosphere<8>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0,
      false, 0, 8},
     {"box", "on a box of 12 triangles, whose edges are tested too", add_box, k_nearest, k_sphere_frames, true},
+    {"rough-sphere", "on a sphere of 81,920 triangles with a roughness of 4 mm, whose edges are tested too",
+     add_rough_sphere, k_nearest, k_sphere_frames, true},
+    {"thick-sheet", "30 mm thick on a sphere of 1,310,720 triangles of 4 mm", add_thick_sheet, k_nearest,
+     k_sphere_frames, true},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };

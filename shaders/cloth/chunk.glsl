@@ -15,10 +15,9 @@ struct ChunkVertex
     ivec2 place; // column and row in a grid
 };
 
-ChunkVertex chunk_vertex(uint chunk)
+ChunkVertex chunk_vertex(uint chunk, uint thread)
 {
     ChunkVertex vertex;
-    const uint thread = gl_LocalInvocationID.x;
     const uint shift = chunks[chunk].tile_shift;
     vertex.cloth = chunks[chunk].cloth;
     const uint columns = cloths[vertex.cloth].columns;
@@ -37,5 +36,7 @@ ChunkVertex chunk_vertex(uint chunk)
     vertex.index = cloths[vertex.cloth].first_vertex + vertex.local;
     return vertex;
 }
+
+ChunkVertex chunk_vertex(uint chunk) { return chunk_vertex(chunk, gl_LocalInvocationID.x); }
 
 #endif

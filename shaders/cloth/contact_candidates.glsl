@@ -122,12 +122,16 @@ void take_leaf(uint first, uint count)
     }
 }
 
-// To collect, what of a tree reaches into the ball, as narrow as it is by then.
+// What a traversal reaches of a tree. To collect: what is in the ball, as narrow as it is by then, and nothing once it is known
+// that the list is too short. Else what may be nearer than the nearest so far, or lies where the vertex goes through.
 bool query_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
 {
-    if (!candidates.collect)
-        return boxes_overlap(box_min, box_max, node_min, node_max);
-    return distance(candidates.middle, clamp(candidates.middle, node_min, node_max)) <= candidates.cover;
+    if (candidates.collect)
+        return candidates.count <= VOILE_CANDIDATES &&
+               distance(candidates.middle, clamp(candidates.middle, node_min, node_max)) <= candidates.cover;
+    return boxes_overlap(box_min, box_max, node_min, node_max) &&
+           (distance(query.to, clamp(query.to, node_min, node_max)) <= min(query.distance, query.bound) + 10 * query_tie() ||
+            boxes_overlap(min(query.from, query.to), max(query.from, query.to), node_min, node_max));
 }
 
 #define VOILE_REACHED query_reaches
@@ -157,24 +161,50 @@ float needed_cover(uint c, uint flags, vec3 from, vec3 to, float reach)
     return max(distance(middle, from), distance(middle, to) + reach);
 }
 
+bool belongs(uint entry, ColliderRecord collider, uint kind)
+{
+    const uint triangle = entry & VOILE_CANDIDATE_TRIANGLE_MASK;
+    return (entry & VOILE_CANDIDATE_SLOT) == kind && triangle >= collider.first_triangle &&
+           triangle < collider.first_triangle + collider.triangles;
+}
+
+// Where more triangles are near than a list holds, the first entry is what was nearest in the substep before, or at least
+// near: nothing that is farther than it is now need be looked at.
+void visit_crowd(ColliderRecord collider, uint kind, vec3 box_min, vec3 box_max)
+{
+    const uint word = candidate_word(VOILE_CANDIDATE_ENTRIES);
+    const uint last = candidate_triangles[word];
+    if (query.method == VOILE_METHOD_NEAREST_POINT && belongs(last, collider, kind))
+    {
+        const Triangle t = triangle_of(last & VOILE_CANDIDATE_TRIANGLE_MASK);
+        query.bound = distance(query.to, nearest_on_triangle(query.to, t.a, t.b, t.c));
+    }
+    traverse(collider, box_min, box_max);
+    if (query.distance < query.thickness)
+        candidate_triangles[word] = kind | query.triangle;
+}
+
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
+    const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_SLOT : 0;
     const float needed = needed_cover(c, collider.flags, query.from, query.to, query.thickness);
-    if (candidates.count > VOILE_CANDIDATES || needed > candidates.cover)
+    if (candidates.count > VOILE_CANDIDATES)
+    {
+        visit_crowd(collider, kind, box_min, box_max);
+        return;
+    }
+    if (needed > candidates.cover)
     {
         traverse(collider, box_min, box_max);
         return;
     }
-    const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_SLOT : 0;
     uint next = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES)]; // one ahead: it comes while one is tested
     for (uint i = 0; i < candidates.count; ++i)
     {
         const uint entry = next;
         next = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + min(i + 1, VOILE_CANDIDATES - 1))];
-        const uint triangle = entry & VOILE_CANDIDATE_TRIANGLE_MASK;
-        if ((entry & VOILE_CANDIDATE_SLOT) == kind && entry_distance(entry) <= needed &&
-            triangle >= collider.first_triangle && triangle < collider.first_triangle + collider.triangles)
-            visit_triangle(triangle);
+        if (entry_distance(entry) <= needed && belongs(entry, collider, kind))
+            visit_triangle(entry & VOILE_CANDIDATE_TRIANGLE_MASK);
     }
 }
 

@@ -52,6 +52,7 @@ struct MeshQuery
     uint visited;    // the triangle that is being looked at
     uint triangle;   // the nearest
     float distance;  // m to the nearest surface found; starts at the thickness
+    float bound;     // m: the nearest surface is no farther, as is known beforehand
     float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
     vec3 point;      // on that surface
     vec3 face;       // unit normal of its triangle
@@ -62,6 +63,9 @@ struct MeshQuery
 };
 MeshQuery query;
 
+// m: distances within a few roundings count as equal.
+float query_tie() { return 1e-5 * query.thickness; }
+
 void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
 {
     const vec3 point = nearest_on_triangle(query.to, a, b, c);
@@ -69,10 +73,9 @@ void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
     const float distance = length(offset);
     const float alignment = abs(dot(offset, face)) / max(distance, 1e-12);
     // Triangles that share the nearest edge or vertex lie equally far; the one that faces the vertex most tells the side
-    // (Ericson 2004, 12.3). Distances within a few roundings count as equal.
-    const float tie = 1e-5 * query.thickness;
-    const bool nearer = distance < query.distance - tie;
-    const bool better_facing = distance < query.distance + tie && alignment > query.alignment;
+    // (Ericson 2004, 12.3).
+    const bool nearer = distance < query.distance - query_tie();
+    const bool better_facing = distance < query.distance + query_tie() && alignment > query.alignment;
     if (nearer || better_facing)
     {
         query.triangle = query.visited;
@@ -97,21 +100,21 @@ void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
     }
 }
 
+// At the substep's end.
+Triangle triangle_of(uint index)
+{
+    if (query.deforms)
+        return moving_triangle(index, query.first_corner, query_progress).end;
+    const BvhTriangle stored = bvh_triangles[index];
+    return Triangle(stored.a, stored.b, stored.c);
+}
+
 void visit_triangle(uint index)
 {
+    const Triangle triangle = triangle_of(index);
     vec3 from = query.from;
-    Triangle triangle;
     if (query.deforms)
-    {
-        const MovingTriangle moving = moving_triangle(index, query.first_corner, query_progress);
-        triangle = moving.end;
-        from = carried(moving, from);
-    }
-    else
-    {
-        const BvhTriangle stored = bvh_triangles[index];
-        triangle = Triangle(stored.a, stored.b, stored.c);
-    }
+        from = carried(moving_triangle(index, query.first_corner, query_progress), from);
     const vec3 normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     const vec3 face = normal / max(length(normal), 1e-30); // 0 of a collapsed one
     query.visited = index;
@@ -207,6 +210,7 @@ void begin_query(uint c, ColliderRecord collider, int method, vec3 from, vec3 to
     if (query.deforms)
         query.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
     query.distance = thickness;
+    query.bound = thickness;
     query.alignment = 2; // nothing ties with "nothing found"
     query.crossing = 2;
 }

@@ -78,13 +78,13 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
 
 } // namespace
 
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size)
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each)
 {
-    constexpr VkDispatchIndirectCommand k_none{0, 1, 1};
+    const VkDispatchIndirectCommand none{0, groups_each, 1};
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), 0, sizeof(k_none), &k_none);
+    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), 0, sizeof(none), &none);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
