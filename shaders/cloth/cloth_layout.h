@@ -30,7 +30,7 @@
 // How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
 #define VOILE_CANDIDATES 23
 // the words of its list,
-#define VOILE_CANDIDATE_WORDS (VOILE_CANDIDATES + 2)
+#define VOILE_CANDIDATE_WORDS (VOILE_CANDIDATES + 3)
 // how many bits of a word tell the triangle,
 #define VOILE_CANDIDATE_TRIANGLE_BITS 26
 // and how many substeps lie between the renewals of these lists.

@@ -19,13 +19,16 @@
 #define VOILE_CANDIDATE_REACH 1.001
 // The margin narrows where a list would be longer, and after that grows again by this factor from list to list.
 #define VOILE_CANDIDATE_AIM 11
+#define VOILE_CANDIDATE_LASTING 0.03 // of the ball's radius, a margin that is worth more than a shorter list
 #define VOILE_CANDIDATE_GROWTH 1.5
 
-// Words of the list: its head, with its length, and the radius that it was to have; then entries: the triangle, or the slot of
-// a padded tree, and its distance from the middle of the ball as a share of that radius.
+// Words of the list: its head, with its length; the radius that it was to have, and that it must have; then entries: the
+// triangle, or the slot of a padded tree, and how far it is from the middle of the ball between these two radii. Its steps are
+// finest near the smaller one: where many triangles are near, a little there tells which of them the ball must have.
 #define VOILE_CANDIDATE_HEAD 0
 #define VOILE_CANDIDATE_RADIUS 1
-#define VOILE_CANDIDATE_ENTRIES 2
+#define VOILE_CANDIDATE_LEAST 2
+#define VOILE_CANDIDATE_ENTRIES 3
 #define VOILE_CANDIDATE_SLOT 0x80000000u // the entry is a slot
 #define VOILE_CANDIDATE_LEVELS 31
 #define VOILE_CANDIDATE_TRIANGLE_MASK ((1u << VOILE_CANDIDATE_TRIANGLE_BITS) - 1)
@@ -53,17 +56,26 @@ uint candidate_word(uint word) { return word * push.vertices + candidates.vertex
 // m, at least: how far an entry is from the middle of the ball.
 float entry_distance(uint entry)
 {
-    const uint level = entry >> VOILE_CANDIDATE_TRIANGLE_BITS & VOILE_CANDIDATE_LEVELS;
-    return float(level) / VOILE_CANDIDATE_LEVELS * candidates.wished;
+    const float level = float(entry >> VOILE_CANDIDATE_TRIANGLE_BITS & VOILE_CANDIDATE_LEVELS) / VOILE_CANDIDATE_LEVELS;
+    return level > 0 ? candidates.least + level * level * (candidates.wished - candidates.least) : 0;
 }
 
-// Narrows the ball until the list is short, as far as that goes.
+uint level_of(float distance)
+{
+    const float share = (0.9999 * distance - candidates.least) / (candidates.wished - candidates.least);
+    return uint(sqrt(clamp(share, 0, 1)) * VOILE_CANDIDATE_LEVELS);
+}
+
+// Narrows the ball until the list is short, as far as that leaves a margin that lasts; until it has room for one more, as far
+// as entries tell their distances.
 void narrow()
 {
+    const float least_spare = (candidates.wished - candidates.least) / (VOILE_CANDIDATE_LEVELS * VOILE_CANDIDATE_LEVELS);
     while (candidates.count >= VOILE_CANDIDATE_AIM)
     {
         const float spare = candidates.cover - candidates.least;
-        if (spare * VOILE_CANDIDATE_LEVELS < candidates.wished)
+        const bool has_room = candidates.count < VOILE_CANDIDATES;
+        if (spare < (has_room ? VOILE_CANDIDATE_LASTING * candidates.wished : least_spare))
             return;
         candidates.cover = candidates.least + 0.5 * spare;
         uint kept = 0;
@@ -104,9 +116,8 @@ void collect_triangle(uint triangle)
         return;
     if (candidates.count < VOILE_CANDIDATES)
     {
-        const uint level = uint(0.999 * distance / candidates.wished * VOILE_CANDIDATE_LEVELS);
         candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES + candidates.count)] =
-            candidates.kind | level << VOILE_CANDIDATE_TRIANGLE_BITS | triangle;
+            candidates.kind | level_of(distance) << VOILE_CANDIDATE_TRIANGLE_BITS | triangle;
     }
     ++candidates.count;
 }
@@ -281,6 +292,7 @@ void renew_candidates(float own_way, float margin, float reach)
     candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)] =
         push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
     candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)] = floatBitsToUint(candidates.wished);
+    candidate_triangles[candidate_word(VOILE_CANDIDATE_LEAST)] = floatBitsToUint(candidates.least);
 }
 
 // Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to`.
@@ -296,6 +308,7 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
     candidates.place = place.xyz;
     candidates.cover = place.w;
     candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)]);
+    candidates.least = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_LEAST)]);
     candidates.made = made < push.first_substep
                           ? -1
                           : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
@@ -306,8 +319,8 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
     const bool serves_all = serves_moving(from, to, reach, way);
     const float speed = length(velocity) + way / push.step;
     const float wanted = max(VOILE_CANDIDATE_MARGIN * thickness, 2 * speed * push.renewal_time);
-    // A list that had no room when the vertex was fast has some when it has slowed down.
-    const bool may_fit = push.renew == 1 && candidates.count > VOILE_CANDIDATES && margin > 2 * wanted;
+    // What had no room in a list when the vertex was fast, or too near, has some when it rests.
+    const bool may_fit = push.renew == 1 && candidates.count > VOILE_CANDIDATES;
     if (serves && serves_all && !may_fit)
         return;
     candidates.place = 0.5 * (from + to);
