@@ -141,7 +141,7 @@ bool query_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
         return candidates.count <= VOILE_CANDIDATES &&
                distance(candidates.middle, clamp(candidates.middle, node_min, node_max)) <= candidates.cover;
     return boxes_overlap(box_min, box_max, node_min, node_max) &&
-           (distance(query.to, clamp(query.to, node_min, node_max)) <= min(query.distance, query.bound) + 10 * query_tie() ||
+           (distance(query.to, clamp(query.to, node_min, node_max)) <= query.distance + 10 * query_tie() ||
             boxes_overlap(min(query.from, query.to), max(query.from, query.to), node_min, node_max));
 }
 
@@ -179,32 +179,11 @@ bool belongs(uint entry, ColliderRecord collider, uint kind)
            triangle < collider.first_triangle + collider.triangles;
 }
 
-// Where more triangles are near than a list holds, the first entry is what was nearest in the substep before, or at least
-// near: nothing that is farther than it is now need be looked at.
-void visit_crowd(ColliderRecord collider, uint kind, vec3 box_min, vec3 box_max)
-{
-    const uint word = candidate_word(VOILE_CANDIDATE_ENTRIES);
-    const uint last = candidate_triangles[word];
-    if (query.method == VOILE_METHOD_NEAREST_POINT && belongs(last, collider, kind))
-    {
-        const Triangle t = triangle_of(last & VOILE_CANDIDATE_TRIANGLE_MASK);
-        query.bound = distance(query.to, nearest_on_triangle(query.to, t.a, t.b, t.c));
-    }
-    traverse(collider, box_min, box_max);
-    if (query.distance < query.thickness)
-        candidate_triangles[word] = kind | query.triangle;
-}
-
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
     const uint kind = is_deforming(collider.flags) ? VOILE_CANDIDATE_SLOT : 0;
     const float needed = needed_cover(c, collider.flags, query.from, query.to, query.thickness);
-    if (candidates.count > VOILE_CANDIDATES)
-    {
-        visit_crowd(collider, kind, box_min, box_max);
-        return;
-    }
-    if (needed > candidates.cover)
+    if (candidates.count > VOILE_CANDIDATES || needed > candidates.cover)
     {
         traverse(collider, box_min, box_max);
         return;

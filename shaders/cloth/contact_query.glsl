@@ -52,7 +52,6 @@ struct MeshQuery
     uint visited;    // the triangle that is being looked at
     uint triangle;   // the nearest
     float distance;  // m to the nearest surface found; starts at the thickness
-    float bound;     // m: the nearest surface is no farther, as is known beforehand
     float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
     vec3 point;      // on that surface
     vec3 face;       // unit normal of its triangle
@@ -210,7 +209,6 @@ void begin_query(uint c, ColliderRecord collider, int method, vec3 from, vec3 to
     if (query.deforms)
         query.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
     query.distance = thickness;
-    query.bound = thickness;
     query.alignment = 2; // nothing ties with "nothing found"
     query.crossing = 2;
 }
