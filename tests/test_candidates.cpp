@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 using tests::ClothHarness;
@@ -99,6 +100,50 @@ TEST_CASE("where more triangles are near than a list holds, nothing is lost")
     const cloth::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160});
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices > 0);
+}
+
+// Within the thickness lie hundreds of triangles, but few of them nearer than cloth at rest is: those a list can hold.
+TEST_CASE("cloth at rest that is far thicker than triangles are long has lists of them")
+{
+    engine::Mesh ball = engine::make_sphere({0, 0, 0}, 0.3f, 240); // edges of 4 mm and less
+    for (glm::vec3& p : ball.positions)
+        p = glm::vec3(p.y, p.z - 0.3f, p.x); // its poles, where slivers meet, aside
+    ClothHarness harness;
+    cloth::Grid grid = tests::flat_sheet(24, 0.3f, 0.031f);
+    tests::fabric_of(grid).thickness = 0.03f;
+    (void)engine::take(harness.solver.add_cloth(grid));
+    (void)engine::take(harness.solver.add_collider(tests::collider(ball)));
+    harness.upload();
+    harness.step({}, 60);
+    const cloth::Statistics statistics = harness.statistics();
+    CHECK(statistics.contacts > 100);
+    CHECK(statistics.candidates > statistics.contacts);
+    CHECK(statistics.overflowing_vertices == 0);
+}
+
+// The balls of all lists are to be as wide as the collider goes in a substep, then, and have thousands of triangles;
+// and the next larger float is farther than such lists tell distances apart.
+TEST_CASE("a collider that is carried off by hundreds of metres in a step leaves lists behind that come to an end")
+{
+    const engine::Mesh lump = tests::lump_with_ears(160);
+    ClothHarness harness({.feature_contact = false, .recovery = false});
+    cloth::Grid grid = tests::flat_sheet(24, 0.45f, -0.325f); // within the thickness, so that lists are narrow
+    tests::fabric_of(grid).thickness = 0.03f;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    const cloth::ColliderId with = engine::take(harness.solver.add_collider(tests::collider(lump)));
+    harness.upload();
+    const cloth::Step still{.substeps = 10, .gravity = {0, 0, 0}};
+    harness.step(still);
+    CHECK(harness.statistics().candidates > 100);
+    for (const float x : {400.f, 400.01f})
+    {
+        REQUIRE(harness.solver.move_collider(with, tests::moved({x, 0, 0})));
+        harness.step(still);
+    }
+    const cloth::Statistics after = harness.statistics();
+    CHECK(after.candidates == 0);
+    CHECK(after.nan_vertices == 0);
+    CHECK(std::abs(harness.positions(id)[0].x + 0.225f) < 0.05f); // it has not gone along
 }
 
 // The lists of cloth at rest are old, and were made for what is near by the thickness that it had.

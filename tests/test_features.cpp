@@ -1,5 +1,6 @@
 // Which edges and corners of colliders count as such: those that can stand between the vertices of a cloth, and no
 // others.
+#include "cloth_harness.hpp"
 #include "collider_features.hpp"
 #include "collider_scenes.hpp"
 #include "hard_shapes.hpp"
@@ -8,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -85,4 +87,88 @@ TEST_CASE("a round mesh has no features, a box of triangles has 12 edges and 8 c
     CHECK(box.along == 4);
     CHECK(box.around == 8);
     CHECK(box.corners == 8);
+}
+
+namespace
+{
+
+// A flat disc about the y axis, a fan of twelve triangles in its middle: more than there are threads for them.
+cloth::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles)
+{
+    constexpr uint32_t k_sectors = 12;
+    constexpr uint32_t k_rings = 5;
+    const auto at = [](uint32_t ring, uint32_t sector)
+    { return ring == 0 ? 0 : 1 + (ring - 1) * k_sectors + sector % k_sectors; };
+    positions = {{0, 0, 0}};
+    for (uint32_t ring = 1; ring <= k_rings; ++ring)
+        for (uint32_t sector = 0; sector < k_sectors; ++sector)
+        {
+            const double angle = 0.1 + 2 * std::numbers::pi * sector / k_sectors;
+            positions.emplace_back(0.04 * ring * glm::dvec3(std::cos(angle), 0, std::sin(angle)));
+            triangles.emplace_back(at(ring - 1, sector), at(ring, sector + 1), at(ring, sector));
+            if (ring > 1)
+                triangles.emplace_back(at(ring - 1, sector), at(ring - 1, sector + 1), at(ring, sector + 1));
+        }
+    return {.positions = positions, .triangles = triangles};
+}
+
+// Cloth that falls at 2 m/s on two walls between its vertices, which cross; where it is after two frames.
+std::vector<glm::vec4> fall_on_walls(bool mesh, const cloth::SolverOptions& options)
+{
+    tests::ClothHarness harness(options);
+    cloth::Grid sheet = tests::flat_sheet(12, 0.44f, 0.01f); // vertices 4 cm apart
+    sheet.velocity = {0, -2, 0};
+    tests::fabric_of(sheet).thickness = k_thickness;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    cloth::MeshCloth round = disc(positions, triangles);
+    round.transform = sheet.transform;
+    round.velocity = sheet.velocity;
+    round.material = sheet.material;
+    const cloth::ClothId id =
+        mesh ? engine::take(harness.solver.add_cloth(round)) : engine::take(harness.solver.add_cloth(sheet));
+    for (const glm::vec3& half : {glm::vec3(0.3f, 0.3f, 0.005f), glm::vec3(0.005f, 0.3f, 0.3f)})
+        (void)engine::take(harness.solver.add_collider(
+            tests::collider(engine::make_box({-half.x, -0.6f, -half.z}, {half.x, 0, half.z}))));
+    harness.upload();
+    harness.step({}, 2);
+    return harness.positions(id);
+}
+
+float farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    float result = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        result = std::max(result, glm::distance(glm::vec3(a[i]), glm::vec3(b[i])));
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("edges of a collider hold cloth alike, however many threads share what is around a vertex")
+{
+    for (const bool mesh : {false, true})
+    {
+        CAPTURE(mesh);
+        const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.feature_threads = 1});
+        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
+        for (const auto& [size, threads] : {std::pair(1u, 1u), {2u, 2u}, {32u, 4u}, {128u, 8u}, {64u, 64u}})
+        {
+            CAPTURE(size);
+            CAPTURE(threads);
+            CHECK(farthest(usual, fall_on_walls(mesh, {.workgroup_size = size, .feature_threads = threads})) < 1e-4f);
+        }
+    }
+}
+
+TEST_CASE("threads that share what is around a vertex are as many as a workgroup may have, and a power of two")
+{
+    for (const uint32_t threads : {3u, 128u})
+    {
+        const auto solver = cloth::Solver::create(tests::device().context().handles,
+                                                  {.workgroup_size = 64, .feature_threads = threads});
+        REQUIRE(!solver);
+        CHECK(solver.error().message == "SolverOptions: feature_threads is " + std::to_string(threads) +
+                                            ", must be 0 or a power of two up to workgroup_size");
+    }
 }

@@ -1,9 +1,10 @@
 // Traversal of a bounding volume hierarchy with a box as the query.
 //
-// The including kernel declares `bvh_nodes[]` and defines boxes_overlap and, before the include,
+// The including kernel declares `bvh_nodes[]` and defines before the include
 //   void take_leaf(uint first, uint count)
-// which is called for every leaf that the box reaches, with its triangles. A kernel whose query is less than the box defines
-// VOILE_REACHED(box_min, box_max, node_min, node_max) as a function that tells what of the tree it reaches.
+// which is called for every leaf that the query reaches, with its triangles, and boxes_overlap; or else VOILE_REACHED as the
+// name of a function of (box_min, box_max, node_min, node_max) that tells whether the query reaches a node's box: of less than
+// the box, or of what is near it.
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
 

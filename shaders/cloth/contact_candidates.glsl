@@ -5,7 +5,7 @@
 // enough by the distance that the list tells. A dispatch waits for its slowest thread, for one long list and for any traversal:
 //   - lists are renewed together, every VOILE_RENEWAL substeps, by all vertices that have used up half of their margin;
 //   - the margin narrows while triangles are found, so that the list stays short;
-//   - where more are near than the list holds with no margin at all, every substep traverses.
+//   - where more are near than the list holds with no margin at all, every substep traverses, and renewals try again.
 // A moving collider has the list of the place where the vertex was, in the collider's space, when the list was made; it holds
 // within the step in which that was. So does the list of a deforming one, whose boxes cover all of the step.
 // The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl and
@@ -19,8 +19,9 @@
 #define VOILE_CANDIDATE_REACH 1.001
 // The margin narrows where a list would be longer, and after that grows again by this factor from list to list.
 #define VOILE_CANDIDATE_AIM 11
-#define VOILE_CANDIDATE_LASTING 0.03 // of the ball's radius, a margin that is worth more than a shorter list
 #define VOILE_CANDIDATE_GROWTH 1.5
+// A margin of this share of the ball's radius is worth more than a list that short.
+#define VOILE_CANDIDATE_LASTING 0.03
 
 // Words of the list: its head, with its length; the radius that it was to have, and that it must have; then entries: the
 // triangle, or the slot of a padded tree, and how far it is from the middle of the ball between these two radii. Its steps are
@@ -62,12 +63,13 @@ float entry_distance(uint entry)
 
 uint level_of(float distance)
 {
-    const float share = (0.9999 * distance - candidates.least) / (candidates.wished - candidates.least);
+    const float at_least = 0.9999 * distance - rounding(candidates.middle);
+    const float share = (at_least - candidates.least) / (candidates.wished - candidates.least);
     return uint(sqrt(clamp(share, 0, 1)) * VOILE_CANDIDATE_LEVELS);
 }
 
-// Narrows the ball until the list is short, as far as that leaves a margin that lasts; until it has room for one more, as far
-// as entries tell their distances.
+// Narrows the ball until the list is short, as long as that leaves a margin that lasts. A list that is full narrows on, until it
+// has room or entries tell their distances no finer.
 void narrow()
 {
     const float least_spare = (candidates.wished - candidates.least) / (VOILE_CANDIDATE_LEVELS * VOILE_CANDIDATE_LEVELS);
@@ -77,7 +79,10 @@ void narrow()
         const bool has_room = candidates.count < VOILE_CANDIDATES;
         if (spare < (has_room ? VOILE_CANDIDATE_LASTING * candidates.wished : least_spare))
             return;
-        candidates.cover = candidates.least + 0.5 * spare;
+        const float cover = candidates.least + 0.5 * spare;
+        if (cover >= candidates.cover)
+            return; // by rounding
+        candidates.cover = cover;
         uint kept = 0;
         for (uint i = 0; i < candidates.count; ++i)
         {
@@ -134,14 +139,16 @@ void take_leaf(uint first, uint count)
 }
 
 // What a traversal reaches of a tree. To collect: what is in the ball, as narrow as it is by then, and nothing once it is known
-// that the list is too short. Else what may be nearer than the nearest so far, or lies where the vertex goes through.
+// that the list is too short. Else what may be nearer than the nearest so far, or lies where the vertex goes through; boxes of
+// what deforms hold all of its way, so the vertex's own way tells that, too.
 bool query_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
 {
     if (candidates.collect)
         return candidates.count <= VOILE_CANDIDATES &&
                distance(candidates.middle, clamp(candidates.middle, node_min, node_max)) <= candidates.cover;
+    const float nearest = query.distance + 10 * query_tie() + rounding(query.to);
     return boxes_overlap(box_min, box_max, node_min, node_max) &&
-           (distance(query.to, clamp(query.to, node_min, node_max)) <= query.distance + 10 * query_tie() ||
+           (distance(query.to, clamp(query.to, node_min, node_max)) <= nearest ||
             boxes_overlap(min(query.from, query.to), max(query.from, query.to), node_min, node_max));
 }
 
@@ -266,7 +273,7 @@ void renew_candidates(float own_way, float margin, float reach)
     candidates.cover = candidates.wished;
     collect_triangles();
     if (candidates.count > VOILE_CANDIDATES)
-        candidates.cover = candidates.wished; // until the vertex has gone far or slows down: it would find as many
+        candidates.cover = candidates.wished; // until the next renewal: it would find as many
     candidate_places[candidates.vertex] = vec4(candidates.place, candidates.cover);
     candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)] =
         push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;

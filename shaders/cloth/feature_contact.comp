@@ -44,7 +44,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "feature_meeting.glsl"
 
 // Of the threads of the group, those of a vertex side by side.
-shared Share shares[gl_WorkGroupSize.x];
+shared Response responses[gl_WorkGroupSize.x];
 
 // Whether a box is nearer to another, that of a piece of cloth, than the thickness.
 bool is_near(vec3 piece_min, vec3 piece_max, vec3 node_min, vec3 node_max)
@@ -117,9 +117,9 @@ void write_correction()
     const bool verlet = (cloths[self.vertex.cloth].flags & VOILE_CLOTH_VERLET) != 0;
     const float drift = verlet ? push.step : 0.5 * push.step; // see contact.comp
     corrections[i] =
-        FeatureCorrection(share.shift + drift * share.slowing, push.substep, share.change + share.slowing, 0);
+        FeatureCorrection(response.shift + drift * response.slowing, push.substep, response.change + response.slowing, 0);
     if (verlet)
-        predicted[i] += vec4(share.change + share.slowing, 0);
+        predicted[i] += vec4(response.change + response.slowing, 0);
 }
 
 void main()
@@ -131,13 +131,12 @@ void main()
                                (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / parts);
     if (self.vertex.exists)
         visit_colliders(part, parts);
-    shares[thread] = share;
+    responses[thread] = response;
     barrier();
     if (part > 0)
         return;
     for (uint other = thread + 1; other < thread + parts; ++other)
-        if (shares[other].meets)
-            take_share(shares[other]);
-    if (share.meets)
+        merge(responses[other]);
+    if (response.meetings > 0)
         write_correction();
 }

@@ -9,8 +9,6 @@
 #define VOILE_MOST_STRETCH 4
 // How many substeps lie between two looks at which chunks come near features.
 #define VOILE_FEATURE_PERIOD 16
-// How many threads share what is around a vertex, where a workgroup has as many. A grid has six triangles around a vertex.
-#define VOILE_FEATURE_PARTS 8
 // The stamp of a correction that holds in no substep.
 #define VOILE_NO_SUBSTEP 0xffffffffu
 

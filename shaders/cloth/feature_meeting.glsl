@@ -1,6 +1,6 @@
 // How a corner or an edge of a collider meets a piece of cloth, and what that changes of the vertex.
 //
-// The including kernel declares push.step and includes friction.glsl and feature_pieces.glsl before.
+// The including kernel declares push.step, includes feature_pieces.glsl before, and sets `friction` for each collider.
 #ifndef VOILE_FEATURE_MEETING_GLSL
 #define VOILE_FEATURE_MEETING_GLSL
 
@@ -14,16 +14,18 @@ const float k_recovery = 0.2;
 const float k_border = 1e-3;
 
 // What meetings change of the vertex.
-struct Share
+struct Response
 {
-    bool meets;    // anything
     vec3 shift;    // m
+    float pressed; // m/s, by which the meeting presses that presses most
     vec3 change;   // m/s, across surfaces
+    uint meetings;
     vec3 slowing;  // m/s, by friction, of the meeting that presses most
-    float pressed; // m/s, by which that one presses
 };
-Share share = Share(false, vec3(0), vec3(0), vec3(0), 0);
-vec2 friction; // static, kinetic; of the cloth with the collider
+Response response = Response(vec3(0), 0, vec3(0), 0, vec3(0));
+
+// Static and kinetic coefficient of the cloth with the collider that is being looked at.
+vec2 friction;
 
 // How a feature and a piece of cloth meet.
 struct Meeting
@@ -77,27 +79,10 @@ float friction_share(vec2 coefficients, float approach, float speed)
     return speed <= coefficients.x * approach ? 1 : coefficients.y * approach / speed;
 }
 
-// Of two changes, the one that is done and one more: what is done in its direction need not be done again.
-vec3 together(vec3 done, vec3 more)
+// A meeting at `place`. `portion`: of the vertex in what moves the cloth there; `velocity`: m/s, of the cloth there, world.
+void respond(Meeting meeting, vec3 place, float portion, vec3 velocity)
 {
-    const float size = length(more);
-    const vec3 direction = more / max(size, 1e-30);
-    return done + max(size - dot(done, direction), 0) * direction;
-}
-
-void take_share(Share more)
-{
-    share.meets = share.meets || more.meets;
-    share.shift = together(share.shift, more.shift);
-    share.change = together(share.change, more.change);
-    if (more.pressed > share.pressed)
-        share.slowing = more.slowing;
-    share.pressed = max(share.pressed, more.pressed);
-}
-
-// `place`: of the feature; `portion`: of the vertex in what moves the cloth there; `velocity`: m/s, of the cloth there, world.
-void take_share(Meeting meeting, vec3 place, float portion, vec3 velocity)
-{
+    ++response.meetings;
     vec3 n = meeting.direction;
     vec3 relative = velocity;
     if (collider_moves)
@@ -105,10 +90,39 @@ void take_share(Meeting meeting, vec3 place, float portion, vec3 velocity)
         n = rotate(pose_to.rotation, n);
         relative -= (to_world(pose_to, place) - to_world(pose_from, place)) / push.step;
     }
+    // What other meetings have done in this direction is done.
+    response.shift += max(portion * (meeting.wanted - meeting.gap) - dot(response.shift, n), 0) * n;
     const float approach = -min(dot(relative, n), 0);
+    response.change += max(portion * approach - dot(response.change, n), 0) * n;
+    if (portion * approach <= response.pressed)
+        return;
+    response.pressed = portion * approach;
     const vec3 sliding = relative - dot(relative, n) * n;
-    take_share(Share(true, portion * max(meeting.wanted - meeting.gap, 0) * n, portion * approach * n,
-                     -portion * friction_share(friction, approach, length(sliding)) * sliding, portion * approach));
+    response.slowing = -portion * friction_share(friction, approach, length(sliding)) * sliding;
+}
+
+// Of two changes the larger, and of the other one what that does not do in its direction.
+vec3 together(vec3 one, vec3 other)
+{
+    const bool first = dot(one, one) >= dot(other, other);
+    const vec3 larger = first ? one : other;
+    const vec3 smaller = first ? other : one;
+    const float size = length(smaller);
+    const vec3 direction = smaller / max(size, 1e-30);
+    return larger + max(size - dot(larger, direction), 0) * direction;
+}
+
+// Adds what another thread has found around the same vertex.
+void merge(Response other)
+{
+    if (other.meetings == 0)
+        return;
+    response.meetings += other.meetings;
+    response.shift = together(response.shift, other.shift);
+    response.change = together(response.change, other.change);
+    if (other.pressed > response.pressed)
+        response.slowing = other.slowing;
+    response.pressed = max(response.pressed, other.pressed);
 }
 
 // By how much the vertex moves for what the place moves.
@@ -138,8 +152,8 @@ void meet_triangle(Feature feature)
     if (min(min(v, w), 1 - v - w) < -k_border)
         return;
     const vec3 weights = clamp(vec3(1 - v - w, v, w), vec3(0), vec3(1));
-    take_share(meeting, feature.a, portion_of(weights, vec3(a.inverse_mass, b.inverse_mass, c.inverse_mass)),
-               weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity);
+    respond(meeting, feature.a, portion_of(weights, vec3(a.inverse_mass, b.inverse_mass, c.inverse_mass)),
+            weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity);
 }
 
 // An edge and that of the cloth from the vertex to b.
@@ -172,9 +186,8 @@ void meet_edge(Feature feature, Traveller b)
     const float t = (uu * dot(along, r) - ua * dot(u, r)) / determinant;
     if (min(s, t) < 0 || max(s, t) > 1)
         return;
-    take_share(meeting, feature.a + t * along,
-               portion_of(vec3(1 - s, s, 0), vec3(a.inverse_mass, b.inverse_mass, 0)),
-               mix(a.velocity, b.velocity, s));
+    respond(meeting, feature.a + t * along, portion_of(vec3(1 - s, s, 0), vec3(a.inverse_mass, b.inverse_mass, 0)),
+            mix(a.velocity, b.velocity, s));
 }
 
 void visit_feature(Feature feature)

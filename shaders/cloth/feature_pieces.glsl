@@ -91,7 +91,7 @@ struct Piece
 };
 Piece piece;
 
-// Loads what the vertex spans with its k-th two neighbours. False: nothing.
+// Loads what the vertex spans with its k-th two neighbours. False: nothing that could meet anything.
 bool load_piece(uint k)
 {
     const ClothRecord cloth = cloths[self.vertex.cloth];
@@ -107,6 +107,8 @@ bool load_piece(uint k)
         piece.c = traveller(c);
     const vec3 normal = cross(piece.b.to - piece.a.to, piece.c.to - piece.a.to);
     const vec3 earlier = cross(piece.b.from - piece.a.from, piece.c.from - piece.a.from);
+    if (!(dot(normal, normal) + dot(earlier, earlier) < 3e38))
+        return false; // not finite: its box would be none
     piece.edge_b = piece.b.inverse_mass > 0;
     piece.edge_c = !is_grid && piece.c.inverse_mass > 0; // a grid has it with another k
     piece.triangle = has_c && piece.edge_b && piece.c.inverse_mass > 0 && dot(normal, normal) >= 1e-30 &&

@@ -51,7 +51,7 @@ struct DeviceState
     StateBuffers stage_b;            // written by stages 2 and 4
     StateBuffers sums;               // running sums of the stages
     gpu::Buffer candidate_places;    // where the lists of triangles near each vertex hold
-    gpu::Buffer candidate_triangles; // their length, and the triangles
+    gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
     gpu::Buffer partials; // statistics, one record a chunk
     gpu::Buffer result;   // statistics, one record a slot; the host reads it

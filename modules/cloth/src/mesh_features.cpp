@@ -48,7 +48,8 @@ public:
         : tree_(tree), scale_(scale), two_sided_((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0),
           closed_((collider.flags & VOILE_COLLIDER_CLOSED) != 0),
           bend_(std::atan(4 * k_allowed_share * scale.thickness / scale.edge)),
-          crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)), spacing_(std::max(scale.edge, scale.thickness) / 4)
+          crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)),
+          spacing_(std::max(scale.edge, scale.thickness) / 4)
     {
     }
 

@@ -9,6 +9,20 @@
 namespace cloth
 {
 
+namespace
+{
+
+// Subgroups of a CPU device are few and narrow: a thread of its own for each triangle only repeats what they share.
+uint32_t feature_threads(const gpu::Context& context, const SolverOptions& options)
+{
+    constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
+    if (options.feature_threads > 0)
+        return options.feature_threads;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.workgroup_size);
+}
+
+} // namespace
+
 Requirements requirements()
 {
     Requirements result;
@@ -37,12 +51,17 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     if (options.statistics_slots < 1 || options.statistics_slots > 16)
         return Error{"SolverOptions: statistics_slots is " + std::to_string(options.statistics_slots) +
                      ", must be 1 to 16"};
+    if (options.feature_threads > 0 &&
+        (!std::has_single_bit(options.feature_threads) || options.feature_threads > options.workgroup_size))
+        return Error{"SolverOptions: feature_threads is " + std::to_string(options.feature_threads) +
+                     ", must be 0 or a power of two up to workgroup_size"};
     auto kernels = create_kernels(context.value(), options);
     if (!kernels)
         return kernels.error();
     auto state = std::make_unique<State>();
     state->context = context.value();
     state->options = options;
+    state->options.feature_threads = feature_threads(state->context, options);
     state->model.max_buffer_bytes = state->context.max_buffer_bytes;
     state->kernels = std::move(kernels.value());
     return Solver(std::move(state));

@@ -106,8 +106,8 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
-// Sets the size of an indirect dispatch to nothing; what is added to x comes in so many workgroups each. Between barriers
-// of its own.
+// Sets the size of an indirect dispatch to nothing; what is added to x comes in so many workgroups each. Between
+// barriers of its own.
 void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each = 1);
 
 // Makes the size of an indirect dispatch visible that a dispatch has written.

@@ -132,7 +132,7 @@ float SubstepRecorder::progress(uint32_t substeps_done) const
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    clear_dispatch(recorder_, device_.feature_dispatch, std::min<uint32_t>(VOILE_FEATURE_PARTS, group_));
+    clear_dispatch(recorder_, device_.feature_dispatch, solver_.options.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
     // What something hits or drags becomes no faster than that, or than this without.
     constexpr float k_sudden = 10; // m/s

@@ -56,6 +56,7 @@ Result<Context> create_context(const Handles& handles)
     instance_function<PFN_vkGetPhysicalDeviceProperties>(handles, "vkGetPhysicalDeviceProperties")(
         handles.physical_device, &properties);
     context.limits = properties.limits;
+    context.device_type = properties.deviceType;
     context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits);
 
     // An instance without VK_EXT_debug_utils answers null; labels and names are then no-ops.

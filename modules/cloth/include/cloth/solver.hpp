@@ -24,7 +24,7 @@
 //   cloths, chunks    ClothRecord, Chunk     upload, edits          all
 //   colliders, motions, ColliderRecord,      upload, edits          recovery, features, contact, statistics
 //   nodes, triangles    -Motion, Bvh...
-//   candidates        vec4, 25 words         contact                contact, statistics
+//   candidates        vec4, 26 words         contact                contact, statistics
 //   features, their   Feature,               upload, feature        feature reach, feature contact, contact
 //     corrections       FeatureCorrection      contact
 //   near chunks,      uint,                  feature reach          feature contact
@@ -76,9 +76,11 @@ struct SolverOptions
     uint32_t workgroup_size = 128; // power of two, 1 to the device's limit
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
-    bool feature_contact = true; // corners and edges of colliders meet the triangles and edges of cloths. Where
-                                 // vertices alone do not feel one, a substep has a pass more
-    bool recovery = true;        // what is inside a closed mesh at the start of a step is brought out
+    bool feature_contact = true;  // corners and edges of colliders meet the triangles and edges of cloths. Where
+                                  // vertices alone do not feel one, a substep has a pass more
+    uint32_t feature_threads = 0; // that share the triangles around a vertex there: a power of two up to
+                                  // workgroup_size; 0: eight, on CPU devices one
+    bool recovery = true;         // what is inside a closed mesh at the start of a step is brought out
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 

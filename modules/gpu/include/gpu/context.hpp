@@ -26,6 +26,7 @@ struct Context
     Handles handles;
     VolkDeviceTable fn{};
     VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceType device_type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     VkDeviceSize max_buffer_bytes = 0; // largest storage buffer that the device can bind and allocate
 
     // VK_EXT_debug_utils, null where the instance does not have it: labels and names are then left out.
