@@ -130,7 +130,7 @@ TEST_CASE("closedness is what counting edges says, for random triangles and for 
     std::mt19937 random(2);
     const Triangles whole = tetrahedron();
     int closed = 0;
-    for (int i = 0; i < 3000; ++i)
+    for (uint32_t i = 0; i < 3000; ++i)
     {
         Triangles mesh{whole.positions, {}};
         mesh.positions.emplace_back(1, 1, 1);

@@ -35,11 +35,11 @@ TEST_CASE("a transform scales and places every shape")
         {R"({"plane": {"y": 0.5}})",
          R"({"plane": {"y": 0.125}, "transform": {"scale": 2, "translate": [3, 0.25, 1]}})"},
     }};
-    for (const auto& [plain, placed] : pairs)
+    for (const auto& pair : pairs)
     {
-        CAPTURE(plain);
-        const SceneResult first = runs.run(scene(plain), 30);
-        CHECK(first.hash == runs.run(scene(placed), 30).hash);
+        CAPTURE(pair[0]);
+        const SceneResult first = runs.run(scene(pair[0]), 30);
+        CHECK(first.hash == runs.run(scene(pair[1]), 30).hash);
         CHECK(first.deepest < 1e-5);
         CHECK(bounds(first).max.y > 0.45f); // it lies on it
     }
