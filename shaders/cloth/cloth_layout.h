@@ -12,9 +12,9 @@
 #define VOILE_CLASS_OPPOSITE 1
 
 // Flags of a cloth.
-#define VOILE_CLOTH_VERLET 1u       // velocity Verlet; else RK4
-#define VOILE_CLOTH_ISOMETRIC 2u    // bends by the isometric model; its bend springs are slack
-#define VOILE_CLOTH_ALIKE 4u        // a mesh whose springs all have the class's constants, whatever their weight
+#define VOILE_CLOTH_VERLET 1u    // velocity Verlet; else RK4
+#define VOILE_CLOTH_ISOMETRIC 2u // bends by the isometric model; its bend springs are slack
+#define VOILE_CLOTH_ALIKE 4u     // a mesh whose springs all have the class's constants, whatever their weight
 // Set in MeshSpring.neighbour: no edge joins the two; a spring between them crosses one.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
@@ -39,7 +39,7 @@
 // Flags of a collider.
 #define VOILE_COLLIDER_CLOSED 1u    // a mesh without a border
 #define VOILE_COLLIDER_FRICTION 2u  // it has friction coefficients of its own
-#define VOILE_COLLIDER_ONE_SIDED 4u // a mesh that pushes to the side its triangles face; else to where a vertex came from
+#define VOILE_COLLIDER_ONE_SIDED 4u // a mesh pushes to the side its triangles face; else to where a vertex came from
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
 #define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
 // The number of the substep in which a list of candidates was made, and their count: one word.
@@ -48,7 +48,7 @@
 
 // Wave vectors of the gusts (wind.glsl), in units of the longest one's.
 #define VOILE_GUST_WAVES                                                                                               \
-    vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                             \
+    vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                           \
         vec3(1.5689f, -4.7068f, 6.2757f)
 
 // What a velocity's w says of its vertex, as a sum of these.
@@ -71,7 +71,7 @@ struct ClothRecord
 {
     uint first_vertex;
     uint vertices;
-    uint columns;          // of a grid; 0: a mesh
+    uint columns; // of a grid; 0: a mesh
     uint rows;
     uint first_list;       // of a mesh: its first MeshVertex
     float thickness;       // m
@@ -82,21 +82,21 @@ struct ClothRecord
     float drag_tangential; // C_t
     float border_share;    // of masses and of springs along a grid's border
     uint flags;
-    float omega_squared;   // 1/s^2, of the fastest mode at rest, bending included
+    float omega_squared;         // 1/s^2, of the fastest mode at rest, bending included
     float bending_omega_squared; // 1/s^2, what isometric bending has of it
-    float decay;           // 1/s, of the fastest decay
-    float strain_limit;    // largest l / L - 1; 0: none
-    float inverse_density; // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
+    float decay;                 // 1/s, of the fastest decay
+    float strain_limit;          // largest l / L - 1; 0: none
+    float inverse_density;   // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
     float strain_relaxation; // of a correction of the strain limit
     uint layers;             // bits; it meets colliders that have one of them
-    vec3 bending;          // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
-    float bending_time;    // s; the bending force sees x + bending_time * v
+    vec3 bending;       // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
+    float bending_time; // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 
-// A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[] and
-// of MeshCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first entries of
-// its vertices stand side by side, then their second ones, so that a workgroup's reads coalesce.
+// A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[]
+// and of MeshCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first
+// entries of its vertices stand side by side, then their second ones, so that a workgroup's reads coalesce.
 struct MeshVertex
 {
     uint first_spring;
@@ -120,8 +120,9 @@ struct MeshCorner
     uint c;
 };
 
-// What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift columns
-// from column `first` on, and as many rows from `row` on as fill the group: what lies near on the cloth is worked on together.
+// What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
+// columns from column `first` on, and as many rows from `row` on as fill the group: what lies near on the cloth is
+// worked on together.
 struct Chunk
 {
     uint cloth;
@@ -133,21 +134,21 @@ struct Chunk
 // A frame that holds follow, before and after the step.
 struct AnchorRecord
 {
-    mat4 from;   // world from anchor
+    mat4 from; // world from anchor
     mat4 to;
     mat4 motion; // to * inverse(from)
 };
 
 // Flags of a hold.
-#define VOILE_HOLD_PLACED 1u   // its place is given; else a pin goes on from where its vertex is
+#define VOILE_HOLD_PLACED 1u // its place is given; else a pin goes on from where its vertex is
 #define VOILE_HOLD_BACKSTOP 2u
 
 // A vertex that is held. Pins come first, then the others.
 struct HoldRecord
 {
-    vec3 place;         // m, in the anchor's space
-    uint vertex;        // in the solver's buffers
-    vec3 normal;        // of the backstop, in the anchor's space
+    vec3 place;  // m, in the anchor's space
+    uint vertex; // in the solver's buffers
+    vec3 normal; // of the backstop, in the anchor's space
     uint anchor;
     float stiffness;    // N/m
     float damping;      // N s/m
@@ -179,13 +180,13 @@ struct ColliderRecord
     uint flags;
     float static_friction;
     float kinetic_friction;
-    vec3 box_min; // m; everything of a mesh is inside. If it deforms: as it was added
-    uint first_node;     // or box, of a mesh that deforms
+    vec3 box_min;    // m; everything of a mesh is inside. If it deforms: as it was added
+    uint first_node; // or box, of a mesh that deforms
     vec3 box_max;
     uint first_triangle; // or leaf
     uint triangles;      // of a mesh, from first_triangle on
-    uint layers;    // bits; it meets cloths that have one of them
-    uint nodes;     // of a mesh that does not deform, from first_node on
+    uint layers;         // bits; it meets cloths that have one of them
+    uint nodes;          // of a mesh that does not deform, from first_node on
     uint padding;
     vec4 shape;  // plane: unit normal, offset; sphere: centre, radius; capsule: an end, radius; box: centre
     vec4 second; // capsule: the other end; box: half of its size
@@ -207,16 +208,16 @@ struct ColliderMotion
 // Push constants of the integration passes.
 struct StagePush
 {
-    vec3 gravity;      // m/s^2
-    float step;        // s, of the whole substep
-    vec3 wind;         // m/s
-    float air_density; // kg/m^3
-    vec4 gust_phases;  // rad, of the four waves of the gusts at this time
-    float gust_speed;  // m/s, of all waves together, root mean square
+    vec3 gravity;          // m/s^2
+    float step;            // s, of the whole substep
+    vec3 wind;             // m/s
+    float air_density;     // kg/m^3
+    vec4 gust_phases;      // rad, of the four waves of the gusts at this time
+    float gust_speed;      // m/s, of all waves together, root mean square
     float gust_wavenumber; // rad/m, of the longest wave
-    uint first_chunk;  // of the dispatch
-    float kick;        // Verlet: s, how long the acceleration acts on the velocity
-    float drift;       // Verlet: s, how far the position moves on; 0 ends a step
+    uint first_chunk;      // of the dispatch
+    float kick;            // Verlet: s, how long the acceleration acts on the velocity
+    float drift;           // Verlet: s, how far the position moves on; 0 ends a step
 };
 
 // Push constants of the contact pass.
@@ -224,15 +225,15 @@ struct ContactPush
 {
     float step; // s
     uint colliders;
-    uint renew;         // 1: lists of candidates are renewed in this substep
-    float renewal_time; // s, from one renewal to the next
+    uint renew;          // 1: lists of candidates are renewed in this substep
+    float renewal_time;  // s, from one renewal to the next
     float progress_from; // 0..1, of the step at the substep's start
     float progress_to;   // and at its end
     float progress_a_substep;
-    uint substep;        // counted through all steps
-    uint first_substep;  // of the step
-    uint vertices;       // of all cloths
-    uint features;       // 1: colliders have corners or edges that may have met vertices
+    uint substep;       // counted through all steps
+    uint first_substep; // of the step
+    uint vertices;      // of all cloths
+    uint features;      // 1: colliders have corners or edges that may have met vertices
 };
 
 // Push constants of the pass that brings vertices out of closed meshes.
@@ -247,7 +248,7 @@ struct RecoverPush
 // Push constants of the passes over pins, holds and tethers.
 struct HoldPush
 {
-    uint first;     // of the records
+    uint first; // of the records
     uint count;
     float step;     // s; pins: of the whole step
     float progress; // 0..1, of the step at the substep's end

@@ -99,21 +99,21 @@ void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
     }
 }
 
-// At the substep's end.
-Triangle triangle_of(uint index)
-{
-    if (query.deforms)
-        return moving_triangle(index, query.first_corner, query_progress).end;
-    const BvhTriangle stored = bvh_triangles[index];
-    return Triangle(stored.a, stored.b, stored.c);
-}
-
 void visit_triangle(uint index)
 {
-    const Triangle triangle = triangle_of(index);
     vec3 from = query.from;
+    Triangle triangle;
     if (query.deforms)
-        from = carried(moving_triangle(index, query.first_corner, query_progress), from);
+    {
+        const MovingTriangle moving = moving_triangle(index, query.first_corner, query_progress);
+        triangle = moving.end;
+        from = carried(moving, from);
+    }
+    else
+    {
+        const BvhTriangle stored = bvh_triangles[index];
+        triangle = Triangle(stored.a, stored.b, stored.c);
+    }
     const vec3 normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     const vec3 face = normal / max(length(normal), 1e-30); // 0 of a collapsed one
     query.visited = index;

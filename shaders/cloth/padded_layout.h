@@ -1,5 +1,5 @@
-// The hierarchy of a mesh that deforms, as the GPU folds and traverses it. Built by modules/cloth/src/padded_tree.cpp, its
-// boxes written by refit.comp, read by padded.glsl.
+// The hierarchy of a mesh that deforms, as the GPU folds and traverses it. Built by modules/cloth/src/padded_tree.cpp,
+// its boxes written by refit.comp, read by padded.glsl.
 #ifndef VOILE_PADDED_LAYOUT_H
 #define VOILE_PADDED_LAYOUT_H
 
@@ -7,9 +7,9 @@
 
 VOILE_SHARED_BEGIN(cloth)
 
-// A tree over n triangles is complete: level d holds 2^d boxes, the last level D = ceil(log2 n) one box a slot. The boxes
-// stand level by level, level d from index 2^d - 1 of the tree on. The children of box i on a level of m boxes are boxes
-// i and i + m of the next; so the box above slot s on level d is box s mod 2^d.
+// A tree over n triangles is complete: level d holds 2^d boxes, the last level D = ceil(log2 n) one box a slot. The
+// boxes stand level by level, level d from index 2^d - 1 of the tree on. The children of box i on a level of m boxes
+// are boxes i and i + m of the next; so the box above slot s on level d is box s mod 2^d.
 struct PaddedBox
 {
     vec3 min; // m, of the whole step
