@@ -113,7 +113,7 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
 
 int main(int argc, char** argv)
 {
-    if (argc < 2)
+    if (argc < 2 || argv[1][0] == '-') // no option is known
     {
         std::cerr << "usage: physics_report FOLDER [CASE ...]\n";
         return 1;
