@@ -7,8 +7,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <random>
 #include <vector>
 
 namespace
@@ -145,6 +151,130 @@ TEST_CASE("a polygon that crosses itself or has no area still gives all triangle
     CHECK(cut({{0, 0, 0}, {1, 0, 1}, {1, 0, 0}, {0, 0, 1}}).triangles.size() == 2);
     CHECK(cut({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}).triangles.size() == 3);
     CHECK(cut({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).triangles.size() == 2);
+}
+
+namespace
+{
+
+double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// The rule itself, for a polygon in the plane y = 0, with its time growing like the third power of the corners.
+std::vector<glm::uvec3> cut_by_rule(const std::vector<glm::vec3>& corners)
+{
+    std::vector<uint32_t> left(corners.size());
+    std::iota(left.begin(), left.end(), 0u);
+    double area = 0;
+    for (size_t i = 1; i + 1 < corners.size(); ++i)
+        area += doubled_area({corners[0].z, corners[0].x}, {corners[i].z, corners[i].x},
+                             {corners[i + 1].z, corners[i + 1].x});
+    const auto flat = [&](uint32_t i)
+    { return area < 0 ? glm::dvec2(corners[i].x, corners[i].z) : glm::dvec2(corners[i].z, corners[i].x); };
+    std::vector<glm::uvec3> triangles;
+    while (left.size() > 3)
+    {
+        const auto ear_at = [&](size_t i)
+        { return glm::uvec3(left[(i + left.size() - 1) % left.size()], left[i], left[(i + 1) % left.size()]); };
+        const auto in_way = [&](const glm::uvec3& t, uint32_t i)
+        {
+            const glm::dvec2 p = flat(i);
+            return p != flat(t.x) && p != flat(t.y) && p != flat(t.z) &&
+                   doubled_area(flat(t.x), flat(t.y), p) >= 0 && doubled_area(flat(t.y), flat(t.z), p) >= 0 &&
+                   doubled_area(flat(t.z), flat(t.x), p) >= 0;
+        };
+        std::optional<size_t> best;
+        bool best_clear = false;
+        double best_cut = 0;
+        for (size_t i = 0; i < left.size(); ++i)
+        {
+            const glm::uvec3 t = ear_at(i);
+            if (doubled_area(flat(t.x), flat(t.y), flat(t.z)) <= 0)
+                continue;
+            const glm::dvec2 way = flat(t.z) - flat(t.x);
+            const double cut = glm::dot(way, way);
+            const bool clear = std::ranges::none_of(left, [&](uint32_t other) { return in_way(t, other); });
+            if (best && (best_clear != clear ? best_clear : cut >= best_cut))
+                continue;
+            best = i;
+            best_clear = clear;
+            best_cut = cut;
+        }
+        triangles.push_back(ear_at(best.value_or(0)));
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(best.value_or(0)));
+    }
+    triangles.emplace_back(left[0], left[1], left[2]);
+    return triangles;
+}
+
+// A corner every 2 pi / count around the origin, at the distance that is given.
+template <typename Radius>
+std::vector<glm::vec3> corners_around(uint32_t count, Radius radius)
+{
+    std::vector<glm::vec3> corners;
+    for (uint32_t i = 0; i < count; ++i)
+    {
+        const double angle = 2 * std::numbers::pi * i / count;
+        const double r = radius(i);
+        corners.emplace_back(r * std::cos(angle), 0, -r * std::sin(angle));
+    }
+    return corners;
+}
+
+double area_of(const std::vector<glm::vec3>& corners)
+{
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < corners.size(); ++i)
+        sum += glm::cross(glm::dvec3(corners[i]), glm::dvec3(corners[(i + 1) % corners.size()]));
+    return 0.5 * glm::length(sum);
+}
+
+} // namespace
+
+TEST_CASE("of all ears the one with the shortest cut goes first, also where outlines touch, cross or lie on a line")
+{
+    std::mt19937 random(1);
+    const auto up_to = [&](uint32_t most) { return std::uniform_int_distribution<uint32_t>(0, most)(random); };
+    for (int round = 0; round < 600; ++round)
+    {
+        const uint32_t count = 4 + up_to(24);
+        std::vector<glm::vec3> corners;
+        if (round % 3 == 0)
+            corners = corners_around(count, [&](uint32_t) { return 0.1 + 0.01 * up_to(90); });
+        else
+            for (uint32_t i = 0; i < count; ++i) // few places: corners repeat, edges overlap
+                corners.emplace_back(up_to(round % 3 == 1 ? 3 : 100), 0, up_to(round % 3 == 1 ? 3 : 100));
+        CAPTURE(round);
+        if (area_of(corners) > 0) // else it has no side to be looked at from
+            REQUIRE(engine::triangulate(corners) == cut_by_rule(corners));
+    }
+}
+
+TEST_CASE("a face of very many corners takes no time to speak of")
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> any(0.1, 1);
+    constexpr uint32_t k_corners = 20000;
+    std::vector<glm::vec3> comb;
+    for (uint32_t i = 0; i < k_corners / 4; ++i)
+        for (const glm::vec2& p : {glm::vec2(0, 0), glm::vec2(0, 9), glm::vec2(0.5f, 9), glm::vec2(0.5f, 0)})
+            comb.emplace_back(p.x + static_cast<float>(i), 0, p.y);
+    comb.emplace_back(k_corners / 4, 0, -1);
+    comb.emplace_back(-1, 0, -1);
+    for (const std::vector<glm::vec3>& corners :
+         {corners_around(k_corners, [](uint32_t) { return 1.; }),
+          corners_around(k_corners, [](uint32_t i) { return i % 2 == 0 ? 0.3 : 1.; }),
+          corners_around(k_corners, [&](uint32_t) { return any(random); }), comb})
+        check_cut(corners, area_of(corners));
+    // It crosses itself everywhere, on few places.
+    std::vector<glm::vec3> lattice;
+    for (uint32_t i = 0; i < k_corners; ++i)
+        lattice.emplace_back(random() % 6, 0, random() % 6);
+    CHECK(engine::triangulate(lattice).size() == k_corners - 2);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    CHECK(elapsed.count() < 10); // each a fraction of a second; minutes where every ear looks at every corner
 }
 
 TEST_CASE("normals do not depend on how a face is cut, nor on triangles without area")

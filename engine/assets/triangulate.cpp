@@ -1,9 +1,13 @@
 // Ear clipping.
 #include "engine/assets/triangulate.hpp"
 
-#include <algorithm>
+#include "engine/assets/corner_tree.hpp"
+
 #include <cstdint>
-#include <numeric>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
 
 namespace engine
 {
@@ -42,85 +46,151 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
     return flat;
 }
 
-// Twice the area of a triangle; positive if it is counter-clockwise.
-double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
+// Cuts off, again and again, the ear with the shortest cut. An ear that has another corner in its way is not tested again
+// before that corner is cut off or the ear's own neighbors change, and a test searches a tree: so the time grows little
+// faster than the number of corners.
 class EarClipper
 {
 public:
-    explicit EarClipper(std::vector<glm::dvec2> flat) : flat_(std::move(flat)), left_(flat_.size())
+    explicit EarClipper(std::span<const glm::dvec2> flat)
+        : flat_(flat), tree_(flat), corners_(flat.size()), left_(static_cast<uint32_t>(flat.size()))
     {
-        std::iota(left_.begin(), left_.end(), 0u);
+        for (uint32_t i = 0; i < left_; ++i)
+        {
+            corners_[i].before = (i + left_ - 1) % left_;
+            corners_[i].after = (i + 1) % left_;
+        }
+        for (uint32_t i = 0; i < left_; ++i)
+            consider(i);
     }
 
     std::vector<glm::uvec3> run()
     {
         std::vector<glm::uvec3> triangles;
         triangles.reserve(flat_.size() - 2);
-        while (left_.size() > 3)
+        for (; left_ > 3; --left_)
         {
-            const size_t ear = find_ear();
+            const uint32_t ear = find_ear();
             triangles.push_back(triangle(ear));
-            left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+            cut_off(ear);
         }
-        triangles.push_back(triangle(1));
+        triangles.push_back(triangle(corners_[first_left()].after));
         return triangles;
     }
 
 private:
+    static constexpr uint32_t k_none = std::numeric_limits<uint32_t>::max();
+
+    struct CornerState
+    {
+        uint32_t before = 0; // its neighbors among those left
+        uint32_t after = 0;
+        uint32_t changes = 0; // of its neighbors, so far
+        bool is_cut = false;
+        uint32_t waiting = k_none; // the last of waiting_ that waits for it
+    };
+
+    // A convex corner, valid as long as its neighbors do not change.
     struct Ear
     {
         double cut; // squared length
-        size_t at;
+        uint32_t corner;
+        uint32_t changes;
+
+        bool operator>(const Ear& other) const { return cut != other.cut ? cut > other.cut : corner > other.corner; }
+    };
+    using Ears = std::priority_queue<Ear, std::vector<Ear>, std::greater<>>; // the shortest cut first
+
+    struct Waiting
+    {
+        Ear ear;
+        uint32_t next; // in waiting_, for the same corner
     };
 
-    // The corner at i of those left, between its neighbours.
-    [[nodiscard]] glm::uvec3 triangle(size_t i) const
+    [[nodiscard]] glm::uvec3 triangle(uint32_t corner) const
     {
-        const size_t count = left_.size();
-        return {left_[(i + count - 1) % count], left_[i], left_[(i + 1) % count]};
+        return {corners_[corner].before, corner, corners_[corner].after};
     }
 
-    // No other corner lies in it or on its edge. One at the same place as a corner of it does not count: that is how
-    // a hole is joined to the outline.
-    [[nodiscard]] bool is_clear(const glm::uvec3& ear) const
+    [[nodiscard]] FlatTriangle flat_triangle(uint32_t corner) const
     {
-        const glm::dvec2 a = flat_[ear.x];
-        const glm::dvec2 b = flat_[ear.y];
-        const glm::dvec2 c = flat_[ear.z];
-        return std::none_of(left_.begin(), left_.end(),
-                            [&](uint32_t i)
-                            {
-                                const glm::dvec2 p = flat_[i];
-                                return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-                                       turn(c, a, p) >= 0;
-                            });
+        return {flat_[corners_[corner].before], flat_[corner], flat_[corners_[corner].after]};
     }
 
-    [[nodiscard]] size_t find_ear()
+    [[nodiscard]] bool is_current(const Ear& ear) const
     {
-        ears_.clear();
-        for (size_t i = 0; i < left_.size(); ++i)
+        return !corners_[ear.corner].is_cut && corners_[ear.corner].changes == ear.changes;
+    }
+
+    uint32_t first_left()
+    {
+        while (corners_[first_left_].is_cut)
+            ++first_left_;
+        return first_left_;
+    }
+
+    void consider(uint32_t corner)
+    {
+        const FlatTriangle t = flat_triangle(corner);
+        if (turn(t[0], t[1], t[2]) <= 0)
+            return;
+        const glm::dvec2 cut = t[2] - t[0];
+        const Ear ear{glm::dot(cut, cut), corner, corners_[corner].changes};
+        convex_.push(ear);
+        untested_.push(ear);
+    }
+
+    void wait(const Ear& ear, uint32_t awaited)
+    {
+        waiting_.push_back({ear, corners_[awaited].waiting});
+        corners_[awaited].waiting = static_cast<uint32_t>(waiting_.size() - 1);
+    }
+
+    uint32_t find_ear()
+    {
+        while (!untested_.empty())
         {
-            const glm::uvec3 t = triangle(i);
-            const glm::dvec2 cut = flat_[t.z] - flat_[t.x];
-            if (turn(flat_[t.x], flat_[t.y], flat_[t.z]) > 0)
-                ears_.push_back({glm::dot(cut, cut), i});
+            const Ear ear = untested_.top();
+            untested_.pop();
+            if (!is_current(ear))
+                continue;
+            // By different seeds, or all ears would wait for the same corner, and all be tested again after it.
+            const auto in_its_way = tree_.find(flat_triangle(ear.corner), ear.corner);
+            if (!in_its_way)
+                return ear.corner;
+            wait(ear, *in_its_way);
         }
-        std::sort(ears_.begin(), ears_.end(),
-                  [](const Ear& a, const Ear& b) { return a.cut != b.cut ? a.cut < b.cut : a.at < b.at; });
-        for (const Ear& ear : ears_)
-            if (is_clear(triangle(ear.at)))
-                return ear.at;
-        return ears_.empty() ? 0 : ears_.front().at; // crosses itself, or has no area
+        // It crosses itself, or has no area.
+        while (!convex_.empty() && !is_current(convex_.top()))
+            convex_.pop();
+        return convex_.empty() ? first_left() : convex_.top().corner;
     }
 
-    std::vector<glm::dvec2> flat_;
-    std::vector<uint32_t> left_; // corners not yet cut off, in order
-    std::vector<Ear> ears_;
+    void cut_off(uint32_t corner)
+    {
+        CornerState& state = corners_[corner];
+        state.is_cut = true;
+        tree_.remove(corner);
+        corners_[state.before].after = state.after;
+        corners_[state.after].before = state.before;
+        for (const uint32_t neighbor : {state.before, state.after})
+        {
+            ++corners_[neighbor].changes;
+            consider(neighbor);
+        }
+        for (uint32_t i = state.waiting; i != k_none; i = waiting_[i].next)
+            if (is_current(waiting_[i].ear))
+                untested_.push(waiting_[i].ear);
+    }
+
+    std::span<const glm::dvec2> flat_;
+    CornerTree tree_; // of the corners left
+    std::vector<CornerState> corners_;
+    Ears convex_;   // all
+    Ears untested_; // those of which no corner is known that is in their way
+    std::vector<Waiting> waiting_;
+    uint32_t left_; // corners that are not cut off
+    uint32_t first_left_ = 0;
 };
 
 } // namespace
@@ -129,7 +199,8 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::vec3> corners)
 {
     if (corners.size() == 3)
         return {{0, 1, 2}};
-    return EarClipper(flatten(corners)).run();
+    const std::vector<glm::dvec2> flat = flatten(corners);
+    return EarClipper(flat).run();
 }
 
 } // namespace engine
