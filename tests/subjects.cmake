@@ -1,6 +1,6 @@
 voile_add_test(test_hello_cloth SOURCES test_hello_cloth.cpp LIBRARIES voile::engine)
 add_dependencies(test_hello_cloth hello_cloth)
-voile_add_test(test_assets SOURCES test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
+voile_add_test(test_assets SOURCES test_files.cpp test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES test_bvh.cpp test_bvh_cache.cpp test_closedness.cpp test_mesh_parts.cpp test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
@@ -12,8 +12,10 @@ voile_add_test(test_viewer_parts
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES test_contact.cpp test_candidates.cpp test_features.cpp test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
-voile_add_test(test_viewer SOURCES test_viewer.cpp test_viewer_solids.cpp test_viewer_frames.cpp
-               LIBRARIES voile_viewer_parts voile_scene_meshes voile::engine)
+voile_add_test(test_viewer
+               SOURCES test_viewer.cpp test_viewer_solids.cpp test_viewer_frames.cpp test_viewer_inputs.cpp
+                       test_signals.cpp test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
+               LIBRARIES voile_viewer_parts voile_scene_meshes voile::cloth_component)
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_mesh_cloth SOURCES test_mesh_cloth.cpp test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)

@@ -131,12 +131,13 @@ TEST_CASE("a picture that cannot be written leaves nothing behind")
     const TestFolder folder;
     const engine::Picture picture = make_picture(4, 4);
     const std::string nowhere = (folder / "gone/a.png").string();
-    CHECK(save_message(nowhere, picture) == nowhere + ": cannot write: No such file or directory");
+    CHECK(save_message(nowhere, picture) ==
+          nowhere + ": cannot be written: there is no folder " + (folder / "gone").string());
     CHECK(folder.is_empty());
 
     std::filesystem::create_directory(folder / "a.png"); // in the way
     const std::string taken = (folder / "a.png").string();
-    CHECK(save_message(taken, picture) == taken + ": cannot write: Is a directory");
+    CHECK(save_message(taken, picture) == taken + ": cannot be written: it is a folder");
     std::filesystem::remove(folder / "a.png");
     CHECK(folder.is_empty());
 }

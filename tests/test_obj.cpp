@@ -360,16 +360,18 @@ TEST_CASE("a mesh that cannot be written leaves nothing behind")
     const TestFolder folder;
     const engine::Mesh mesh = engine::make_ground(1.f);
     const std::string nowhere = (folder / "gone/a.obj").string();
-    CHECK(engine::save_obj(nowhere, mesh).error().message == nowhere + ": cannot write: No such file or directory");
+    CHECK(engine::save_obj(nowhere, mesh).error().message ==
+          nowhere + ": cannot be written: there is no folder " + (folder / "gone").string());
     CHECK(folder.is_empty());
 
     const std::string below_file = folder.write("file", "").string() + "/a.obj";
-    CHECK(engine::save_obj(below_file, mesh).error().message == below_file + ": cannot write: Not a directory");
+    CHECK(engine::save_obj(below_file, mesh).error().message ==
+          below_file + ": cannot be written: there is no folder " + (folder / "file").string());
     std::filesystem::remove(folder / "file");
 
     std::filesystem::create_directory(folder / "a.obj"); // in the way
     const std::string taken = (folder / "a.obj").string();
-    CHECK(engine::save_obj(taken, mesh).error().message == taken + ": cannot write: Is a directory");
+    CHECK(engine::save_obj(taken, mesh).error().message == taken + ": cannot be written: it is a folder");
     std::filesystem::remove(folder / "a.obj");
     CHECK(folder.is_empty());
 }

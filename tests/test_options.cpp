@@ -1,5 +1,7 @@
 // The viewer's command line.
 #include "samples/viewer/options.hpp"
+
+#include "gpu/printable.hpp"
 #include "test_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -137,6 +139,16 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({""}) == "the scene's name is empty");
     CHECK(message({"--fraems", "3"}) == "--fraems: unknown option; did you mean \"--frames\"?");
     CHECK(message({"--zzzzzzz"}) == "--zzzzzzz: unknown option");
+    const std::string odd = "\x1b[2J" + std::string(100000, 'o');
+    for (const char* option :
+         {"--frames", "--size", "--every", "--export", "--video", "--collider", "--debug", "--capture"})
+    {
+        const std::string refused = message({option, odd.c_str(), "--out", "a"});
+        CHECK(refused.size() < 400);
+        CHECK(refused == gpu::printable(refused, 400));
+    }
+    CHECK(message({odd.c_str(), odd.c_str()}).size() < 400);
+    CHECK(message({("--" + odd).c_str()}).size() < 400);
     CHECK(message({"--out", "a", "--every", "two\nlines"}) == "--every: \"two?lines\" is not a whole number");
 }
 

@@ -47,6 +47,24 @@ TEST_CASE("a bar is redrawn in place, ten times a second at most, and covers wha
     CHECK(out.str().ends_with("\n")); // an error message would start on a line of its own
 }
 
+TEST_CASE("a slow run is not silent")
+{
+    std::ostringstream out;
+    double now = 0;
+    {
+        viewer::Progress bar(100000, {&out, true, [&] { return now; }});
+        CHECK(out.str().find("] 0 %, 0/100000") != std::string::npos); // before the first frame
+    }
+    out.str("");
+    viewer::Progress lines(100000, {&out, false, [&] { return now; }});
+    for (uint32_t done = 1; done <= 10; ++done)
+    {
+        now += 8;
+        lines.update(done);
+    }
+    CHECK(out.str() == "frame 4 of 100000 (0 %), 0:32 elapsed\nframe 8 of 100000 (0 %), 1:04 elapsed\n");
+}
+
 TEST_CASE("a run without frames ends as well")
 {
     std::ostringstream out;

@@ -2,8 +2,13 @@
 #include "scene_text.hpp"
 #include "test_folder.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <doctest/doctest.h>
 
+#include <sys/stat.h>
+
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -287,6 +292,75 @@ TEST_CASE("a message stays short however long the input is")
     CHECK(scene_message("\"gravity\": [0, 1" + std::string(5000, '0') + ", 0]").size() < 300);
 }
 
+TEST_CASE("a zero byte is no end")
+{
+    const std::string whole = "{\"cloths\": [{" + k_grid + "}]}\n";
+    REQUIRE(message(whole) == "accepted");
+    const std::string zero(1, '\0');
+    CHECK(message(whole + zero + "garbage") == "dir/s.json:2:1: byte 61 is zero");
+    CHECK(message(whole + zero) == "dir/s.json:2:1: byte 61 is zero");
+    CHECK(message(zero + whole) == "dir/s.json:1:1: byte 0 is zero");
+}
+
+TEST_CASE("a scene of very many keys takes no time to speak of")
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::string keys;
+    for (int i = 0; i < 300000; ++i)
+        keys += "\"k" + std::to_string(i) + "\": 0,";
+    CHECK(message("{" + keys + "\"k7\": 0}") == "dir/s.json:1: key \"k7\" appears twice in the scene");
+    CHECK(message("{" + keys + "\"cloths\": []}").starts_with("dir/s.json:1: unknown key \"k0\" in the scene"));
+    std::string cloths;
+    for (int i = 0; i < 20000; ++i)
+        cloths += (i == 0 ? "{" : ",{") + k_grid + "}";
+    CHECK(parse("{\"cloths\": [" + cloths + "]}").value().cloths.size() == 20000);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    CHECK(elapsed.count() < 10);
+}
+
+TEST_CASE("messages about a scene show nothing of it raw")
+{
+    const std::string odd = "\\u001b[2J\\n" + std::string(300000, 'o');
+    const auto check = [](const std::string& refused)
+    {
+        CHECK(refused != "accepted");
+        CHECK(refused.size() < 400);
+        CHECK(refused == gpu::printable(refused, 400));
+    };
+    check(scene_message("\"" + odd + "\": 0"));
+    check(message("{\"" + odd + "\": {\"a\": 0, \"a\": 0}}"));
+    check(message("{\"" + odd + "\": 0, \"" + odd + "\": 0}"));
+    check(message("{\"cloths\": " + std::string(1000, '\x1b') + "}"));
+    check(cloth_message("\"name\": \"" + odd + "\""));
+    check(cloth_message("\"name\": \"\\u009b31m\""));
+    check(cloth_message("\"material\": \"" + odd + "\""));
+    check(cloth_message("\"pins\": [\"corner:" + odd + "\"]"));
+    check(cloth_message("\"pins\": [\"" + odd + "\"]"));
+    check(message("{\"cloths\": [{\"mesh\": \"" + odd + "\"}]}"));
+    check(collider_message("{\"mesh\": \"" + odd + "\"}"));
+    check(collider_message("{\"frames\": \"" + odd + ".obj\"}"));
+    check(collider_message("{\"mesh\": \"a.obj\", \"sides\": \"" + odd + "\"}"));
+    const auto unnamed = viewer::parse_scene("{", "dir/\x1b[2J" + std::string(4000, 'd') + "/s.json");
+    check(unnamed.error().message);
+    check(viewer::find_scene("\x1b" + std::string(300000, 's'), {}).error().message);
+    check(viewer::find_scene("\x1b" + std::string(300000, 's') + ".json", {}).error().message);
+    CHECK(cloth_message("\"name\": \"" + std::string(100, 'n') + "\"") == "accepted");
+    CHECK(cloth_message("\"name\": \"" + std::string(101, 'n') + "\"") ==
+          "dir/s.json:1: cloths[0].name is \"" + std::string(80, 'n') + "...\"; a name has at most 100 bytes");
+}
+
+TEST_CASE("a pipe is no scene, and no mesh of one")
+{
+    const TestFolder folder;
+    const fs::path fifo = folder / "pipe.json";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    CHECK(viewer::load_scene(fifo).error().message == fifo.string() + ": cannot read: not a regular file");
+    REQUIRE(::mkfifo((folder / "pipe.obj").c_str(), 0600) == 0);
+    const fs::path scene = folder.write("s.json", "{\"cloths\": [{\"mesh\": \"pipe.obj\"}]}");
+    CHECK(viewer::load_scene(scene).error().message == scene.string() + ":1: cloths[0].mesh: " +
+                                                           (folder / "pipe.obj").string() + " is not a regular file");
+}
+
 TEST_CASE("a file that cannot hold a scene")
 {
     const TestFolder folder;
@@ -304,7 +378,7 @@ TEST_CASE("a file that cannot hold a scene")
     folder.write("s.json", std::string((size_t{16} << 20) + 1, ' '));
     const auto large = viewer::load_scene(file);
     REQUIRE_FALSE(large);
-    CHECK(large.error().message == file + ": larger than 16 MiB, which is no scene file");
+    CHECK(large.error().message == file + ": cannot read: larger than 16 MiB");
     // Not a pattern: it would otherwise be the same file without end.
     folder.write("a.obj", "");
     CHECK_FALSE(viewer::frame_files({folder / "a.obj", 60.f}));

@@ -80,7 +80,8 @@ TEST_CASE("every key of a cloth is read")
     REQUIRE(scene.cloths.size() == 2);
     const viewer::ClothEntry& sheet = scene.cloths[0];
     CHECK(sheet.name == "sheet");
-    CHECK(sheet.line == 5);
+    CHECK(sheet.place.line == 5);
+    CHECK(sheet.place.path == "cloths[0]");
     const auto& grid = std::get<viewer::GridEntry>(sheet.form);
     CHECK(grid.columns == 8);
     CHECK(grid.rows == 5);

@@ -277,6 +277,32 @@ TEST_CASE("a face of very many corners takes no time to speak of")
     CHECK(elapsed.count() < 10); // each a fraction of a second; minutes where every ear looks at every corner
 }
 
+TEST_CASE("a dome and a tube make a capsule")
+{
+    const engine::Mesh dome = engine::make_dome(12);
+    const engine::Mesh tube = engine::make_tube(48);
+    CHECK(total_area(dome) == doctest::Approx(2 * std::numbers::pi).epsilon(0.005));
+    CHECK(total_area(tube) == doctest::Approx(2 * std::numbers::pi).epsilon(0.005));
+    CHECK(engine::bounds(dome).min.y == doctest::Approx(0));
+    CHECK(engine::bounds(dome).max.y == 1);
+    CHECK(engine::bounds(tube).min.y == 0);
+    CHECK(engine::bounds(tube).max.y == 1);
+    for (const engine::Mesh* mesh : {&dome, &tube})
+        for (const glm::uvec3& t : mesh->triangles)
+        {
+            const glm::vec3 a = mesh->positions[t.x];
+            const glm::vec3 across = glm::cross(mesh->positions[t.y] - a, mesh->positions[t.z] - a);
+            REQUIRE(glm::dot(across, mesh->normals[t.x] + mesh->normals[t.y] + mesh->normals[t.z]) > 0);
+        }
+    // Their rims meet vertex by vertex.
+    for (uint32_t i = 0; i <= 48; ++i)
+    {
+        const glm::vec3 rim = dome.positions[dome.positions.size() - 49 + i];
+        CHECK(glm::distance(rim, tube.positions[tube.positions.size() - 49 + i]) < 1e-6f);
+    }
+    CHECK(engine::turn_to({0, 0, 1}) * glm::vec3(0, 1, 0) == glm::vec3(0, 0, 1));
+}
+
 TEST_CASE("normals do not depend on how a face is cut, nor on triangles without area")
 {
     std::vector<glm::dvec3> sums;

@@ -1,13 +1,16 @@
-// Whole files in and out. C streams, because they leave the reason of a failure in errno.
+// Whole files in and out.
 #include "engine/assets/file.hpp"
 
+#include "engine/assets/atomic_file.hpp"
+#include "engine/assets/words.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
-#include <system_error>
+#include <cstring>
 
 namespace engine
 {
@@ -15,70 +18,83 @@ namespace engine
 namespace
 {
 
-struct CloseFile
+class Descriptor
 {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
+public:
+    explicit Descriptor(const std::filesystem::path& path)
+        : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) // a pipe without a writer opens at once
+    {
+    }
+    ~Descriptor()
+    {
+        if (number_ >= 0)
+            ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
 
-gpu::Error error_of(const std::filesystem::path& path, const std::string& what, int code)
+    [[nodiscard]] int number() const { return number_; }
+
+private:
+    int number_;
+};
+
+std::string too_large(uint64_t most_bytes)
 {
-    return gpu::Error{path.string() + ": " + what + ": " + std::generic_category().message(code)};
+    return "larger than " + std::to_string(most_bytes >> 20) + " MiB";
 }
 
-// True if every byte has reached the file; errno says why not.
-bool write_all(const std::filesystem::path& path, std::string_view bytes)
+// Empty if it can be read.
+std::string find_obstacle(int file, uint64_t most_bytes, struct stat& status)
 {
-    File file(std::fopen(path.c_str(), "wb"));
-    if (!file)
-        return false;
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    const int code = errno;
-    const bool closed = std::fclose(file.release()) == 0; // a full disk may show only here
-    if (!written)
-        errno = code;
-    return written && closed;
+    if (file < 0 || ::fstat(file, &status) != 0)
+        return std::strerror(errno);
+    if (S_ISDIR(status.st_mode))
+        return std::strerror(EISDIR);
+    if (!S_ISREG(status.st_mode))
+        return "not a regular file";
+    return static_cast<uint64_t>(status.st_size) > most_bytes ? too_large(most_bytes) : "";
 }
 
 } // namespace
 
-gpu::Result<std::string> read_file(const std::filesystem::path& path)
+gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes)
 {
-    std::error_code ignored; // a path that cannot be looked at fails to open just below, with the reason
-    if (std::filesystem::is_directory(path, ignored))
-        return error_of(path, "cannot read", EISDIR);
-    const File file(std::fopen(path.c_str(), "rb"));
-    if (!file)
-        return error_of(path, "cannot read", errno);
-    std::string bytes;
-    std::array<char, 65536> chunk;
-    while (const size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get()))
-        bytes.append(chunk.data(), count);
-    if (std::ferror(file.get()) != 0)
-        return error_of(path, "cannot read", errno);
+    const auto error = [&](const std::string& reason)
+    { return gpu::Error{path_text(path) + ": cannot read: " + reason}; };
+    const Descriptor file(path);
+    struct stat status{};
+    if (const std::string obstacle = find_obstacle(file.number(), most_bytes, status); !obstacle.empty())
+        return error(obstacle);
+    // One byte more than it should have: those of the system have no size, and others grow while they are read.
+    std::string bytes(static_cast<size_t>(status.st_size) + 1, '\0');
+    size_t size = 0;
+    while (true)
+    {
+        const ssize_t count = ::read(file.number(), bytes.data() + size, bytes.size() - size);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return error(std::strerror(errno));
+        size += static_cast<size_t>(count);
+        if (size > most_bytes)
+            return error(too_large(most_bytes));
+        if (count == 0)
+            break;
+        if (size == bytes.size())
+            bytes.resize(std::max<size_t>(2 * size, 65536));
+    }
+    bytes.resize(size);
     return bytes;
 }
 
 gpu::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes)
 {
-    // The process in the name keeps two writers of the same file out of each other's way.
-    std::filesystem::path part = path;
-    part += "." + std::to_string(getpid()) + ".part";
-    std::error_code ignored;
-    if (!write_all(part, bytes))
-    {
-        const int code = errno;
-        std::filesystem::remove(part, ignored);
-        return error_of(path, "cannot write", code);
-    }
-    std::error_code failure;
-    std::filesystem::rename(part, path, failure);
-    if (failure)
-    {
-        std::filesystem::remove(part, ignored);
-        return error_of(path, "cannot write", failure.value());
-    }
-    return {};
+    gpu::Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file)
+        return file.error();
+    file.value().write(bytes);
+    return file.value().commit();
 }
 
 } // namespace engine

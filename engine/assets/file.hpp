@@ -3,6 +3,7 @@
 
 #include "gpu/result.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,10 +11,13 @@
 namespace engine
 {
 
-// Errors: "PATH: cannot read: REASON", the reason in the words of the system ("Is a directory").
-gpu::Result<std::string> read_file(const std::filesystem::path& path);
+constexpr uint64_t k_largest_file = uint64_t{4} << 30; // bytes
 
-// Writes beside the path and renames when complete, so that nobody ever sees half a file. The folder must exist.
+// Regular files alone: a pipe or a device may have no end. Errors: "PATH: cannot read: REASON", the reason in the words
+// of the system ("Is a directory"), "not a regular file" or "larger than N MiB".
+gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes = k_largest_file);
+
+// As AtomicFile does: nobody ever sees half a file. The folder must exist.
 gpu::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace engine

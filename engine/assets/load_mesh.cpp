@@ -3,6 +3,7 @@
 
 #include "engine/assets/obj.hpp"
 #include "engine/assets/ply.hpp"
+#include "engine/assets/words.hpp"
 
 #include <string>
 
@@ -18,7 +19,7 @@ gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* repor
         return load_obj(path, report, vertices);
     if (extension == ".ply")
         return load_ply(path, report, vertices);
-    return gpu::Error{path.string() + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
+    return gpu::Error{path_text(path) + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
 }
 
 } // namespace engine

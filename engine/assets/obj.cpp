@@ -4,6 +4,7 @@
 #include "engine/assets/file.hpp"
 #include "engine/assets/mesh_builder.hpp"
 #include "engine/assets/obj_check.hpp"
+#include "engine/assets/words.hpp"
 
 #include <tiny_obj_loader.h>
 
@@ -30,7 +31,7 @@ gpu::Result<Polygons> parse(CheckedObj checked, const std::string& name)
     const bool read =
         tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, nullptr, false, false);
     if (!read || shapes.size() != 1)
-        return gpu::Error{name + ": cannot be parsed: " + error};
+        return gpu::Error{name + ": cannot be parsed: " + gpu::printable(error)};
 
     Polygons polygons;
     const std::vector<float>& v = attributes.vertices;
@@ -60,7 +61,7 @@ void append_number(std::string& text, Number number)
 
 gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
-    const std::string name = path.string();
+    const std::string name = path_text(path);
     const gpu::Result<std::string> text = read_file(path);
     if (!text)
         return text.error();
@@ -83,7 +84,7 @@ gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
         for (int axis = 0; axis < 3; ++axis)
         {
             if (!std::isfinite(mesh.positions[i][axis]))
-                return gpu::Error{path.string() + ": position " + std::to_string(i) + " is not finite"};
+                return gpu::Error{path_text(path) + ": position " + std::to_string(i) + " is not finite"};
             append_number(text, mesh.positions[i][axis]);
         }
         text += "\n";
@@ -95,7 +96,7 @@ gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
         {
             const uint32_t index = mesh.triangles[i][corner];
             if (index >= mesh.positions.size())
-                return gpu::Error{path.string() + ": triangle " + std::to_string(i) + " refers to position " +
+                return gpu::Error{path_text(path) + ": triangle " + std::to_string(i) + " refers to position " +
                                   std::to_string(index) + " of " + std::to_string(mesh.positions.size())};
             append_number(text, index + 1);
         }

@@ -96,7 +96,7 @@ bool Checker::check_numbers()
     {
         const std::optional<double> value = parse_number(words_[i]);
         if (!value)
-            fail(quoted(words_[i]) + " is not a number");
+            fail(quoted_word(words_[i]) + " is not a number");
         else if (!std::isfinite(*value))
             fail("coordinate is not finite");
     }
@@ -132,7 +132,7 @@ void Checker::check_index(List list, std::string_view digits, std::string_view c
     int64_t index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error != std::errc{} || end != digits.data() + digits.size())
-        return fail("face corner " + quoted(corner) + " is not position[/texture coordinate][/normal]");
+        return fail("face corner " + quoted_word(corner) + " is not position[/texture coordinate][/normal]");
     const std::string refers = "face refers to " + std::string(k_list_names[list]) + " " + std::to_string(index);
     if (index == 0)
         return fail(refers + ", indices start at 1");
@@ -161,7 +161,7 @@ void Checker::check_corner(std::string_view corner)
         checked_.text.push_back('/');
         rest.remove_prefix(slash + 1);
     }
-    fail("face corner " + quoted(corner) + " is not position[/texture coordinate][/normal]");
+    fail("face corner " + quoted_word(corner) + " is not position[/texture coordinate][/normal]");
 }
 
 void Checker::check_face()

@@ -6,9 +6,10 @@
 #include "engine/assets/ply_header.hpp"
 #include "engine/assets/words.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,8 +21,8 @@ namespace engine
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little, "binary values are copied as they are");
-
+constexpr PlyFormat k_native_format =
+    std::endian::native == std::endian::little ? PlyFormat::binary_little_endian : PlyFormat::binary_big_endian;
 constexpr std::string_view k_blank_lines = " \t\r\n\v\f";
 
 class BodyReader
@@ -62,13 +63,13 @@ private:
 
 std::string BodyReader::entry() const
 {
-    return element_->name + " " + std::to_string(index_ + 1) + " of " + std::to_string(element_->count);
+    return gpu::printable(element_->name) + " " + std::to_string(index_ + 1) + " of " + std::to_string(element_->count);
 }
 
 void BodyReader::fail(const std::string& reason)
 {
     if (error_.empty())
-        error_ = name_ + (header_.is_ascii ? ":" + std::to_string(line_) + ": " : ": " + entry() + ": ") + reason;
+        error_ = name_ + (header_.is_ascii() ? ":" + std::to_string(line_) + ": " : ": " + entry() + ": ") + reason;
 }
 
 void BodyReader::fail_at_end()
@@ -80,38 +81,40 @@ void BodyReader::fail_at_end()
 template <typename T>
 double BodyReader::read_bytes()
 {
-    T value{};
-    if (body_.size() < sizeof value)
+    std::array<char, sizeof(T)> bytes{};
+    if (body_.size() < bytes.size())
     {
         fail_at_end();
         return 0;
     }
-    std::memcpy(&value, body_.data(), sizeof value);
-    body_.remove_prefix(sizeof value);
-    return static_cast<double>(value);
+    std::copy_n(body_.begin(), bytes.size(), bytes.begin());
+    body_.remove_prefix(bytes.size());
+    if (header_.format != k_native_format)
+        std::reverse(bytes.begin(), bytes.end());
+    return static_cast<double>(std::bit_cast<T>(bytes));
 }
 
 double BodyReader::read_word(PlyType type)
 {
     if (next_word_ == words_.size())
     {
-        fail(element_->name + " has too few values");
+        fail(gpu::printable(element_->name) + " has too few values");
         return 0;
     }
     const std::string_view word = words_[next_word_++];
     const std::optional<double> value = parse_number(word);
     const bool is_float = type == PlyType::Float32 || type == PlyType::Float64;
     if (!value)
-        fail(quoted(word) + " is not a number");
+        fail(quoted_word(word) + " is not a number");
     else if (!is_float && (std::abs(*value) > std::numeric_limits<uint32_t>::max() || *value != std::floor(*value)))
-        fail(quoted(word) + " is not a whole number of 32 bits");
+        fail(quoted_word(word) + " is not a whole number of 32 bits");
     return error_.empty() ? *value : 0;
 }
 
 // Every value of every type fits in a double. Zero after a failure.
 double BodyReader::read(PlyType type)
 {
-    if (header_.is_ascii)
+    if (header_.is_ascii())
         return read_word(type);
     switch (type)
     {
@@ -176,13 +179,14 @@ void BodyReader::begin_line()
 void BodyReader::end_line()
 {
     if (next_word_ != words_.size())
-        fail(element_->name + " has too many values, " + quoted(words_[next_word_]) + " is left over");
+        fail(gpu::printable(element_->name) + " has too many values, " + quoted_word(words_[next_word_]) +
+             " is left over");
 }
 
 // One vertex, face or whatever the element is; in ASCII one line.
 void BodyReader::read_entry(const PlyElement& element)
 {
-    if (header_.is_ascii)
+    if (header_.is_ascii())
         begin_line();
     glm::dvec3 position(0.);
     for (const PlyProperty& property : element.properties)
@@ -203,7 +207,7 @@ void BodyReader::read_entry(const PlyElement& element)
     }
     if (element.name == "vertex")
         polygons_.positions.emplace_back(position);
-    if (header_.is_ascii)
+    if (header_.is_ascii())
         end_line();
 }
 
@@ -220,7 +224,7 @@ gpu::Result<Polygons> BodyReader::run()
     if (!error_.empty())
         return gpu::Error{error_};
     if (body_.find_first_not_of(k_blank_lines) != std::string_view::npos)
-        return gpu::Error{name_ + ": something follows the last " + header_.elements.back().name};
+        return gpu::Error{name_ + ": something follows the last " + gpu::printable(header_.elements.back().name)};
     return std::move(polygons_);
 }
 
@@ -228,7 +232,7 @@ gpu::Result<Polygons> BodyReader::run()
 
 gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
-    const std::string name = path.string();
+    const std::string name = path_text(path);
     const gpu::Result<std::string> text = read_file(path);
     if (!text)
         return text.error();

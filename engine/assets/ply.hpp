@@ -9,7 +9,7 @@
 namespace engine
 {
 
-// Loads a PLY file, ASCII or binary little-endian, as one mesh: x, y, z of the element "vertex" and the list
+// Loads a PLY file, ASCII or binary of either endianness, as one mesh: x, y, z of the element "vertex" and the list
 // "vertex_indices" or "vertex_index" of the element "face", each of any type that makes sense. Everything else in the
 // file is skipped, so that texture coordinates are zero and normals are always computed. Faces are triangulated and
 // cleaned as load_obj does. Errors name the file, the line (in a binary file the vertex or face) and the reason:

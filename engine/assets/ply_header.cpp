@@ -8,6 +8,7 @@
 #include <charconv>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 namespace engine
@@ -17,6 +18,7 @@ namespace
 {
 
 using Words = std::vector<std::string_view>;
+using Names = std::unordered_set<std::string_view>;
 
 std::optional<PlyType> parse_type(std::string_view word)
 {
@@ -70,18 +72,21 @@ bool has_role(const PlyElement& element, PlyRole role)
 // format ascii 1.0
 std::string read_format(const Words& words, PlyHeader& header)
 {
+    // In the order of PlyFormat.
+    constexpr std::array<std::string_view, 3> k_names = {"ascii", "binary_little_endian", "binary_big_endian"};
     if (words.size() != 3 || words[0] != "format")
-        return "expected 'format ascii 1.0' or 'format binary_little_endian 1.0'";
-    if (words[1] != "ascii" && words[1] != "binary_little_endian")
-        return "format " + quoted(words[1]) + " is not ascii or binary_little_endian";
+        return "expected 'format FORMAT 1.0'";
+    const auto* const found = std::find(k_names.begin(), k_names.end(), words[1]);
+    if (found == k_names.end())
+        return "format " + quoted_word(words[1]) + " is not ascii, binary_little_endian or binary_big_endian";
     if (words[2] != "1.0")
-        return "version " + quoted(words[2]) + " is not 1.0";
-    header.is_ascii = words[1] == "ascii";
+        return "version " + quoted_word(words[2]) + " is not 1.0";
+    header.format = static_cast<PlyFormat>(found - k_names.begin());
     return {};
 }
 
 // element vertex 8
-std::string read_element(const Words& words, PlyHeader& header)
+std::string read_element(const Words& words, PlyHeader& header, Names& elements)
 {
     if (words.size() != 3)
         return "expected 'element NAME COUNT'";
@@ -90,10 +95,9 @@ std::string read_element(const Words& words, PlyHeader& header)
     const auto [end, error] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
     if (error != std::errc{} || end != words[2].data() + words[2].size() ||
         element.count > uint32_t{std::numeric_limits<int32_t>::max()})
-        return "count " + quoted(words[2]) + " is not a whole number from 0 to 2147483647";
-    for (const PlyElement& other : header.elements)
-        if (other.name == element.name)
-            return "element " + quoted(words[1]) + " appears twice";
+        return "count " + quoted_word(words[2]) + " is not a whole number from 0 to 2147483647";
+    if (!elements.insert(words[1]).second)
+        return "element " + quoted_word(words[1]) + " appears twice";
     header.elements.push_back(std::move(element));
     return {};
 }
@@ -108,7 +112,7 @@ std::string read_property(const Words& words, PlyHeader& header)
         return "property before any element";
     for (size_t i = is_list ? 2 : 1; i + 1 < words.size(); ++i)
         if (!parse_type(words[i]))
-            return "type " + quoted(words[i]) + " is not known";
+            return "type " + quoted_word(words[i]) + " is not known";
 
     PlyElement& element = header.elements.back();
     PlyProperty property{std::string(words.back()), *parse_type(words[words.size() - 2]), is_list};
@@ -116,23 +120,21 @@ std::string read_property(const Words& words, PlyHeader& header)
     if (is_list)
         property.count_type = *parse_type(words[2]);
     if (!is_integer(property.count_type) || (property.role == PlyRole::Corners && !is_integer(property.type)))
-        return "list " + quoted(property.name) + " is counted or indexed by " +
+        return "list " + quoted_word(property.name) + " is counted or indexed by " +
                std::string(words[is_integer(property.count_type) ? 3 : 2]) + ", needs an integer type";
     if (property.role != PlyRole::Skipped && has_role(element, property.role))
-        return "property " + quoted(property.name) + " appears twice";
+        return "property " + quoted_word(property.name) + " appears twice";
     element.properties.push_back(std::move(property));
     return {};
 }
 
-std::string read_line(const Words& words, PlyHeader& header)
+std::string read_statement(const Words& words, PlyHeader& header, Names& elements)
 {
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info")
-        return {};
     if (words[0] == "element")
-        return read_element(words, header);
+        return read_element(words, header, elements);
     if (words[0] == "property")
         return read_property(words, header);
-    return quoted(words[0]) + " is not a statement of a PLY header";
+    return quoted_word(words[0]) + " is not a statement of a PLY header";
 }
 
 // What a mesh needs that the header does not announce.
@@ -167,6 +169,8 @@ gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string
         return gpu::Error{name + ": file is empty"};
     PlyHeader header;
     Words words;
+    Names elements;
+    bool has_format = false;
     for (bool ended = false; !ended;)
     {
         if (text.empty())
@@ -175,13 +179,18 @@ gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string
         split(take_line(text), words);
         ++header.lines;
         std::string reason;
-        ended = words.size() == 1 && words[0] == "end_header";
+        const bool is_comment = words.empty() || words[0] == "comment" || words[0] == "obj_info";
         if (header.lines == 1)
             reason = words.size() == 1 && words[0] == "ply" ? "" : "not a PLY file, the first line is not 'ply'";
-        else if (header.lines == 2)
+        else if (!is_comment && !has_format)
+        {
             reason = read_format(words, header);
-        else if (!ended)
-            reason = read_line(words, header);
+            has_format = true;
+        }
+        else if (words.size() == 1 && words[0] == "end_header")
+            ended = true;
+        else if (!is_comment)
+            reason = read_statement(words, header, elements);
         if (!reason.empty())
             return gpu::Error{name + ":" + std::to_string(header.lines) + ": " + reason};
     }

@@ -12,6 +12,13 @@
 namespace engine
 {
 
+enum class PlyFormat
+{
+    ascii,
+    binary_little_endian,
+    binary_big_endian
+};
+
 enum class PlyType
 {
     Int8,
@@ -53,10 +60,12 @@ struct PlyElement
 // Has an element "vertex" with X, Y and Z and an element "face" with Corners, neither of them without entries.
 struct PlyHeader
 {
-    bool is_ascii = false; // else binary, little-endian
+    PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
     uint32_t vertices = 0;
     uint32_t lines = 0; // of the header itself
+
+    [[nodiscard]] bool is_ascii() const { return format == PlyFormat::ascii; }
 };
 
 // Takes the header off the text. Errors: "NAME:LINE: REASON", or "NAME: REASON" for the file as a whole.

@@ -31,30 +31,36 @@ void add_ring(Mesh& mesh, const glm::vec3& center, float radius, float v, uint32
     }
 }
 
-// The bands at the poles have one triangle a segment, the others two.
-void join_rings(Mesh& mesh, uint32_t bands, uint32_t segments)
+enum class Ends
+{
+    poles,    // both
+    pole_rim, // a pole at the first ring alone
+    rims
+};
+
+// A band at a pole has one triangle per segment, the others two.
+void join_rings(Mesh& mesh, uint32_t bands, uint32_t segments, Ends ends = Ends::poles)
 {
     const uint32_t stride = segments + 1;
     for (uint32_t band = 0; band < bands; ++band)
         for (uint32_t segment = 0; segment < segments; ++segment)
         {
             const uint32_t corner = band * stride + segment;
-            if (band + 1 < bands)
+            if (band + 1 < bands || ends != Ends::poles)
                 mesh.triangles.emplace_back(corner, corner + stride, corner + stride + 1);
-            if (band > 0)
+            if (band > 0 || ends == Ends::rims)
                 mesh.triangles.emplace_back(corner, corner + stride + 1, corner + 1);
         }
 }
 
-// Turns the y axis to `axis`, which has unit length.
+} // namespace
+
 glm::mat3 turn_to(const glm::vec3& axis)
 {
     const glm::vec3 aside = std::abs(axis.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 x = glm::normalize(aside - glm::dot(aside, axis) * axis);
     return {x, axis, glm::cross(x, axis)};
 }
-
-} // namespace
 
 Mesh make_sphere(const glm::vec3& center, float radius, uint32_t rings)
 {
@@ -83,6 +89,32 @@ Mesh make_capsule(const glm::vec3& from, const glm::vec3& to, float radius, uint
         p = 0.5f * (from + to) + turn * p;
     for (glm::vec3& n : mesh.normals)
         n = turn * n;
+    return mesh;
+}
+
+Mesh make_dome(uint32_t rings)
+{
+    Mesh mesh;
+    for (uint32_t ring = 0; ring <= rings; ++ring)
+        add_ring(mesh, glm::vec3(0), 1, 0.5f * static_cast<float>(ring) / static_cast<float>(rings), 4 * rings);
+    join_rings(mesh, rings, 4 * rings, Ends::pole_rim);
+    return mesh;
+}
+
+Mesh make_tube(uint32_t segments)
+{
+    Mesh mesh;
+    for (const float y : {1.f, 0.f})
+    {
+        const size_t first = mesh.positions.size();
+        add_ring(mesh, glm::vec3(0), 1, 0.5f, segments);
+        for (size_t i = first; i < mesh.positions.size(); ++i)
+        {
+            mesh.positions[i].y = y;
+            mesh.normals[i].y = 0;
+        }
+    }
+    join_rings(mesh, 1, segments, Ends::rims);
     return mesh;
 }
 

@@ -45,14 +45,21 @@ std::optional<double> parse_number(std::string_view word)
     return std::abs(value) > double{std::numeric_limits<float>::max()} ? HUGE_VAL : value;
 }
 
-std::string quoted(std::string_view word)
+std::string path_text(const std::filesystem::path& path, size_t most)
+{
+    const std::string text = gpu::printable(path.string(), std::string::npos);
+    if (text.size() <= most)
+        return text;
+    size_t begin = text.size() - most;
+    while (begin < text.size() && (static_cast<unsigned char>(text[begin]) & 0xc0u) == 0x80u) // within a character
+        ++begin;
+    return "..." + text.substr(begin);
+}
+
+std::string quoted_word(std::string_view word)
 {
     constexpr size_t k_longest = 40;
-    std::string text(word.substr(0, k_longest));
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = '?';
-    return "'" + text + (word.size() > k_longest ? "...'" : "'");
+    return "'" + gpu::printable(word, k_longest) + "'";
 }
 
 } // namespace engine

@@ -1,6 +1,10 @@
 // Lines, words and numbers of text files that somebody else wrote.
 #pragma once
 
+#include "gpu/printable.hpp"
+
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +25,10 @@ void split(std::string_view line, std::vector<std::string_view>& words);
 // Empty if the word is not a number. Too large for a float counts as infinite, too small for a double as zero.
 std::optional<double> parse_number(std::string_view word);
 
-// A word in quotation marks, fit for one line of a message: cut to 40 bytes, control characters replaced.
-std::string quoted(std::string_view word);
+// A path, printable (gpu::printable). Its end is kept, and "..." before it where something was left out.
+std::string path_text(const std::filesystem::path& path, size_t most = 240);
+
+// A word in quotation marks, printable.
+std::string quoted_word(std::string_view word);
 
 } // namespace engine

@@ -1,6 +1,8 @@
 // Device: instance, choice of the physical device, logical device, allocator.
 #include "engine/gpu/device.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -130,13 +132,13 @@ size_t find_device(const std::vector<DeviceInfo>& infos, const std::string& want
     {
         if (index < infos.size())
             return index;
-        throw StartupError("--device: no device " + wanted + ", there are " + std::to_string(infos.size()) +
-                           " (--list-devices shows them)");
+        throw StartupError("--device: no device " + gpu::printable(wanted) + ", there are " +
+                           std::to_string(infos.size()) + " (--list-devices shows them)");
     }
     for (index = 0; index < infos.size(); ++index)
         if (infos[index].name.find(wanted) != std::string::npos)
             return index;
-    throw StartupError("--device: no device is called \"" + wanted + "\" (--list-devices shows them)");
+    throw StartupError("--device: no device is called \"" + gpu::printable(wanted) + "\" (--list-devices shows them)");
 }
 
 size_t best_device(const std::vector<DeviceInfo>& infos)

@@ -11,9 +11,10 @@ namespace engine
 
 DeformingMesh::DeformingMesh(UploadBatch& uploads, uint32_t slots, const Mesh& mesh, const Surface& surface,
                              std::string label, const glm::mat4& model)
-    : DrawnMesh(uploads, mesh, surface, std::move(label), model), triangles_(mesh.triangles),
+    : DrawnMesh(surface, std::move(label), model), faces_(uploads, mesh), triangles_(mesh.triangles),
       vertices_(2 * mesh.positions.size()), slots_(slots)
 {
+    faces_.attach(drawable_);
     const size_t bytes = vertices_.size() * sizeof(glm::vec4);
     for (Slot& slot : slots_)
         slot.vertices = take(gpu::create_buffer(uploads.context(), "deforming vertices", bytes,

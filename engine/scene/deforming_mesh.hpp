@@ -31,6 +31,7 @@ private:
         bool current = false; // it holds vertices_
     };
 
+    MeshFaces faces_;
     std::vector<glm::uvec3> triangles_;
     std::vector<glm::dvec3> normal_sums_; // kept for its memory
     std::vector<glm::vec4> vertices_;     // all positions, then all normals, as drawn

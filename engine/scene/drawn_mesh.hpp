@@ -10,6 +10,19 @@
 namespace engine
 {
 
+// The faces and texture coordinates of a mesh, in device buffers.
+class MeshFaces
+{
+public:
+    MeshFaces(UploadBatch& uploads, const Mesh& mesh);
+    void attach(Drawable& drawable) const;
+
+private:
+    gpu::Buffer texture_coordinates_;
+    gpu::Buffer indices_;
+    uint32_t index_count_;
+};
+
 class DrawnMesh : public Component
 {
 public:
@@ -19,16 +32,12 @@ public:
     void record_draw(VkCommandBuffer cmd, View& view) override;
 
 protected:
-    // Copies faces and texture coordinates into device buffers through `uploads`.
-    DrawnMesh(UploadBatch& uploads, const Mesh& mesh, const Surface& surface, std::string label,
-              const glm::mat4& model);
+    DrawnMesh(const Surface& surface, std::string label, const glm::mat4& model);
 
-    Drawable drawable_; // without positions and normals
+    Drawable drawable_; // without buffers
 
 private:
     std::string label_;
-    gpu::Buffer texture_coordinates_;
-    gpu::Buffer indices_;
 };
 
 } // namespace engine

@@ -3,19 +3,36 @@
 
 #include "engine/scene/drawn_mesh.hpp"
 
+#include <memory>
+
 namespace engine
 {
+
+// A mesh in device buffers, which any number of components may draw.
+class MeshBuffers
+{
+public:
+    // Copies the mesh through `uploads`. StartupError when a buffer cannot be made.
+    MeshBuffers(UploadBatch& uploads, const Mesh& mesh);
+    void attach(Drawable& drawable) const;
+
+private:
+    MeshFaces faces_;
+    gpu::Buffer positions_;
+    gpu::Buffer normals_;
+};
 
 class StaticMesh : public DrawnMesh
 {
 public:
-    // Copies the mesh into device buffers through `uploads`.
+    StaticMesh(std::shared_ptr<const MeshBuffers> buffers, const Surface& surface, std::string label = "mesh",
+               const glm::mat4& model = glm::mat4(1.f));
+    // With buffers of its own.
     StaticMesh(UploadBatch& uploads, const Mesh& mesh, const Surface& surface, std::string label = "mesh",
                const glm::mat4& model = glm::mat4(1.f));
 
 private:
-    gpu::Buffer positions_;
-    gpu::Buffer normals_;
+    std::shared_ptr<const MeshBuffers> buffers_;
 };
 
 } // namespace engine

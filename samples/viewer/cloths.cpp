@@ -5,8 +5,8 @@
 #include "samples/viewer/text.hpp"
 
 #include "engine/assets/load_mesh.hpp"
+#include "engine/assets/words.hpp"
 
-#include <cstdio>
 #include <utility>
 
 namespace viewer
@@ -75,11 +75,6 @@ std::vector<uint32_t> pinned_vertices(const Vertices& vertices, const PinEntry& 
     return box_vertices(vertices, std::get<BoxPin>(pin.at));
 }
 
-gpu::Error at(const SceneFile& scene, uint32_t line, const std::string& reason)
-{
-    return gpu::Error{place(scene, line) + ": " + reason};
-}
-
 // The holds of all pins; where two pins name a vertex, the later one holds it.
 gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
                            const Vertices& vertices, AddedCloth& added)
@@ -92,7 +87,7 @@ gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const 
         {
             auto anchor = solver.add_anchor(matrix(*pin.motion, 0));
             if (!anchor)
-                return at(scene, pin.line, anchor.error().message);
+                return error_at(scene, pin.place, anchor.error().message);
             hold.anchor = anchor.value();
             added.moving_pins.push_back({anchor.value(), *pin.motion});
         }
@@ -102,13 +97,13 @@ gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const 
         hold.max_distance = pin.max_distance.value_or(hold.max_distance);
         const std::vector<uint32_t> pinned = pinned_vertices(vertices, pin);
         if (pinned.empty())
-            return at(scene, pin.line, "cloth \"" + entry.name + "\": no vertex lies in the pin's box");
+            return error_at(scene, pin.place, "cloth " + in_quotes(entry.name) + ": no vertex lies in the pin's box");
         for (const uint32_t vertex : pinned)
         {
             if (vertex >= vertices.start.size())
-                return at(scene, pin.line,
-                          "cloth \"" + entry.name + "\": pin vertex:" + std::to_string(vertex) + ", but it has " +
-                              std::to_string(vertices.start.size()) + " vertices");
+                return error_at(scene, pin.place,
+                          "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
+                              ", but it has " + std::to_string(vertices.start.size()) + " vertices");
             hold.vertex = vertex;
             hold.place.reset();
             if (hold.anchor) // as seen from the anchor, which is at its place of time 0
@@ -121,11 +116,11 @@ gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const 
         if (hold)
             holds.push_back(*hold);
     if (auto set = solver.set_holds(added.id, holds); !set)
-        return at(scene, entry.line, set.error().message);
+        return error_at(scene, entry.place, set.error().message);
     if (!entry.tethers)
         return {};
     if (auto set = solver.set_tethers(added.id, cloth::Tethers{*entry.tethers}); !set)
-        return at(scene, entry.line, set.error().message);
+        return error_at(scene, entry.place, set.error().message);
     return {};
 }
 
@@ -150,7 +145,7 @@ gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& sce
     grid.material = material.value();
     vertices = {grid_places(grid), grid.columns, grid.rows};
     auto id = solver.add_cloth(grid);
-    return id ? id : at(scene, entry.line, id.error().message);
+    return id ? id : error_at(scene, entry.place, id.error().message);
 }
 
 void tell(const cloth::MeshReport& report, const std::string& name)
@@ -167,7 +162,7 @@ void tell(const cloth::MeshReport& report, const std::string& name)
     add(report.coincident_vertices, "vertices at the place of another and not joined to it: open seams");
     add(report.softened_edges, "edges of slivers, softer than the material so that they cost no substeps");
     if (!odd.empty())
-        std::fprintf(stderr, "viewer: note: cloth \"%s\": %s\n", name.c_str(), odd.c_str());
+        note("cloth " + in_quotes(name) + ": " + odd);
 }
 
 gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
@@ -176,7 +171,7 @@ gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& sce
     engine::MeshReport changes;
     auto loaded = engine::load_mesh(file, &changes, engine::MeshVertices::positions);
     if (!loaded)
-        return at(scene, entry.line, loaded.error().message);
+        return error_at(scene, entry.place, loaded.error().message);
     const engine::Mesh& mesh = loaded.value();
     auto material = make_cloth_material(scene, entry.material, std::nullopt);
     if (!material)
@@ -194,7 +189,7 @@ gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& sce
         vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
     auto id = solver.add_cloth(cloth);
     if (!id)
-        return at(scene, entry.line, file.string() + ": " + id.error().message);
+        return error_at(scene, entry.place, engine::path_text(file) + ": " + id.error().message);
     cloth::MeshReport report = solver.mesh_report(id.value());
     report.degenerate_triangles += changes.degenerate_triangles;
     tell(report, entry.name);

@@ -1,10 +1,8 @@
 // Loading and placing the solids.
 #include "samples/viewer/colliders.hpp"
 
-#include "samples/viewer/text.hpp"
-
 #include "engine/assets/load_mesh.hpp"
-#include "engine/assets/shapes.hpp"
+#include "gpu/printable.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -74,7 +72,7 @@ gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
     const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
     if (spin.x + spin.y + spin.z < 180 * scene.step.rate)
         return {};
-    return gpu::Error{place(scene, entry.line) + ": colliders: the spin is half a turn a frame or more"};
+    return error_at(scene, {entry.place.line, entry.place.path + ".motion.spin"}, "is half a turn per frame or more");
 }
 
 gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
@@ -83,7 +81,7 @@ gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
     if (!loaded)
         return loaded.error();
     const auto frames = std::make_shared<const MeshSequence>(std::move(loaded.value()));
-    return Solid{.name = entry.frames->pattern.stem().string(),
+    return Solid{.name = gpu::printable(entry.frames->pattern.stem().string()),
                  .shape = frames->first(),
                  .transform = matrix(entry.transform),
                  .frames = frames};
@@ -96,7 +94,7 @@ gpu::Result<Solid> load_shape(const ColliderEntry& entry)
         auto loaded = engine::load_mesh(mesh->file);
         if (!loaded)
             return loaded.error();
-        return Solid{.name = mesh->file.stem().string(),
+        return Solid{.name = gpu::printable(mesh->file.stem().string()),
                      .shape = std::move(loaded.value()),
                      .transform = matrix(entry.transform)};
     }
@@ -111,22 +109,20 @@ gpu::Result<Solid> load_shape(const ColliderEntry& entry)
     return Solid{.name = "box", .shape = scaled(std::get<BoxShape>(entry.shape), scale), .transform = transform};
 }
 
-gpu::Result<Solid> load_solid(const SceneFile& scene, size_t index)
+gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
 {
-    const ColliderEntry& entry = scene.colliders[index];
     if (auto spin = check_spin(scene, entry); !spin)
         return spin.error();
     auto solid = entry.frames ? load_sequence(entry) : load_shape(entry);
     if (!solid && entry.frames)
-        return gpu::Error{one_line(place(scene, entry.line) + ": colliders[" + std::to_string(index) +
-                                   "].frames: " + solid.error().message)};
+        return error_at(scene, {entry.place.line, entry.place.path + ".frames"}, solid.error().message);
     if (!solid)
         return solid;
     solid.value().friction = entry.friction;
     solid.value().motion = entry.motion;
     solid.value().sides = entry.sides;
     solid.value().layers = entry.layers;
-    solid.value().line = entry.line;
+    solid.value().place = entry.place;
     return solid;
 }
 
@@ -236,19 +232,6 @@ std::optional<engine::Bounds> Solid::reach() const
     return all;
 }
 
-engine::Mesh mesh_of(const Solid& solid, float half_size)
-{
-    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        return engine::make_ground(half_size, plane->y);
-    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        return engine::make_sphere(sphere->center, sphere->radius);
-    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
-        return engine::make_capsule(capsule->from, capsule->to, capsule->radius);
-    if (const auto* box = std::get_if<BoxShape>(&solid.shape))
-        return engine::make_box(box->min, box->max);
-    return std::get<engine::Mesh>(solid.shape);
-}
-
 engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b)
 {
     return a ? engine::Bounds{glm::min(a->min, b.min), glm::max(a->max, b.max)} : b;
@@ -257,9 +240,9 @@ engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bound
 gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
 {
     std::vector<Solid> solids;
-    for (size_t i = 0; i < scene.colliders.size(); ++i)
+    for (const ColliderEntry& entry : scene.colliders)
     {
-        auto solid = load_solid(scene, i);
+        auto solid = load_solid(scene, entry);
         if (!solid)
             return solid.error();
         solids.push_back(std::move(solid.value()));
@@ -278,7 +261,7 @@ gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Option
         if (!mesh)
             return mesh.error();
         Solid solid;
-        solid.name = options.colliders[i].stem().string();
+        solid.name = gpu::printable(options.colliders[i].stem().string());
         solid.transform = fit(engine::bounds(mesh.value()), part_of(box, i, options.colliders.size()));
         solid.shape = std::move(mesh.value());
         solid.motion = motion;

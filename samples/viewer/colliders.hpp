@@ -22,7 +22,7 @@ struct Solid
     std::shared_ptr<const MeshSequence> frames{}; // of a mesh that deforms, whose shape is the first; else null
     std::optional<MeshSides> sides{};
     uint32_t layers = 1;
-    uint32_t line = 0; // of the scene file; 0: of the command line
+    Place place{}; // in the scene file; line 0: of the command line
 
     // A mesh that is flat and level, and stays so: drawn as ground, and no part of the collider box.
     [[nodiscard]] bool is_ground() const;
@@ -33,9 +33,6 @@ struct Solid
     // Of all forms that it takes, at all places that it spins and sways through; its velocity is not looked at.
     [[nodiscard]] std::optional<engine::Bounds> reach() const;
 };
-
-// As it is drawn and measured, in the solid's own space. A plane is a square, `half_size` m to each side.
-engine::Mesh mesh_of(const Solid& solid, float half_size);
 
 // Loads all meshes. The files of --collider take the place of the scene's meshes (its ground stays): each is scaled
 // evenly, centred and set on the floor of the box that those filled, side by side where there are several. In a scene

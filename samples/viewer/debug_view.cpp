@@ -1,8 +1,9 @@
 // Boxes, contacts and normals as lines and dots.
 #include "samples/viewer/debug_view.hpp"
 
+#include "samples/viewer/text.hpp"
+
 #include <algorithm>
-#include <cstdio>
 
 namespace viewer
 {
@@ -47,8 +48,7 @@ float longest_side(const std::vector<glm::vec3>& places)
 
 void tell_no_boxes(const Solid& solid)
 {
-    std::fprintf(stderr, "viewer: note: collider \"%s\" deforms: its boxes are on the GPU alone and are not drawn\n",
-                 solid.name.c_str());
+    note("collider " + in_quotes(solid.name) + " deforms: its boxes are on the GPU alone and are not drawn");
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 
 #include "samples/viewer/text.hpp"
 
+#include "engine/assets/words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -39,7 +42,7 @@ std::optional<size_t> first_not_finite(std::span<const glm::vec3> values)
 gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
 {
     const auto error = [&](const std::string& reason)
-    { return gpu::Error{one_line(path.string() + ": cloth \"" + surface.name + "\" " + reason)}; };
+    { return gpu::Error{engine::path_text(path) + ": cloth " + in_quotes(surface.name) + " " + reason}; };
     const size_t count = surface.positions.size();
     if (count > k_most_int32 || surface.triangles.size() > k_most_int32)
         return error("has too many vertices or triangles for the format");
@@ -63,7 +66,7 @@ gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surfac
 class LineWriter
 {
 public:
-    explicit LineWriter(AtomicFile& file) : file_(file) {}
+    explicit LineWriter(engine::AtomicFile& file) : file_(file) {}
 
     void vector(std::string_view keyword, const glm::vec3& v)
     {
@@ -102,7 +105,7 @@ private:
         file_.write(text_);
     }
 
-    AtomicFile& file_;
+    engine::AtomicFile& file_;
     std::string text_;
 };
 
@@ -143,12 +146,14 @@ std::vector<fs::path> export_paths(const fs::path& path, const std::vector<std::
         return {path};
     std::vector<fs::path> result;
     std::set<fs::path> taken;
+    std::map<std::string, int> last_numbers; // of stems that are there more than once
     for (const std::string& name : cloth_names)
     {
         const std::string stem = path.stem().string() + "_" + file_name_part(name);
         fs::path candidate = path.parent_path() / (stem + path.extension().string());
-        for (int number = 2; !taken.insert(candidate).second; ++number)
-            candidate = path.parent_path() / (stem + "_" + std::to_string(number) + path.extension().string());
+        int& number = last_numbers.try_emplace(stem, 1).first->second;
+        while (!taken.insert(candidate).second)
+            candidate = path.parent_path() / (stem + "_" + std::to_string(++number) + path.extension().string());
         result.push_back(candidate);
     }
     return result;
@@ -158,12 +163,12 @@ gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& sur
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    gpu::Result<AtomicFile> created = AtomicFile::create(path);
+    gpu::Result<engine::AtomicFile> created = engine::AtomicFile::create(path);
     if (!created)
         return created.error();
-    AtomicFile& file = created.value();
+    engine::AtomicFile& file = created.value();
     LineWriter lines(file);
-    file.write("# metres, y up\no " + one_line(surface.name) + "\n");
+    file.write("# metres, y up\no " + gpu::printable(surface.name) + "\n");
     for (const glm::vec3& position : surface.positions)
         lines.vector("v", position);
     for (const glm::vec3& normal : surface.normals)
@@ -177,10 +182,10 @@ gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& sur
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    gpu::Result<AtomicFile> created = AtomicFile::create(path);
+    gpu::Result<engine::AtomicFile> created = engine::AtomicFile::create(path);
     if (!created)
         return created.error();
-    AtomicFile& file = created.value();
+    engine::AtomicFile& file = created.value();
     file.write(ply_header(surface));
     std::string bytes;
     for (size_t i = 0; i < surface.positions.size(); ++i)
@@ -204,7 +209,7 @@ gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const s
 {
     const std::string extension = lower_extension(path);
     if (extension != ".obj" && extension != ".ply")
-        return gpu::Error{one_line(path.string() + ": does not end in .obj or .ply")};
+        return gpu::Error{engine::path_text(path) + ": does not end in .obj or .ply"};
     std::vector<std::string> names;
     names.reserve(surfaces.size());
     for (const ClothSurface& surface : surfaces)
@@ -230,8 +235,8 @@ gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uin
                                                        float sample_rate)
 {
     if (point_count > k_most_int32)
-        return gpu::Error{one_line(path.string() + ": too many points for the format")};
-    gpu::Result<AtomicFile> file = AtomicFile::create(path);
+        return gpu::Error{engine::path_text(path) + ": too many points for the format"};
+    gpu::Result<engine::AtomicFile> file = engine::AtomicFile::create(path);
     if (!file)
         return file.error();
     std::string header("POINTCACHE2\0", 12);
@@ -247,7 +252,7 @@ gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uin
 gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
 {
     const auto error = [&](const std::string& reason)
-    { return gpu::Error{one_line(path_.string() + ": sample " + std::to_string(samples_) + " " + reason)}; };
+    { return gpu::Error{engine::path_text(path_) + ": sample " + std::to_string(samples_) + " " + reason}; };
     if (positions.size() != points_)
         return error("has " + std::to_string(positions.size()) + " points instead of " + std::to_string(points_));
     if (const auto vertex = first_not_finite(positions))

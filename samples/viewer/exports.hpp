@@ -2,8 +2,8 @@
 // (metres, y up). Every file appears under its name only when it is complete.
 #pragma once
 
+#include "engine/assets/atomic_file.hpp"
 #include "gpu/result.hpp"
-#include "samples/viewer/atomic_file.hpp"
 
 #include <glm/glm.hpp>
 
@@ -58,12 +58,12 @@ public:
     [[nodiscard]] uint32_t samples() const { return samples_; }
 
 private:
-    PointCacheWriter(AtomicFile file, std::filesystem::path path, uint32_t points)
+    PointCacheWriter(engine::AtomicFile file, std::filesystem::path path, uint32_t points)
         : file_(std::move(file)), path_(std::move(path)), points_(points)
     {
     }
 
-    AtomicFile file_;
+    engine::AtomicFile file_;
     std::filesystem::path path_;
     uint32_t points_ = 0;
     uint32_t samples_ = 0;

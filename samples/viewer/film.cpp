@@ -1,7 +1,6 @@
 #include "samples/viewer/film.hpp"
 
-#include "samples/viewer/atomic_file.hpp"
-#include "samples/viewer/text.hpp"
+#include "engine/assets/words.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -30,7 +29,7 @@ namespace fs = std::filesystem;
 
 gpu::Error film_error(const fs::path& path, const std::string& reason)
 {
-    return gpu::Error{one_line(path.string() + ": no film: " + reason)};
+    return gpu::Error{engine::path_text(path) + ": no film: " + reason};
 }
 
 std::vector<std::string> encoder_arguments(const FilmSettings& settings, const fs::path& file)
@@ -66,8 +65,18 @@ int spawn_encoder(std::vector<std::string> arguments, int input, int messages, p
     (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     (void)posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
     // A process group of its own: Ctrl-C reaches the viewer alone, and the encoder can be ended with what it started.
-    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    // And signals as every program starts with them, whatever the viewer does with its own.
+    sigset_t none;
+    sigset_t ignored;
+    (void)sigemptyset(&none);
+    (void)sigemptyset(&ignored);
+    (void)sigaddset(&ignored, SIGPIPE);
+    (void)sigaddset(&ignored, SIGXFSZ);
+    (void)posix_spawnattr_setflags(&attributes,
+                                   POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     (void)posix_spawnattr_setpgroup(&attributes, 0);
+    (void)posix_spawnattr_setsigmask(&attributes, &none);
+    (void)posix_spawnattr_setsigdefault(&attributes, &ignored);
     const int problem = posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
     (void)posix_spawnattr_destroy(&attributes);
     (void)posix_spawn_file_actions_destroy(&actions);
@@ -100,7 +109,7 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
         return film_error(path, "a picture without pixels");
     if (!std::isfinite(settings.rate) || settings.rate <= 0)
         return film_error(path, "the frame rate is not positive");
-    const gpu::Result<fs::path> target = resolve_target(path);
+    const gpu::Result<fs::path> target = engine::resolve_target(path);
     if (!target)
         return target.error();
 
@@ -119,12 +128,20 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         return film_error(path, std::string("no socket: ") + std::strerror(errno));
     film.socket_ = ends[0];
-    film.temporary_ = temporary_name(film.target_);
-    const int problem =
-        spawn_encoder(encoder_arguments(settings, film.temporary_), ends[1], ::fileno(film.messages_), film.encoder_);
+    film.temporary_ = engine::TemporaryFile(film.target_);
+    const int problem = spawn_encoder(encoder_arguments(settings, film.temporary_.path()), ends[1],
+                                      ::fileno(film.messages_), film.encoder_);
     close_descriptor(ends[1]);
     if (problem == 0)
+    {
+        film.encoder_cleanup_ = std::make_unique<engine::Cleanup>(
+            [encoder = film.encoder_]
+            {
+                (void)::kill(-encoder, SIGKILL);
+                (void)::waitpid(encoder, nullptr, 0); // it makes no file any more
+            });
         return film;
+    }
     film.encoder_ = -1;
     // EACCES also comes from a folder of PATH that may not be searched.
     if (problem == ENOENT || (problem == EACCES && settings.program.find('/') == std::string::npos))
@@ -138,9 +155,10 @@ FilmWriter::~FilmWriter()
 }
 
 FilmWriter::FilmWriter(FilmWriter&& other) noexcept
-    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::move(other.temporary_)),
       frame_bytes_(other.frame_bytes_), frames_(other.frames_), encoder_(std::exchange(other.encoder_, -1)),
-      socket_(std::exchange(other.socket_, -1)), messages_(std::exchange(other.messages_, nullptr))
+      encoder_cleanup_(std::move(other.encoder_cleanup_)), socket_(std::exchange(other.socket_, -1)),
+      messages_(std::exchange(other.messages_, nullptr))
 {
 }
 
@@ -154,6 +172,7 @@ int FilmWriter::wait_for_encoder()
         {
         }
         encoder_ = -1;
+        encoder_cleanup_.reset();
     }
     return status;
 }
@@ -165,9 +184,7 @@ void FilmWriter::discard() noexcept
     (void)wait_for_encoder();
     if (messages_ != nullptr)
         (void)std::fclose(std::exchange(messages_, nullptr));
-    if (!temporary_.empty())
-        (void)::unlink(temporary_.c_str());
-    temporary_.clear();
+    temporary_.remove();
 }
 
 gpu::Error FilmWriter::encoder_error()
@@ -213,11 +230,9 @@ gpu::Result<void> FilmWriter::finish()
     const int status = wait_for_encoder();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return encoder_error();
-    gpu::Result<void> renamed = rename_file(temporary_, target_);
-    if (renamed)
-        temporary_.clear();
+    gpu::Result<void> completed = temporary_.complete(target_);
     discard();
-    return renamed;
+    return completed;
 }
 
 } // namespace viewer

@@ -1,6 +1,7 @@
 // Frames as an H.264 film (MP4), encoded by an ffmpeg that runs beside the program and reads them from a socket.
 #pragma once
 
+#include "engine/assets/atomic_file.hpp"
 #include "gpu/result.hpp"
 
 #include <sys/types.h>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -49,10 +51,11 @@ private:
 
     std::filesystem::path path_;      // as asked for, for messages
     std::filesystem::path target_;    // links followed
-    std::filesystem::path temporary_; // what ffmpeg writes
+    engine::TemporaryFile temporary_; // what ffmpeg writes
     size_t frame_bytes_ = 0;
     uint64_t frames_ = 0;
     pid_t encoder_ = -1;
+    std::unique_ptr<engine::Cleanup> encoder_cleanup_; // a signal that ends the program ends the encoder first
     int socket_ = -1;
     std::FILE* messages_ = nullptr; // an unnamed file that takes the encoder's standard error
 };

@@ -1,6 +1,7 @@
 // FrameOutputs: copies while recording, files once the device is done.
 #include "samples/viewer/frame_outputs.hpp"
 
+#include "engine/assets/words.hpp"
 #include "gpu/recorder.hpp"
 
 #include <cmath>
@@ -15,10 +16,10 @@ gpu::Result<void> make_folder(const std::filesystem::path& folder)
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
     if (problem || !std::filesystem::is_directory(folder))
-        return gpu::Error{"--out: " + folder.string() + ": cannot make the folder: " +
+        return gpu::Error{"--out: " + engine::path_text(folder) + ": cannot make the folder: " +
                           (problem ? problem.message() : "a file of that name is in the way")};
     // Folders can be there and still not take files.
-    const auto probe = AtomicFile::create(folder / "frame_0000.png");
+    const auto probe = engine::AtomicFile::create(folder / "frame_0000.png");
     if (!probe)
         return gpu::Error{"--out: " + probe.error().message};
     return {};
@@ -142,24 +143,28 @@ gpu::Result<void> FrameOutputs::write(const engine::FrameInfo& frame)
     return {};
 }
 
-gpu::Result<std::vector<std::string>> FrameOutputs::finish()
+void Outcome::add(const gpu::Result<void>& result, std::string what)
 {
-    std::vector<std::string> written;
+    if (result)
+        written.push_back(std::move(what));
+    else if (!failure)
+        failure = result.error();
+}
+
+void FrameOutputs::finish(Outcome& outcome)
+{
     if (folder_ && pictures_written_ > 0)
-        written.push_back(std::to_string(pictures_written_) + " pictures in " + folder_->string());
+        outcome.add({}, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
     if (film_)
-    {
-        if (auto finished = film_->finish(); !finished)
-            return finished.error();
-        written.push_back(film_path_->string());
-    }
+        outcome.add(film_->finish(), written_name(*film_path_));
     for (Cache& cache : caches_)
-    {
-        if (auto finished = cache.writer.finish(); !finished)
-            return finished.error();
-        written.push_back(cache.path.string());
-    }
-    return written;
+        outcome.add(cache.writer.finish(), written_name(cache.path));
+}
+
+std::string written_name(const std::filesystem::path& path)
+{
+    constexpr size_t k_longest = 4096; // bytes: scripts may read it, and no path is longer
+    return engine::path_text(path, k_longest);
 }
 
 } // namespace viewer

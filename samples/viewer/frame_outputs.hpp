@@ -13,6 +13,18 @@
 namespace viewer
 {
 
+// What a run has written, for people, and the first thing that it could not write.
+struct Outcome
+{
+    std::vector<std::string> written;
+    std::optional<gpu::Error> failure;
+
+    void add(const gpu::Result<void>& result, std::string what);
+};
+
+// A path as `written` has it.
+std::string written_name(const std::filesystem::path& path);
+
 class FrameOutputs
 {
 public:
@@ -26,8 +38,8 @@ public:
     // Writes what belongs to a frame that the device has finished.
     gpu::Result<void> write(const engine::FrameInfo& frame);
 
-    // Completes the film and the caches. Returns what was written, for people.
-    gpu::Result<std::vector<std::string>> finish();
+    // Completes the film and the caches; what fails does not keep the others from it.
+    void finish(Outcome& outcome);
 
 private:
     FrameOutputs() = default;

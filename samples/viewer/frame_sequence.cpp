@@ -2,6 +2,7 @@
 #include "samples/viewer/frame_sequence.hpp"
 
 #include "engine/assets/load_mesh.hpp"
+#include "engine/assets/words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,8 @@ gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const s
             first_faces = faces.value();
         const std::string other = difference(faces.value(), first_faces);
         if (!other.empty())
-            return gpu::Error{file.string() + ": " + other + " (" + files.value().front().filename().string() + ")"};
+            return gpu::Error{engine::path_text(file) + ": " + other + " (" +
+                              engine::path_text(files.value().front().filename()) + ")"};
         return faces;
     };
     for (const std::filesystem::path& file : files.value())

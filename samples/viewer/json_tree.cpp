@@ -2,12 +2,15 @@
 
 #include "samples/viewer/text.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <unordered_set>
 
 namespace viewer
 {
@@ -16,6 +19,16 @@ namespace
 
 constexpr size_t k_deepest_nesting = 64;
 constexpr size_t k_longest_reason = 200; // bytes; the parser quotes the token, which may be a whole file
+
+// "LINE:COLUMN" of a byte, both from 1.
+std::string place_text(std::string_view text, size_t offset)
+{
+    const std::string_view before = text.substr(0, offset);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const size_t newline = before.rfind('\n');
+    const size_t column = newline == std::string_view::npos ? offset + 1 : offset - newline;
+    return std::to_string(line) + ":" + std::to_string(column);
+}
 
 // Feeds the parser and tells how far it has read, which nlohmann::json's callbacks do not.
 class CountingIterator
@@ -85,10 +98,9 @@ public:
 
     bool key(string_t& value) override
     {
-        JsonNode& object = open_.back();
-        if (std::find(object.keys.begin(), object.keys.end(), value) != object.keys.end())
+        if (!open_keys_.back().insert(value).second)
             return fail("key " + in_quotes(value) + " appears twice in " + path());
-        object.keys.push_back(value);
+        open_.back().keys.push_back(value);
         return true;
     }
 
@@ -97,18 +109,13 @@ public:
     {
         constexpr int k_number_overflow = 406;
         if (problem.id == k_number_overflow)
-            return fail("number " + shortened(token) + " is beyond the largest that can be held");
+            return fail("number " + gpu::printable(token) + " is beyond the largest that can be held");
         // "[json.exception.parse_error.101] parse error at line 3, column 5: REASON": the place is ours to say.
         std::string reason = problem.what();
         if (const size_t at = reason.find(": "); at != std::string::npos)
             reason = reason.substr(at + 2);
         const size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
-        const std::string_view before = text_.substr(0, offset);
-        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-        const size_t newline = before.rfind('\n');
-        const size_t column = newline == std::string_view::npos ? offset + 1 : offset - newline;
-        error = one_line(file_ + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " +
-                         shortened(reason, k_longest_reason));
+        error = file_ + ":" + place_text(text_, offset) + ": " + gpu::printable(reason, k_longest_reason);
         return false;
     }
 
@@ -154,6 +161,7 @@ private:
         if (open_.size() == k_deepest_nesting)
             return fail("more than 64 levels of nesting");
         open_.push_back(make(kind));
+        open_keys_.emplace_back();
         return true;
     }
 
@@ -161,6 +169,7 @@ private:
     {
         JsonNode node = std::move(open_.back());
         open_.pop_back();
+        open_keys_.pop_back();
         return add(std::move(node));
     }
 
@@ -174,12 +183,12 @@ private:
             else
                 result += (result.empty() ? "" : ".") + open_[i].keys.back();
         }
-        return result.empty() ? "the scene" : result;
+        return result.empty() ? "the scene" : gpu::printable(result);
     }
 
     bool fail(const std::string& reason)
     {
-        error = one_line(file_ + ":" + std::to_string(line()) + ": " + reason);
+        error = file_ + ":" + std::to_string(line()) + ": " + reason;
         return false;
     }
 
@@ -189,6 +198,7 @@ private:
     size_t counted_ = 0;
     uint32_t line_ = 1;
     std::vector<JsonNode> open_; // the containers that are not closed yet, outermost first
+    std::vector<std::unordered_set<std::string>> open_keys_; // theirs, to find repetitions
 };
 
 } // namespace
@@ -222,13 +232,16 @@ const char* describe(JsonNode::Kind kind)
 gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
 {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return gpu::Error{one_line(file + ": the file is empty")};
+        return gpu::Error{file + ": the file is empty"};
+    // The parser would take it for the end of the text.
+    if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
+        return gpu::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
     size_t consumed = 0;
     TreeBuilder builder(text, file, &consumed);
     const CountingIterator begin(text.data(), &consumed);
     const CountingIterator end(text.data() + text.size(), &consumed);
     if (!nlohmann::json::sax_parse(begin, end, &builder))
-        return gpu::Error{builder.error.value_or(one_line(file + ": not valid JSON"))};
+        return gpu::Error{builder.error.value_or(file + ": not valid JSON")};
     return std::move(builder.root);
 }
 

@@ -2,11 +2,13 @@
 #include "samples/viewer/debug_view.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/progress.hpp"
+#include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
 
+#include "engine/app/signals.hpp"
 #include "engine/gpu/capture.hpp"
+#include "gpu/printable.hpp"
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -19,21 +21,6 @@ using namespace viewer;
 constexpr int k_done = 0;
 constexpr int k_failed = 1;
 constexpr int k_invalid = 2; // validation messages, or a counter that must be zero is not
-
-volatile std::sig_atomic_t g_interrupted = 0;
-
-// An interrupted run ends by way of main's error, so that no unfinished file stays behind. A second signal ends it at
-// once.
-void stop_on_signals()
-{
-    for (const int signal : {SIGINT, SIGTERM})
-        std::signal(signal,
-                    [](int received)
-                    {
-                        g_interrupted = 1;
-                        std::signal(received, SIG_DFL);
-                    });
-}
 
 void print_devices()
 {
@@ -49,9 +36,9 @@ void print_devices()
 void check_targets(const Options& options)
 {
     if (options.stats)
-        (void)engine::take(AtomicFile::create(*options.stats));
+        (void)engine::take(engine::AtomicFile::create(*options.stats));
     if (options.export_file)
-        (void)engine::take(AtomicFile::create(*options.export_file));
+        (void)engine::take(engine::AtomicFile::create(*options.export_file));
 }
 
 engine::AppOptions app_options(const Options& options, const SceneFile& scene)
@@ -94,15 +81,15 @@ void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatis
     };
     const bool endless = app.has_window() && !options.frames;
     const uint32_t frames = endless ? UINT32_MAX : engine::take(headless_frames(options));
+    SofteningNotes softening;
     std::optional<Progress> progress;
     if (!app.has_window())
         progress.emplace(frames);
     for (uint32_t i = 0; i < frames; ++i)
     {
-        if (g_interrupted != 0)
-            throw engine::StartupError("interrupted after " + std::to_string(i) + " frames; unfinished files are gone");
         if (!run_frame(app, i, capture, options))
             break;
+        softening.check(stage, app.time_step());
         statistics.recorded(app.record_milliseconds());
         if (progress)
             progress->update(i + 1);
@@ -112,7 +99,7 @@ void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatis
         progress->finish();
 }
 
-void export_state(const Options& options, const std::vector<FinalCloth>& state, std::vector<std::string>& written)
+void export_state(const Options& options, const std::vector<FinalCloth>& state, Outcome& outcome)
 {
     if (!options.export_file || options.export_format == ExportFormat::point_cache)
         return;
@@ -120,8 +107,11 @@ void export_state(const Options& options, const std::vector<FinalCloth>& state, 
     surfaces.reserve(state.size());
     for (const FinalCloth& cloth : state)
         surfaces.push_back({cloth.name, cloth.positions, cloth.normals, cloth.triangles});
-    for (const auto& path : engine::take(export_surfaces(*options.export_file, surfaces)))
-        written.push_back(path.string());
+    const auto exported = export_surfaces(*options.export_file, surfaces);
+    if (!exported)
+        return outcome.add(exported.error(), "");
+    for (const auto& path : exported.value())
+        outcome.add({}, written_name(path));
 }
 
 void add_verification(const Verification& verification, Statistics& statistics)
@@ -150,7 +140,6 @@ int exit_code(engine::App& app, const Statistics& statistics)
 
 int run_scene(const Options& options)
 {
-    stop_on_signals();
     const SceneFile scene = engine::take(load_scene(engine::take(find_scene(options.scene))));
     const std::vector<Solid> solids = engine::take(load_solids(scene, options));
     check_targets(options);
@@ -169,19 +158,20 @@ int run_scene(const Options& options)
     const engine::IdleGuard idle(app.device());
     run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
 
-    std::vector<std::string> written = engine::take(outputs.finish());
+    // What cannot be written keeps nothing else from being so.
+    Outcome outcome;
+    outputs.finish(outcome);
     const std::vector<FinalCloth> state = download_state(app.device(), stage);
-    export_state(options, state, written);
+    export_state(options, state, outcome);
     Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
     if (options.verify)
         add_verification(engine::take(verify(stage, solids, state)), statistics);
     if (options.stats)
-    {
-        engine::take(save_statistics(*options.stats, statistics));
-        written.push_back(options.stats->string());
-    }
-    for (const std::string& line : written)
+        outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
+    for (const std::string& line : outcome.written)
         std::printf("wrote %s\n", line.c_str());
+    if (outcome.failure)
+        throw engine::StartupError(outcome.failure->message);
     return exit_code(app, statistics);
 }
 
@@ -205,8 +195,10 @@ int run(int count, char** arguments)
 
 int main(int count, char** arguments)
 {
+    constexpr size_t k_longest_message = 2000; // bytes
     try
     {
+        engine::end_cleanly_on_signals("viewer");
         return run(count, arguments);
     }
     catch (const std::bad_alloc&)
@@ -215,7 +207,7 @@ int main(int count, char** arguments)
     }
     catch (const std::exception& error) // engine::StartupError with the reason in one line
     {
-        std::fprintf(stderr, "viewer: %s\n", error.what());
+        std::fprintf(stderr, "viewer: %s\n", gpu::printable(error.what(), k_longest_message).c_str());
     }
     return k_failed;
 }

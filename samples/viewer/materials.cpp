@@ -1,6 +1,8 @@
 // Presets, and what a scene file changes of them.
 #include "samples/viewer/materials.hpp"
 
+#include "samples/viewer/text.hpp"
+
 #include "cloth/fabrics.hpp"
 
 #include <algorithm>
@@ -76,7 +78,7 @@ gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, co
                                                       const std::optional<glm::vec2>& spacing)
 {
     const auto bad = [&](const std::string& reason)
-    { return gpu::Error{place(scene, entry.line) + ": material: " + reason}; };
+    { return error_at(scene, entry.place, reason); };
     cloth::ClothMaterial result;
     if (entry.preset == "reference")
     {
@@ -92,7 +94,8 @@ gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, co
         const std::string preset = entry.preset.value_or("cotton");
         std::optional<cloth::Fabric> fabric = cloth::find_fabric(preset);
         if (!fabric)
-            return bad("unknown preset \"" + preset + "\"; there are silk, cotton, wool, denim, leather and reference");
+            return bad("unknown preset " + in_quotes(preset) +
+                       "; there are silk, cotton, wool, denim, leather and reference");
         apply(entry, *fabric);
         if (const auto valid = cloth::validate(*fabric); !valid)
             return bad(valid.error().message);

@@ -3,10 +3,20 @@
 
 #include "engine/gpu/device.hpp"
 
+#include <algorithm>
+
 namespace viewer
 {
 namespace
 {
+
+// Null if it is not there.
+template <typename S>
+const S* find_solid(const std::vector<S>& solids, size_t number)
+{
+    const auto found = std::ranges::lower_bound(solids, number, {}, &S::solid);
+    return found != solids.end() && found->solid == number ? &*found : nullptr;
+}
 
 double end_of(const engine::FrameInfo& frame)
 {
@@ -17,18 +27,14 @@ double end_of(const engine::FrameInfo& frame)
 
 glm::mat4 Motions::pose(size_t solid) const
 {
-    for (const MovingSolid& moving : solids)
-        if (moving.solid == solid)
-            return moving.pose;
-    return glm::mat4(1);
+    const MovingSolid* moving = find_solid(solids, solid);
+    return moving != nullptr ? moving->pose : glm::mat4(1);
 }
 
 const std::vector<glm::vec3>* Motions::positions(size_t solid) const
 {
-    for (const DeformingSolid& deformed : deforming)
-        if (deformed.solid == solid)
-            return &deformed.positions;
-    return nullptr;
+    const DeformingSolid* deformed = find_solid(deforming, solid);
+    return deformed != nullptr ? &deformed->positions : nullptr;
 }
 
 void Motions::deform(DeformingSolid& solid, const engine::FrameInfo& frame)
@@ -49,7 +55,8 @@ void Motions::update(const engine::FrameInfo& frame)
     {
         solid.pose = matrix(solid.motion, end);
         engine::take(solver_.move_collider(solid.collider, solid.pose));
-        solid.body->set_model(solid.pose * solid.placed);
+        for (const DrawnPart& part : solid.parts)
+            part.mesh->set_model(solid.pose * part.placed);
     }
     for (DeformingSolid& solid : deforming)
         deform(solid, frame);

@@ -7,9 +7,17 @@
 #include "engine/scene/deforming_mesh.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace viewer
 {
+
+// What is drawn of a solid.
+struct DrawnPart
+{
+    engine::DrawnMesh* mesh = nullptr; // owned by the scene
+    glm::mat4 placed{1.f};             // world from mesh, at time 0
+};
 
 // A solid that moves, in the solver and in the picture.
 struct MovingSolid
@@ -17,8 +25,7 @@ struct MovingSolid
     size_t solid = 0; // its number among the stage's
     cloth::ColliderId collider;
     MotionEntry motion;
-    engine::DrawnMesh* body = nullptr; // owned by the scene
-    glm::mat4 placed{1.f};             // world from the body's mesh, at time 0
+    std::vector<DrawnPart> parts;
     glm::mat4 pose{1.f};               // from where it was added to where it is after the frames so far
 };
 
@@ -40,8 +47,8 @@ public:
     explicit Motions(cloth::Solver& solver) : solver_(solver) {}
 
     std::vector<MovingPin> pins;
-    std::vector<MovingSolid> solids;
-    std::vector<DeformingSolid> deforming;
+    std::vector<MovingSolid> solids;       // by their numbers, ascending
+    std::vector<DeformingSolid> deforming; // likewise
 
     // From where a solid was added to where it is after the frames so far.
     [[nodiscard]] glm::mat4 pose(size_t solid) const;

@@ -3,6 +3,8 @@
 #include "samples/viewer/scene_file.hpp"
 #include "samples/viewer/text.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -22,6 +24,7 @@ namespace
 
 namespace fs = std::filesystem;
 
+constexpr size_t k_longest_reason = 200;        // bytes, of words that are not ours
 constexpr uint32_t k_largest_side = 16384;      // pixels
 constexpr uint32_t k_deepest_box = 48;          // the deepest level of a hierarchy
 constexpr uint32_t k_most_frames = 100'000'000; // 19 days of simulated time
@@ -132,7 +135,7 @@ public:
     void fail(const char* option, const std::string& reason)
     {
         if (!error)
-            error = one_line(std::string(option) + ": " + reason);
+            error = std::string(option) + ": " + reason;
     }
 
     // The one value of an option, if it was given.
@@ -151,7 +154,7 @@ public:
         if (value.empty())
             fail(option, "the value is empty");
         else if (value.starts_with("--"))
-            fail(option, "a value is missing before \"" + value + "\"");
+            fail(option, "a value is missing before " + in_quotes(value));
     }
 
     std::optional<uint32_t> integer(const char* option, const std::vector<std::string>& values, uint32_t min,
@@ -165,9 +168,9 @@ public:
         const auto [stop, problem] = std::from_chars(text->data(), end, value);
         const bool number = stop == end && problem != std::errc::invalid_argument;
         if (!number)
-            fail(option, "\"" + *text + "\" is not a whole number");
+            fail(option, in_quotes(*text) + " is not a whole number");
         else if (problem != std::errc{} || value < min || value > max)
-            fail(option, "\"" + *text + "\" is not within " + std::to_string(min) + " to " + std::to_string(max));
+            fail(option, in_quotes(*text) + " is not within " + std::to_string(min) + " to " + std::to_string(max));
         return static_cast<uint32_t>(value);
     }
 
@@ -191,10 +194,10 @@ void convert_size(Converter& convert, const std::vector<std::string>& values, Op
     const auto second = cross ? std::from_chars(first.ptr + 1, end, height) : first;
     const auto no_number = std::errc::invalid_argument;
     if (!cross || first.ec == no_number || second.ec == no_number || second.ptr != end)
-        return convert.fail("--size", "\"" + *text + "\" is not WIDTHxHEIGHT");
+        return convert.fail("--size", in_quotes(*text) + " is not WIDTHxHEIGHT");
     // Too large for an integer is out of range as well: from_chars leaves the number as it was, zero.
     if (std::min(width, height) < 1 || std::max(width, height) > k_largest_side)
-        return convert.fail("--size", "\"" + *text + "\" is not within 1x1 to 16384x16384");
+        return convert.fail("--size", in_quotes(*text) + " is not within 1x1 to 16384x16384");
     options.width = width;
     options.height = height;
 }
@@ -212,7 +215,7 @@ void convert_export(Converter& convert, const std::vector<std::string>& values, 
     else if (extension == ".pc2")
         options.export_format = ExportFormat::point_cache;
     else
-        convert.fail("--export", "\"" + options.export_file->string() + "\" does not end in .obj, .ply or .pc2");
+        convert.fail("--export", path_in_quotes(*options.export_file) + " does not end in .obj, .ply or .pc2");
 }
 
 void convert_colliders(Converter& convert, const std::vector<std::string>& values, Options& options)
@@ -223,11 +226,11 @@ void convert_colliders(Converter& convert, const std::vector<std::string>& value
         const std::string extension = lower_extension(value);
         std::error_code problem;
         if (extension != ".obj" && extension != ".ply")
-            convert.fail("--collider", "\"" + value + "\" does not end in .obj or .ply");
+            convert.fail("--collider", path_in_quotes(value) + " does not end in .obj or .ply");
         else if (!fs::exists(value, problem))
-            convert.fail("--collider", "\"" + value + "\" does not exist");
+            convert.fail("--collider", path_in_quotes(value) + " does not exist");
         else if (fs::is_directory(value, problem))
-            convert.fail("--collider", "\"" + value + "\" is a folder");
+            convert.fail("--collider", path_in_quotes(value) + " is a folder");
         options.colliders.emplace_back(value);
     }
 }
@@ -248,7 +251,7 @@ void convert_debug(Converter& convert, const std::vector<std::string>& values, D
         else if (value.starts_with(boxes))
             debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
         else
-            convert.fail("--debug", "\"" + value + "\" is not boxes, boxes:LEVEL, contacts or normals");
+            convert.fail("--debug", in_quotes(value) + " is not boxes, boxes:LEVEL, contacts or normals");
     }
 }
 
@@ -267,8 +270,8 @@ gpu::Result<Options> convert_all(const Typed& typed, Options options)
 {
     Converter convert;
     if (typed.scenes.size() > 1)
-        return gpu::Error{one_line("\"" + typed.scenes[1] + "\": one scene at most, and \"" + typed.scenes[0] +
-                                   "\" was given before it")};
+        return gpu::Error{in_quotes(typed.scenes[1]) + ": one scene at most, and " + in_quotes(typed.scenes[0]) +
+                          " was given before it"};
     if (!typed.scenes.empty())
         options.scene = typed.scenes.front();
     if (options.scene.empty())
@@ -279,7 +282,7 @@ gpu::Result<Options> convert_all(const Typed& typed, Options options)
     options.every = convert.integer("--every", typed.every, 1, k_most_frames).value_or(1);
     options.video = convert.path("--video", typed.video);
     if (options.video && lower_extension(*options.video) != ".mp4")
-        convert.fail("--video", "\"" + options.video->string() + "\" does not end in .mp4");
+        convert.fail("--video", path_in_quotes(*options.video) + " does not end in .mp4");
     options.stats = convert.path("--stats", typed.stats);
     convert_export(convert, typed.export_file, options);
     options.cloth_resolution =
@@ -308,15 +311,15 @@ gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
             for (const std::string& name : option->get_lnames())
                 known.push_back("--" + name);
         }
-        return gpu::Error{one_line(word + ": unknown option" + suggestion(word, known))};
+        return gpu::Error{gpu::printable(word) + ": unknown option" + suggestion(word, known)};
     }
     const bool mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr;
     if (mismatch && text.find("disallowed flag override") != std::string::npos)
-        return gpu::Error{one_line("--" + text.substr(0, text.find(' ')) + ": takes no value")};
+        return gpu::Error{"--" + gpu::printable(text.substr(0, text.find(' '))) + ": takes no value"};
     const std::string option = text.substr(0, text.find(':'));
     if (mismatch && option.starts_with("--"))
-        return gpu::Error{one_line(option + ": a value is missing")};
-    return gpu::Error{one_line(text)};
+        return gpu::Error{gpu::printable(option) + ": a value is missing"};
+    return gpu::Error{gpu::printable(text, k_longest_reason)};
 }
 
 gpu::Result<Options> parse(int argument_count, const char* const* arguments)
@@ -379,7 +382,7 @@ gpu::Result<Options> parse_options(int argument_count, const char* const* argume
     }
     catch (const std::exception& problem) // CLI11 throws while options are declared, too
     {
-        return gpu::Error{one_line(problem.what())};
+        return gpu::Error{gpu::printable(problem.what(), k_longest_reason)};
     }
 }
 

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double k_redraw_seconds = 0.1;
+constexpr double k_silent_seconds = 30; // at most, where frames come
 constexpr uint32_t k_bar_cells = 30;
 
 double steady_seconds()
@@ -62,8 +63,9 @@ Progress::Progress(uint32_t frames, ProgressSettings settings) : frames_(frames)
         settings_.stream = &std::cerr;
     if (!settings_.clock)
         settings_.clock = steady_seconds;
-    start_ = settings_.clock();
-    drawn_ = start_ - k_redraw_seconds;
+    start_ = drawn_ = settings_.clock();
+    if (settings_.terminal)
+        draw_bar(0, 0); // the first frame may take minutes
 }
 
 Progress::~Progress()
@@ -83,9 +85,10 @@ void Progress::update(uint32_t done)
         drawn_ = now;
         draw_bar(done_, now - start_);
     }
-    else if (const uint32_t tenths = share(done_, frames_, 10); tenths > tenths_)
+    else if (const uint32_t tenths = share(done_, frames_, 10); tenths > tenths_ || now - drawn_ >= k_silent_seconds)
     {
         tenths_ = tenths;
+        drawn_ = now;
         write_line(done_, now - start_);
     }
 }

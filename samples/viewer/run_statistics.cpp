@@ -2,6 +2,7 @@
 #include "samples/viewer/run_statistics.hpp"
 
 #include "engine/gpu/download.hpp"
+#include "engine/gpu/frames.hpp"
 
 #include <algorithm>
 
@@ -15,6 +16,16 @@ std::vector<glm::vec3> download_vectors(const engine::Device& device, VkBuffer b
 {
     const auto values = engine::download_values<glm::vec4>(device, buffer, streams.offset, streams.vertices);
     return {values.begin(), values.end()};
+}
+
+// A run without frames has uploaded nothing yet: its state is the start.
+void upload_start(const engine::Device& device, cloth::Solver& solver)
+{
+    engine::FrameRing ring(device, 1);
+    const engine::FrameRing::Frame frame = ring.begin();
+    const cloth::Upload upload = engine::take(solver.record_upload(frame.cmd));
+    ring.submit(frame);
+    ring.wait_all();
 }
 
 uint64_t state_hash(const std::vector<FinalCloth>& state)
@@ -31,14 +42,18 @@ uint64_t state_hash(const std::vector<FinalCloth>& state)
 
 std::vector<FinalCloth> download_state(const engine::Device& device, const Stage& stage)
 {
-    const cloth::Solver& solver = stage.world->solver();
+    cloth::Solver& solver = stage.world->solver();
+    const bool at_start = solver.needs_upload();
+    if (at_start)
+        upload_start(device, solver);
     std::vector<FinalCloth> result;
     for (const StageCloth& cloth : stage.cloths)
     {
         const cloth::VertexStreams streams = solver.vertices(cloth.id);
         result.push_back({cloth.name, download_vectors(device, streams.positions, streams),
                           download_vectors(device, streams.velocities, streams),
-                          download_vectors(device, streams.normals, streams), solver.triangles(cloth.id)});
+                          at_start ? std::vector<glm::vec3>{} : download_vectors(device, streams.normals, streams),
+                          solver.triangles(cloth.id)});
     }
     return result;
 }

@@ -1,6 +1,8 @@
 // Cloths, materials and pins of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <charconv>
 #include <optional>
 
@@ -115,12 +117,12 @@ void parse_pin_place(SceneReader& reader, const Field& field, const GridEntry* g
 
 void check_name(SceneReader& reader, const Field& field, const std::string& name)
 {
-    // It becomes a part of file names.
-    for (const char c : name)
-    {
-        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20)
-            return reader.fail(field, "is " + in_quotes(name) + "; a name holds no slash and no control character");
-    }
+    // It becomes a part of file names and of messages.
+    constexpr size_t k_longest_name = 100; // bytes
+    if (name.size() > k_longest_name)
+        reader.fail(field, "is " + in_quotes(name) + "; a name has at most 100 bytes");
+    if (name.find_first_of("/\\") != std::string::npos || gpu::printable(name, k_longest_name) != name)
+        reader.fail(field, "is " + in_quotes(name) + "; a name holds no slash and no control character");
 }
 
 void parse_raw_constants(SceneReader& reader, const Field& field, MaterialEntry& material)
@@ -159,7 +161,7 @@ void parse_preset(SceneReader& reader, const Field& field, MaterialEntry& materi
 MaterialEntry parse_material(SceneReader& reader, const Field& field)
 {
     MaterialEntry material;
-    material.line = field.line();
+    material.place = place_of(field);
     if (!field || reader.failed())
         return material;
     if (field.node->kind == JsonNode::Kind::string)
@@ -203,7 +205,7 @@ MaterialEntry parse_material(SceneReader& reader, const Field& field)
 PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid)
 {
     PinEntry pin;
-    pin.line = field.line();
+    pin.place = place_of(field);
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
     if (is_object && (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance")))
@@ -235,7 +237,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
 {
     SceneReader& reader = context.reader;
     ClothEntry cloth;
-    cloth.line = field.line();
+    cloth.place = place_of(field);
     if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
                                "integrator", "self_collision", "layers"}))
         return cloth;

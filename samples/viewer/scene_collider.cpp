@@ -107,7 +107,7 @@ void parse_frames(ParseContext& context, const Field& holder, ColliderEntry& col
     FrameSequence sequence;
     sequence.pattern = parse_mesh_path(context, frames);
     if (!reader.failed() && !is_frame_pattern(sequence.pattern.filename().string()))
-        reader.fail(frames, "is \"" + frames.node->text + "\"; a file name with one %d or %04d is expected");
+        reader.fail(frames, "is " + in_quotes(frames.node->text) + "; a file name with one %d or %04d is expected");
     reader.read(rate, Range{0, 1000, true}, sequence.rate);
     collider.frames = sequence;
 }
@@ -198,7 +198,7 @@ std::filesystem::path parse_mesh_path(ParseContext& context, const Field& field)
         return {};
     const std::string extension = lower_extension(text);
     if (extension != ".obj" && extension != ".ply")
-        context.reader.fail(field, "is \"" + text + "\"; expected a file that ends in .obj or .ply");
+        context.reader.fail(field, "is " + in_quotes(text) + "; expected a file that ends in .obj or .ply");
     return (context.folder / text).lexically_normal();
 }
 
@@ -206,7 +206,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
 {
     SceneReader& reader = context.reader;
     ColliderEntry collider;
-    collider.line = field.line();
+    collider.place = place_of(field);
     if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames",
                                "rate", "sides", "layers"}))
         return collider;

@@ -3,13 +3,13 @@
 
 #include "samples/viewer/scene_parse.hpp"
 
+#include "engine/assets/file.hpp"
+#include "engine/assets/words.hpp"
+
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numbers>
 #include <set>
 
@@ -20,28 +20,17 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr size_t k_largest_file = size_t{16} << 20; // bytes; a scene is text that somebody wrote
+constexpr uint64_t k_largest_file = uint64_t{16} << 20; // bytes; a scene is text that somebody wrote
 
 gpu::Result<std::string> read_text(const fs::path& path)
 {
-    const std::string name = one_line(path.string());
     std::error_code problem;
-    const fs::file_status status = fs::status(path, problem);
-    if (status.type() == fs::file_type::not_found)
-        return gpu::Error{name + ": the file does not exist"};
-    if (status.type() == fs::file_type::directory)
-        return gpu::Error{name + ": this is a folder, not a scene file"};
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string text(k_largest_file + 1, '\0');
-    if (file)
-        file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad() || (!file && !file.eof()))
-        return gpu::Error{name + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO)};
-    text.resize(static_cast<size_t>(file.gcount()));
-    if (text.size() > k_largest_file)
-        return gpu::Error{name + ": larger than 16 MiB, which is no scene file"};
-    return text;
+    const fs::file_type type = fs::status(path, problem).type();
+    if (type == fs::file_type::not_found)
+        return gpu::Error{engine::path_text(path) + ": the file does not exist"};
+    if (type == fs::file_type::directory)
+        return gpu::Error{engine::path_text(path) + ": this is a folder, not a scene file"};
+    return engine::read_file(path, k_largest_file);
 }
 
 void parse_step(SceneReader& reader, const Field& field, StepEntry& step)
@@ -108,45 +97,61 @@ glm::mat4 rotation(const glm::vec3& degrees)
     return glm::rotate(result, glm::radians(degrees.x), glm::vec3(1.f, 0.f, 0.f));
 }
 
-gpu::Result<void> check_file(const SceneFile& scene, uint32_t line, const std::string& entry, const fs::path& file)
+gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(file, problem).type();
-    if (type == fs::file_type::regular || type == fs::file_type::fifo)
+    if (type == fs::file_type::regular)
         return {};
-    const char* reason = type == fs::file_type::directory ? " is a folder" : " does not exist";
-    return gpu::Error{one_line(place(scene, line) + ": " + entry + ".mesh: " + file.string() + reason)};
+    const char* reason = type == fs::file_type::directory   ? " is a folder"
+                         : type == fs::file_type::not_found ? " does not exist"
+                                                            : " is not a regular file";
+    return error_at(scene, {entry.line, entry.path + ".mesh"}, engine::path_text(file) + reason);
 }
 
 gpu::Result<void> check_files(const SceneFile& scene)
 {
-    for (size_t i = 0; i < scene.cloths.size(); ++i)
+    for (const ClothEntry& cloth : scene.cloths)
     {
-        const ClothEntry& cloth = scene.cloths[i];
-        const std::string entry = "cloths[" + std::to_string(i) + "]";
         if (const auto* mesh = std::get_if<fs::path>(&cloth.form))
         {
-            if (auto result = check_file(scene, cloth.line, entry, *mesh); !result)
+            if (auto result = check_file(scene, cloth.place, *mesh); !result)
                 return result;
         }
     }
-    for (size_t i = 0; i < scene.colliders.size(); ++i)
+    for (const ColliderEntry& collider : scene.colliders)
     {
-        const ColliderEntry& collider = scene.colliders[i];
-        const std::string entry = "colliders[" + std::to_string(i) + "]";
         const auto* mesh = std::get_if<MeshShape>(&collider.shape);
         if (mesh != nullptr && !mesh->file.empty())
         {
-            if (auto result = check_file(scene, collider.line, entry, mesh->file); !result)
+            if (auto result = check_file(scene, collider.place, mesh->file); !result)
                 return result;
         }
         if (!collider.frames)
             continue;
         if (auto files = frame_files(*collider.frames); !files)
-            return gpu::Error{
-                one_line(place(scene, collider.line) + ": " + entry + ".frames: " + files.error().message)};
+            return error_at(scene, {collider.place.line, collider.place.path + ".frames"}, files.error().message);
     }
     return {};
+}
+
+std::vector<StepKey> find_step_keys(const Field& root)
+{
+    const Field wind = SceneReader::child(root, "wind");
+    const Field step = SceneReader::child(root, "step");
+    std::vector<StepKey> keys;
+    const auto add = [&](const char* member, const Field& field)
+    {
+        if (field)
+            keys.push_back({member, place_of(field)});
+    };
+    add("gravity", SceneReader::child(root, "gravity"));
+    add("wind", SceneReader::child(wind, "velocity"));
+    add("gust", SceneReader::child(wind, "gust"));
+    add("gust_length", SceneReader::child(wind, "gust_length"));
+    add("duration", SceneReader::child(step, "rate"));
+    add("substeps", SceneReader::child(step, "substeps"));
+    return keys;
 }
 
 fs::path frame_path(const fs::path& pattern, uint32_t number)
@@ -186,10 +191,10 @@ std::set<uint32_t> frame_numbers(const fs::path& pattern)
 
 gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
 {
-    const gpu::Result<JsonNode> tree = parse_json(text, path.string());
+    const gpu::Result<JsonNode> tree = parse_json(text, engine::path_text(path));
     if (!tree)
         return tree.error();
-    SceneReader reader(path.string());
+    SceneReader reader(engine::path_text(path));
     ParseContext context{reader, path.parent_path()};
     SceneFile scene;
     scene.path = path;
@@ -212,6 +217,7 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
     }
     if (reader.failed())
         return reader.error();
+    scene.step_keys = find_step_keys(root);
     return scene;
 }
 
@@ -228,26 +234,35 @@ gpu::Result<SceneFile> load_scene(const fs::path& path)
     return scene;
 }
 
-std::string place(const SceneFile& scene, uint32_t line)
+gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
 {
-    return scene.path.string() + ":" + std::to_string(line);
+    return gpu::Error{engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " + place.path + ": " +
+                      reason};
+}
+
+gpu::Error step_error(const SceneFile& scene, const std::string& reason)
+{
+    for (const StepKey& key : scene.step_keys)
+        if (reason.starts_with("step: " + key.member + " "))
+            return error_at(scene, key.place, reason);
+    return gpu::Error{engine::path_text(scene.path) + ": " + reason};
 }
 
 gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {
     if (frame_path(sequence.pattern, 0) == frame_path(sequence.pattern, 1))
-        return gpu::Error{one_line(sequence.pattern.string() + ": has no %d or %04d for the frame's number")};
+        return gpu::Error{engine::path_text(sequence.pattern) + ": has no %d or %04d for the frame's number"};
     const std::set<uint32_t> numbers = frame_numbers(sequence.pattern);
     if (!numbers.contains(0) && !numbers.contains(1))
-        return gpu::Error{one_line(sequence.pattern.string() + ": there is no frame 0 and no frame 1")};
+        return gpu::Error{engine::path_text(sequence.pattern) + ": there is no frame 0 and no frame 1"};
     std::vector<fs::path> files;
     for (uint32_t number = numbers.contains(0) ? 0 : 1; number <= *numbers.rbegin(); ++number)
     {
         files.push_back(frame_path(sequence.pattern, number));
         if (!numbers.contains(number))
-            return gpu::Error{one_line(files.back().string() + " is missing, but " +
-                                       frame_path(sequence.pattern, *numbers.upper_bound(number)).filename().string() +
-                                       " is there")};
+            return gpu::Error{engine::path_text(files.back()) + " is missing, but " +
+                              engine::path_text(frame_path(sequence.pattern, *numbers.upper_bound(number)).filename()) +
+                              " is there"};
     }
     return files;
 }

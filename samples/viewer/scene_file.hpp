@@ -22,6 +22,13 @@ constexpr uint32_t k_least_grid_vertices = 2;   // along a side
 constexpr uint32_t k_most_grid_vertices = 8192; // along a side
 constexpr uint32_t k_most_substeps = 1000;      // of a frame
 
+// Where an entry stands in the file, for messages about it.
+struct Place
+{
+    uint32_t line = 0;
+    std::string path; // "cloths[0].pins[2]"
+};
+
 // Scales, then rotates, then translates.
 struct TransformEntry
 {
@@ -105,7 +112,7 @@ struct MaterialEntry
     std::optional<float> spring_stiffness; // N/m, > 0
     std::optional<float> spring_damping;   // N·s/m, >= 0
     std::optional<float> linear_drag;      // N·s/m, >= 0
-    uint32_t line = 0;
+    Place place;
 };
 
 // Flat in x and z, centred on the origin. Vertex index = row * columns + column.
@@ -141,7 +148,7 @@ struct PinEntry
     std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
     float damping = 0.f;                                    // N·s/m, >= 0, of that spring
     std::optional<float> max_distance;                      // m, >= 0, from the place
-    uint32_t line = 0;
+    Place place;
 };
 
 struct ClothEntry
@@ -156,7 +163,7 @@ struct ClothEntry
     Integrator integrator = Integrator::rk4;
     bool self_collision = true;
     uint32_t layers = 1; // bits; it meets the colliders that share one
-    uint32_t line = 0;
+    Place place;
 };
 
 struct MeshShape
@@ -208,7 +215,7 @@ struct ColliderEntry
     std::optional<FrictionEntry> friction;
     std::optional<MotionEntry> motion;
     std::optional<FrameSequence> frames; // with a mesh only
-    uint32_t line = 0;
+    Place place;
 };
 
 struct CameraEntry
@@ -216,6 +223,13 @@ struct CameraEntry
     glm::vec3 position{0.f}; // m
     glm::vec3 target{0.f};   // m, not at the position
     float fov = 40.f;        // vertical, degrees, 1..170
+};
+
+// A key that gives a member of cloth::Step its value.
+struct StepKey
+{
+    std::string member;
+    Place place;
 };
 
 struct SceneFile
@@ -228,6 +242,7 @@ struct SceneFile
     std::vector<ClothEntry> cloths; // at least one
     std::vector<ColliderEntry> colliders;
     std::optional<CameraEntry> camera; // absent: the viewer frames the scene itself
+    std::vector<StepKey> step_keys;    // those that are written
 };
 
 // Parses a scene's text. `path` serves the messages and is what relative paths are relative to; nothing is read.
@@ -237,8 +252,10 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem:
 // Reads and parses a scene, and checks that the files it names are there.
 gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
 
-// "FILE:LINE", the beginning of a message about an entry.
-std::string place(const SceneFile& scene, uint32_t line);
+// "FILE:LINE: PATH: REASON"
+gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
+// The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
+gpu::Error step_error(const SceneFile& scene, const std::string& reason);
 
 // The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the last. An error if there
 // are none, if one between them is missing, or if the pattern has no place for a number.

@@ -3,6 +3,8 @@
 
 #include "samples/viewer/text.hpp"
 
+#include "engine/assets/words.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <set>
@@ -28,7 +30,7 @@ std::string known_scenes(const std::vector<fs::path>& folders)
     }
     std::string list;
     for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + name;
+        list += (list.empty() ? "" : ", ") + gpu::printable(name);
     return list;
 }
 
@@ -79,13 +81,13 @@ gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::
         }
     }
     if (fs::is_directory(name, problem))
-        return gpu::Error{one_line(name + ": this is a folder, not a scene file")};
+        return gpu::Error{engine::path_text(name) + ": this is a folder, not a scene file"};
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
     const std::string list = known_scenes(folders);
     const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
     if (looks_like_path)
-        return gpu::Error{one_line(name + ": the file does not exist; " + known)};
-    return gpu::Error{one_line("scene \"" + name + "\" is unknown; " + known)};
+        return gpu::Error{engine::path_text(name) + ": the file does not exist; " + known};
+    return gpu::Error{"scene " + in_quotes(name) + " is unknown; " + known};
 }
 
 } // namespace viewer

@@ -13,6 +13,11 @@ struct ParseContext
     std::filesystem::path folder; // that paths are relative to
 };
 
+inline Place place_of(const Field& field)
+{
+    return {field.line(), field.path};
+}
+
 // They report through the reader; what they return is meaningless once it has failed.
 ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index);
 ColliderEntry parse_collider(ParseContext& context, const Field& field);

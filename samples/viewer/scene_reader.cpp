@@ -24,7 +24,7 @@ std::string range_text(Range range)
 void SceneReader::fail(uint32_t line, const std::string& message)
 {
     if (!error_)
-        error_ = one_line(file_ + ":" + std::to_string(line) + ": " + message);
+        error_ = file_ + ":" + std::to_string(line) + ": " + message;
 }
 
 void SceneReader::fail(const Field& field, const std::string& reason)
@@ -49,12 +49,13 @@ bool SceneReader::object(const Field& field, std::initializer_list<const char*> 
     for (size_t i = 0; i < field.node->keys.size(); ++i)
     {
         const std::string& key = field.node->keys[i];
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            fail(field.node->items[i].line, "unknown key " + in_quotes(key) + " in " +
-                                                (field.path.empty() ? "the scene" : field.path) +
-                                                suggestion(key, known));
+        if (std::find(known.begin(), known.end(), key) != known.end())
+            continue;
+        fail(field.node->items[i].line, "unknown key " + in_quotes(key) + " in " +
+                                            (field.path.empty() ? "the scene" : field.path) + suggestion(key, known));
+        return false;
     }
-    return !failed();
+    return true;
 }
 
 bool SceneReader::array(const Field& field, size_t length)

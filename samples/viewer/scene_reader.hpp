@@ -39,7 +39,7 @@ constexpr Range k_not_negative{0};
 class SceneReader
 {
 public:
-    explicit SceneReader(std::string file) : file_(std::move(file)) {}
+    explicit SceneReader(std::string file) : file_(std::move(file)) {} // its name in messages
 
     [[nodiscard]] bool failed() const { return error_.has_value(); }
     [[nodiscard]] gpu::Error error() const { return gpu::Error{error_.value_or("")}; }

@@ -2,13 +2,11 @@
 #include "samples/viewer/stage.hpp"
 
 #include "samples/viewer/cloths.hpp"
-
-#include "engine/scene/static_mesh.hpp"
+#include "samples/viewer/solid_meshes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace viewer
@@ -93,21 +91,21 @@ gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneF
         collider);
     auto added = solver.add_collider(collider);
     if (!added)
-        return gpu::Error{(solid.line > 0 ? place(scene, solid.line) + ": " : "") + added.error().message};
+        return solid.place.line > 0 ? error_at(scene, solid.place, added.error().message) : added.error();
     return added;
 }
 
 // Draws a solid, and has the motions move it if it does.
-void add_to_scene(engine::App& app, const Solid& solid, float extent, cloth::ColliderId collider, Stage& stage)
+void add_to_scene(engine::App& app, const Solid& solid, SolidMeshes& meshes, cloth::ColliderId collider, Stage& stage)
 {
     const bool ground = solid.is_ground() || std::holds_alternative<PlaneShape>(solid.shape);
-    const engine::Mesh mesh = mesh_of(solid, 30 * extent);
     const engine::Surface surface = ground ? engine::ground_surface() : solid_surface();
     const size_t index = stage.colliders.size();
     engine::Entity& entity = app.scene().add(solid.name);
-    engine::DrawnMesh* body = nullptr;
+    std::vector<DrawnPart> parts;
     if (solid.frames)
     {
+        const auto& mesh = std::get<engine::Mesh>(solid.shape);
         auto& deforming =
             entity.add<engine::DeformingMesh>(app.uploads(), app.slots(), mesh, surface, solid.name, solid.transform);
         stage.motions->deforming.push_back({.solid = index,
@@ -115,13 +113,17 @@ void add_to_scene(engine::App& app, const Solid& solid, float extent, cloth::Col
                                             .frames = solid.frames,
                                             .body = &deforming,
                                             .positions = mesh.positions});
-        body = &deforming;
+        parts.push_back({&deforming, solid.transform});
     }
     else
-        body = &entity.add<engine::StaticMesh>(app.uploads(), mesh, surface, solid.name, solid.transform);
+        for (const SolidPart& part : meshes.parts(solid))
+        {
+            auto& mesh = entity.add<engine::StaticMesh>(part.mesh, surface, solid.name, part.placed);
+            parts.push_back({&mesh, part.placed});
+        }
     if (solid.motion)
         stage.motions->solids.push_back(
-            {.solid = index, .collider = collider, .motion = *solid.motion, .body = body, .placed = solid.transform});
+            {.solid = index, .collider = collider, .motion = *solid.motion, .parts = std::move(parts)});
     stage.colliders.push_back(collider);
 }
 
@@ -166,21 +168,19 @@ void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Boun
     scene.camera.position = scene.focus + distance * glm::normalize(glm::vec3(0.45f, 0.4f, 1));
 }
 
-// Tells of cloths that the substeps are too few for: they stretch more than their material says.
-void tell_softened(const Stage& stage, float duration)
+} // namespace
+
+namespace
 {
-    cloth::Step step = stage.world->step;
-    step.duration = duration;
-    for (const StageCloth& cloth : stage.cloths)
-    {
-        const cloth::Stability stability = stage.world->solver().stability(cloth.id, step);
-        if (stability.stiffness_share < 1)
-            std::fprintf(stderr,
-                         "viewer: note: cloth \"%s\" needs %u substeps a frame and gets %u: it has %.2g %% of its "
-                         "stiffness\n",
-                         cloth.name.c_str(), stability.needed, stability.used,
-                         100 * static_cast<double>(stability.stiffness_share));
-    }
+
+// The solver's own ranges, where it has them.
+template <typename S>
+gpu::Result<void> check_step(const S& step)
+{
+    if constexpr (requires { cloth::validate(step); })
+        return cloth::validate(step);
+    else
+        return {};
 }
 
 } // namespace
@@ -196,6 +196,9 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
     world.step.gust = scene.wind.gust;
     world.step.gust_length = scene.wind.gust_length;
     world.step.substeps = scene.step.substeps.value_or(0);
+    world.step.duration = 1 / scene.step.rate;
+    if (const auto valid = check_step(world.step); !valid)
+        return step_error(scene, valid.error().message);
     world.collect_statistics = true;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
@@ -221,14 +224,14 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
                 world, app.uploads(), cloth.id,
                 cloth::component::fabric_surface(colors.front, colors.back, std::max({size.x, size.y, size.z, 1e-3f})));
     }
+    SolidMeshes meshes(app.uploads(), glm::distance(box.min, box.max));
     for (const Solid& solid : solids)
     {
         const auto added = add_to_solver(world.solver(), scene, solid);
         if (!added)
             return added.error();
-        add_to_scene(app, solid, glm::distance(box.min, box.max), added.value(), stage);
+        add_to_scene(app, solid, meshes, added.value(), stage);
     }
-    tell_softened(stage, 1 / scene.step.rate);
     return stage;
 }
 

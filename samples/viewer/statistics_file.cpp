@@ -1,6 +1,6 @@
 #include "samples/viewer/statistics_file.hpp"
 
-#include "samples/viewer/atomic_file.hpp"
+#include "engine/assets/file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -151,11 +151,7 @@ std::string statistics_text(const Statistics& statistics)
 
 gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
 {
-    gpu::Result<AtomicFile> file = AtomicFile::create(path);
-    if (!file)
-        return file.error();
-    file.value().write(statistics_text(statistics));
-    return file.value().commit();
+    return engine::write_file(path, statistics_text(statistics));
 }
 
 } // namespace viewer

@@ -1,5 +1,7 @@
 #include "samples/viewer/text.hpp"
 
+#include "engine/assets/words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -46,31 +48,19 @@ std::string printed(double value, int digits)
 
 } // namespace
 
-std::string one_line(std::string text)
+std::string in_quotes(std::string_view text)
 {
-    for (char& c : text)
-    {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f)
-            c = '?';
-    }
-    return text;
+    return "\"" + gpu::printable(text) + "\"";
 }
 
-std::string shortened(const std::string& text, size_t most)
+std::string path_in_quotes(const std::filesystem::path& path)
 {
-    if (text.size() <= most)
-        return text;
-    size_t end = most;
-    // The bytes of a character after its first are 10xxxxxx.
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u)
-        --end;
-    return text.substr(0, end) + "...";
+    return "\"" + engine::path_text(path) + "\"";
 }
 
-std::string in_quotes(const std::string& text)
+void note(const std::string& text)
 {
-    return "\"" + shortened(text) + "\"";
+    std::fprintf(stderr, "viewer: note: %s\n", text.c_str());
 }
 
 std::string number_text(double value)

@@ -1,22 +1,22 @@
 // Small helpers for the words of messages and file names.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace viewer
 {
 
-// The same string with every control character replaced by '?': it would break a message into lines.
-std::string one_line(std::string text);
+// The text in quotation marks, fit for a message (gpu::printable).
+std::string in_quotes(std::string_view text);
 
-// At most `most` bytes of a text in UTF-8, cut between characters, with "..." where something was left out.
-std::string shortened(const std::string& text, size_t most = 80);
+// A path likewise.
+std::string path_in_quotes(const std::filesystem::path& path);
 
-// The text, shortened, in quotation marks.
-std::string in_quotes(const std::string& text);
+// "viewer: note: TEXT" on standard error.
+void note(const std::string& text);
 
 // A number as somebody would write it: 0.2, not 0.200000003.
 std::string number_text(double value);

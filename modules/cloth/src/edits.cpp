@@ -122,8 +122,10 @@ bool Solver::State::fits() const
 
 void Solver::State::update_holds()
 {
-    hold_lists = make_hold_lists(model);
     edits.holds = edits.tethers = edits.pins = true;
+    if (dirty)
+        return; // the next upload makes the lists: once, however many cloths are added before it
+    hold_lists = make_hold_lists(model);
     if (!fits())
         dirty = true;
     update_passes();

@@ -2,6 +2,8 @@
 // colliders in colliders.cpp and mesh_collider.cpp.
 #include "model.hpp"
 
+#include "gpu/printable.hpp"
+
 #include <cmath>
 #include <cstddef>
 
@@ -27,7 +29,7 @@ static_assert(sizeof(shared::StatisticsRecord) == 48);
 
 Error invalid(const std::string& what, const std::string& name, const std::string& reason)
 {
-    return Error{what + " \"" + name + "\": " + reason};
+    return Error{what + " \"" + gpu::printable(name) + "\": " + reason};
 }
 
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,

@@ -79,6 +79,7 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 {
     State& s = *state_;
+    s.hold_lists = make_hold_lists(s.model);
     UploadData data;
     data.chunks = make_chunks(s.model, s.options.workgroup_size);
     if (s.options.feature_contact)

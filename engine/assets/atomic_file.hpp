@@ -1,6 +1,8 @@
-// A file that appears under its name only when it is complete: it is written beside it and renamed at the end.
+// A file that appears under its name only when it is complete: it is written beside it and renamed at the end. A signal
+// that ends the program removes what is unfinished (cleanup.hpp).
 #pragma once
 
+#include "engine/assets/cleanup.hpp"
 #include "gpu/result.hpp"
 
 #include <cstddef>
@@ -9,16 +11,34 @@
 #include <memory>
 #include <string_view>
 
-namespace viewer
+namespace engine
 {
 
-// The name that `target` is written under until it is complete: in the same folder, so that the renaming is atomic.
-std::filesystem::path temporary_name(const std::filesystem::path& target);
+// The name that a file is written under until it is complete: in the same folder, so that the renaming is atomic. What
+// has that name is removed with the object.
+class TemporaryFile
+{
+public:
+    TemporaryFile() = default; // without a name
+    explicit TemporaryFile(const std::filesystem::path& target);
+    ~TemporaryFile() { remove(); }
+    TemporaryFile(TemporaryFile&& other) noexcept;
+    TemporaryFile& operator=(TemporaryFile&& other) noexcept;
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    void remove() noexcept;
+    // Gives it the target's name; what had that name before is replaced. Errors name the target.
+    gpu::Result<void> complete(const std::filesystem::path& target);
+
+private:
+    std::filesystem::path path_;
+    std::unique_ptr<Cleanup> cleanup_;
+};
 
 // A symbolic link is followed, so that the file it points to is replaced and not the link. Errors name the path.
 gpu::Result<std::filesystem::path> resolve_target(const std::filesystem::path& path);
-
-gpu::Result<void> rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 class AtomicFile
 {
@@ -48,9 +68,9 @@ private:
 
     std::filesystem::path path_;      // as it was asked for, for messages
     std::filesystem::path target_;    // links followed
-    std::filesystem::path temporary_; // empty: written directly
+    TemporaryFile temporary_;         // without a name: written directly
     std::FILE* file_ = nullptr;
     int failure_ = 0; // errno of the first failure
 };
 
-} // namespace viewer
+} // namespace engine

@@ -1,6 +1,7 @@
-#include "samples/viewer/atomic_file.hpp"
+// TemporaryFile and AtomicFile.
+#include "engine/assets/atomic_file.hpp"
 
-#include "samples/viewer/text.hpp"
+#include "engine/assets/words.hpp"
 
 #include <unistd.h>
 
@@ -9,8 +10,9 @@
 #include <cstring>
 #include <utility>
 
-namespace viewer
+namespace engine
 {
+
 namespace
 {
 
@@ -18,42 +20,66 @@ namespace fs = std::filesystem;
 
 gpu::Error file_error(const fs::path& path, const std::string& reason)
 {
-    return gpu::Error{one_line(path.string() + ": " + reason)};
+    return gpu::Error{path_text(path) + ": cannot be written: " + reason};
 }
 
 } // namespace
 
-fs::path temporary_name(const fs::path& target)
+TemporaryFile::TemporaryFile(const fs::path& target)
 {
     // Two writers of one target must not share a temporary file, whether they are threads or processes.
     static std::atomic<unsigned> counter{0};
     const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-    return target.parent_path() / ("." + target.filename().string() + "." + unique + ".part");
+    path_ = target.parent_path() / ("." + target.filename().string() + "." + unique + ".part");
+    cleanup_ = std::make_unique<Cleanup>([name = path_.string()] { (void)::unlink(name.c_str()); });
+}
+
+TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
+    : path_(std::exchange(other.path_, {})), cleanup_(std::move(other.cleanup_))
+{
+}
+
+TemporaryFile& TemporaryFile::operator=(TemporaryFile&& other) noexcept
+{
+    remove();
+    path_ = std::exchange(other.path_, {});
+    cleanup_ = std::move(other.cleanup_);
+    return *this;
+}
+
+void TemporaryFile::remove() noexcept
+{
+    if (!path_.empty())
+        (void)::unlink(path_.c_str());
+    path_.clear();
+    cleanup_.reset();
+}
+
+gpu::Result<void> TemporaryFile::complete(const fs::path& target)
+{
+    std::error_code problem;
+    fs::rename(path_, target, problem);
+    if (problem)
+        return file_error(target, problem.message());
+    path_.clear();
+    cleanup_.reset();
+    return {};
 }
 
 gpu::Result<fs::path> resolve_target(const fs::path& path)
 {
     std::error_code problem;
     if (path.filename().empty() || fs::is_directory(path, problem))
-        return file_error(path, "cannot be written: it is a folder");
+        return file_error(path, "it is a folder");
     const fs::path folder = path.parent_path();
     if (!folder.empty() && !fs::is_directory(folder, problem))
-        return file_error(path, "cannot be written: there is no folder " + folder.string());
+        return file_error(path, "there is no folder " + path_text(folder));
     if (!fs::is_symlink(path, problem))
         return path;
     const fs::path target = fs::weakly_canonical(path, problem);
     if (problem)
-        return file_error(path, "cannot be written: " + problem.message());
+        return file_error(path, problem.message());
     return target;
-}
-
-gpu::Result<void> rename_file(const fs::path& from, const fs::path& to)
-{
-    std::error_code problem;
-    fs::rename(from, to, problem);
-    if (problem)
-        return file_error(to, "cannot be written: " + problem.message());
-    return {};
 }
 
 gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
@@ -67,14 +93,14 @@ gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
     std::error_code problem;
     // A device or a pipe must not be replaced by a file.
     const bool direct = fs::exists(result.target_, problem) && !fs::is_regular_file(result.target_, problem);
-    const fs::path opened = direct ? result.target_ : temporary_name(result.target_);
+    if (!direct)
+        result.temporary_ = TemporaryFile(result.target_);
+    const fs::path& opened = direct ? result.target_ : result.temporary_.path();
     errno = 0;
     // x: nothing that has the temporary name already is written through; e: a program that is started does not get it.
     result.file_ = std::fopen(opened.c_str(), direct ? "wbe" : "wbxe");
     if (result.file_ == nullptr)
-        return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
-    if (!direct)
-        result.temporary_ = opened;
+        return file_error(path, std::strerror(errno));
     return result;
 }
 
@@ -84,7 +110,7 @@ AtomicFile::~AtomicFile()
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})),
+    : path_(std::move(other.path_)), target_(std::move(other.target_)), temporary_(std::move(other.temporary_)),
       file_(std::exchange(other.file_, nullptr)), failure_(other.failure_)
 {
 }
@@ -96,7 +122,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept
         discard();
         path_ = std::move(other.path_);
         target_ = std::move(other.target_);
-        temporary_ = std::exchange(other.temporary_, {});
+        temporary_ = std::move(other.temporary_);
         file_ = std::exchange(other.file_, nullptr);
         failure_ = other.failure_;
     }
@@ -107,9 +133,7 @@ void AtomicFile::discard() noexcept
 {
     if (file_ != nullptr)
         (void)std::fclose(std::exchange(file_, nullptr));
-    if (!temporary_.empty())
-        (void)::unlink(temporary_.c_str());
-    temporary_.clear();
+    temporary_.remove();
 }
 
 void AtomicFile::write(const void* data, size_t size)
@@ -132,7 +156,7 @@ void AtomicFile::seek(long offset)
 gpu::Result<void> AtomicFile::commit()
 {
     if (file_ == nullptr)
-        return file_error(path_, "was written already");
+        return file_error(path_, "it is written already");
     // A full disk may show itself no sooner than here.
     if (std::fflush(file_) != 0 && failure_ == 0)
         failure_ = errno;
@@ -141,15 +165,13 @@ gpu::Result<void> AtomicFile::commit()
     if (failure_ != 0)
     {
         discard();
-        return file_error(path_, std::string("cannot be written: ") + std::strerror(failure_));
+        return file_error(path_, std::strerror(failure_));
     }
-    if (temporary_.empty())
+    if (temporary_.path().empty())
         return {};
-    gpu::Result<void> renamed = rename_file(temporary_, target_);
-    if (renamed)
-        temporary_.clear();
+    gpu::Result<void> completed = temporary_.complete(target_);
     discard();
-    return renamed;
+    return completed;
 }
 
-} // namespace viewer
+} // namespace engine
