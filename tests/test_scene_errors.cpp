@@ -213,6 +213,20 @@ TEST_CASE("colliders and camera")
     CHECK(scene_message(R"("camera": {"position": [0, 0, 1]})") == "dir/s.json:1: camera has no \"target\"");
 }
 
+TEST_CASE("what the solver refuses of a step is said with the key of the scene")
+{
+    const auto scene = parse("{\"gravity\": [0, 1e30, 0],\n\"wind\": {\"velocity\": [1, 0, 0],\n"
+                             "\"gust_length\": 1e-30},\n\"step\": {\"rate\": 60}, \"cloths\": [{" +
+                             k_grid + "}]}");
+    REQUIRE(scene);
+    const auto refused = [&](const std::string& reason) { return viewer::step_error(scene.value(), reason).message; };
+    CHECK(refused("step: gravity is (0, 1e+30, 0)") == "dir/s.json:1: gravity: step: gravity is (0, 1e+30, 0)");
+    CHECK(refused("step: wind is 2") == "dir/s.json:2: wind.velocity: step: wind is 2");
+    CHECK(refused("step: gust_length is 1e-30") == "dir/s.json:3: wind.gust_length: step: gust_length is 1e-30");
+    CHECK(refused("step: duration is 0") == "dir/s.json:4: step.rate: step: duration is 0");
+    CHECK(refused("step: gust is 11") == "dir/s.json: step: gust is 11"); // not written there
+}
+
 TEST_CASE("files: missing ones are named, with what asked for them")
 {
     const TestFolder folder;

@@ -268,10 +268,10 @@ TEST_CASE("what a cloth cannot be is told with the line of the scene")
         std::ofstream(folder / "s.json") << "{\"cloths\": [\n" + cloth + "]}";
         check_refused(run_viewer((folder / "s.json").string() + " --headless --frames 1 --size 64x36"), parts);
     };
-    refused(R"({"mesh": "one.obj", "pins": ["vertex:3"]})", {"s.json:2: ", "pin vertex:3, but it has 3 vertices"});
-    refused(R"({"mesh": "one.obj", "tethers": {}})", {"s.json:2: ", "tethers need a pin, and it has none"});
+    refused(R"({"mesh": "one.obj", "pins": ["vertex:3"]})", {"s.json:2: cloths[0].pins[0]: ", "pin vertex:3, but it has 3 vertices"});
+    refused(R"({"mesh": "one.obj", "tethers": {}})", {"s.json:2: cloths[0]: ", "tethers need a pin, and it has none"});
     refused(R"({"mesh": "one.obj", "material": {"strain_limit": 50}})",
-            {"s.json:2: ", "strain_limit is 50, must be 0.001 to 10"});
+            {"s.json:2: cloths[0].material: ", "strain_limit is 50, must be 0.001 to 10"});
     refused(R"({"mesh": "one.obj", "material": {"vertex_mass": 1}})", {"s.json:2: ", "need the preset \"reference\""});
     refused(R"({"mesh": "flat.obj"})", {"flat.obj"});
     refused(
