@@ -2,7 +2,6 @@
 // colliders in colliders.cpp and mesh_collider.cpp.
 #include "model.hpp"
 
-#include <cmath>
 #include <cstddef>
 
 namespace cloth
@@ -25,9 +24,14 @@ static_assert(sizeof(shared::StagePush) == 68);
 static_assert(offsetof(shared::StagePush, gust_phases) == 32);
 static_assert(sizeof(shared::StatisticsRecord) == 48);
 
+std::string subject(const std::string& what, const std::string& name)
+{
+    return what + " \"" + name + "\"";
+}
+
 Error invalid(const std::string& what, const std::string& name, const std::string& reason)
 {
-    return Error{what + " \"" + name + "\": " + reason};
+    return Error{subject(what, name) + ": " + reason};
 }
 
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
@@ -39,20 +43,6 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
     return invalid(what, name,
                    contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
                        std::to_string(model.max_buffer_bytes >> 20) + " MiB");
-}
-
-bool finite(const glm::vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool finite(const glm::mat4& m)
-{
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]))
-                return false;
-    return true;
 }
 
 } // namespace cloth

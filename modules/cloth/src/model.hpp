@@ -8,6 +8,7 @@
 #include "cloth_layout.h"
 #include "mesh_topology.hpp"
 #include "padded_layout.h"
+#include "range_checks.hpp"
 
 #include <limits>
 #include <optional>
@@ -87,12 +88,11 @@ struct Model
 };
 
 // What the validation of cloths and colliders shares.
+std::string subject(const std::string& what, const std::string& name); // cloth "name"
 Error invalid(const std::string& what, const std::string& name, const std::string& reason);
 // Errors: `contents` need a buffer of more bytes than the device binds.
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
                         const std::string& contents, uint64_t bytes);
-bool finite(const glm::vec3& v);
-bool finite(const glm::mat4& m);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
 shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction);
 
@@ -128,6 +128,9 @@ struct HoldLists
     std::vector<shared::TetherRecord> tethers;
 };
 HoldLists make_hold_lists(const Model& model);
+
+// Errors: an anchor that add_anchor did not give.
+Result<void> check_anchor(const Model& model, AnchorId anchor);
 
 // Errors: a vertex that does not exist or is held twice, an anchor that does not exist, values out of range.
 Result<void> validate_holds(const Model& model, uint32_t cloth, std::span<const Hold> holds);
