@@ -30,8 +30,11 @@ void main()
     }
     else if (push.kind == VOILE_EDIT_TRANSFORM)
     {
-        positions[i].xyz = (push.transform * vec4(positions[i].xyz, 1)).xyz;
-        velocities[i] = vec4(mat3(push.transform) * velocities[i].xyz, 0);
+        // Scales multiply from call to call: what they make stays within the ranges of the input.
+        const vec3 x = (push.transform * vec4(positions[i].xyz, 1)).xyz;
+        const vec3 v = mat3(push.transform) * velocities[i].xyz;
+        positions[i].xyz = clamp(x, vec3(-VOILE_MOST_COORDINATE), vec3(VOILE_MOST_COORDINATE));
+        velocities[i] = vec4(clamp(v, vec3(-VOILE_MOST_SPEED), vec3(VOILE_MOST_SPEED)), 0);
     }
     else
         velocities[i] = vec4(push.velocity, 0);

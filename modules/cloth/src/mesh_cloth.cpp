@@ -86,8 +86,9 @@ Result<ClothId> Model::add(const MeshCloth& description)
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", description.name, "more than 2 147 483 647 vertices in one solver");
     const std::vector<glm::vec3> world = places(description);
-    if (!std::all_of(world.begin(), world.end(), [](const glm::vec3& p) { return finite(p); }))
-        return invalid("cloth", description.name, "its transform takes a position out of range");
+    if (auto range = check_positions(subject("cloth", description.name), world, "its transform takes vertex ", " to ");
+        !range)
+        return range.error();
 
     ClothModel cloth;
     cloth.name = description.name;

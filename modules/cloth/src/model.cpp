@@ -8,6 +8,8 @@ namespace cloth
 {
 
 // What std430 makes of the shared structs, checked by spirv-val on its side.
+static_assert(k_most_coordinate == static_cast<float>(VOILE_MOST_COORDINATE));
+static_assert(k_most_speed == static_cast<float>(VOILE_MOST_SPEED));
 static_assert(sizeof(shared::SpringClass) == 16);
 static_assert(sizeof(shared::ClothRecord) == 96 + 16 * VOILE_SPRING_CLASSES);
 static_assert(offsetof(shared::ClothRecord, bending) == 80);
@@ -43,6 +45,17 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
     return invalid(what, name,
                    contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
                        std::to_string(model.max_buffer_bytes >> 20) + " MiB");
+}
+
+Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
+                            const std::string& contents, uint64_t workgroups)
+{
+    if (workgroups <= model.max_workgroups)
+        return {};
+    return invalid(what, name,
+                   contents + " " + std::to_string(workgroups) + " workgroups of " +
+                       std::to_string(model.workgroup_size) + ", the device dispatches at most " +
+                       std::to_string(model.max_workgroups) + "; a larger SolverOptions::workgroup_size needs fewer");
 }
 
 } // namespace cloth

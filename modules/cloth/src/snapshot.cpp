@@ -87,6 +87,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
     if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
         return Error{"snapshot: it was made for another number of vertices"};
+    state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     const Streams streams = streams_of(*state_->device);
     for (uint32_t i = 0; i < k_streams; ++i)
@@ -95,6 +96,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
         state_->context.fn.vkCmdCopyBuffer(cmd, streams.buffers[i], snapshot.contents_->buffer.handle(), 1, &region);
     }
     barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
     return {};
 }
 
@@ -103,6 +105,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
     if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
         return Error{"snapshot: it was made for another number of vertices"};
+    state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     const Streams streams = streams_of(*state_->device);
     for (uint32_t i = 0; i < k_streams; ++i)
@@ -111,6 +114,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), streams.buffers[i], 1, &region);
     }
     barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
     state_->recovery_due = true;
     return {};
 }
