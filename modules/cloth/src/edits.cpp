@@ -144,8 +144,9 @@ void Solver::State::update_passes()
     passes.features = device && device->feature_count > 0;
     passes.recover =
         options.recovery &&
-        std::any_of(model.colliders.begin(), model.colliders.end(),
-                    [](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
+        (passes.convex ||
+         std::any_of(model.colliders.begin(), model.colliders.end(),
+                     [](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : model.records)
     {

@@ -153,7 +153,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, next.feature_dispatch);
     for (const gpu::Buffer& size : next.recover_dispatch)
-        clear_dispatch(recorder, size);
+        clear_dispatch(recorder, size, 1, VOILE_RECOVERY_VOTES * sizeof(uint32_t));
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;
