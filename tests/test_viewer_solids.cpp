@@ -78,7 +78,7 @@ TEST_CASE("solids move, and the exact checks hold cloth against where they are")
         run_viewer(
             runs.folder().write("s.json", scene(R"({"plane": {"y": 0}, "motion": {"spin": [0, 10800, 0]}})")).string() +
             " --headless --frames 1"),
-        {"s.json:3: ", "half a turn a frame"});
+        {"s.json:3: ", "half a turn per frame"});
 }
 
 TEST_CASE("a solid is drawn where it is at the frame's end")
