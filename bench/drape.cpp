@@ -121,8 +121,6 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_
         const double time = queue.time([&](VkCommandBuffer cmd) { solver.record(cmd, step); }, warm_up) / 1000;
         if (frame >= k_first_timed)
             times.push_back(time);
-        queue.run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
-        result.limited = std::max(result.limited, solver.statistics(0).limited_vertices);
         const cloth::VertexStreams streams = solver.vertices(id);
         x = engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
         result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));

@@ -35,7 +35,6 @@ struct DrapeMeasurement
     double last_stretch = 0; // largest l / L - 1 of the structural springs after the last frame; < 0.15
     double deep_share = 0;   // of the vertices deeper than 5 mm in the heart after the last frame; <= 0.001
     double height = 0;       // m, mean after frame 30; < 0.30
-    uint32_t limited = 0;    // most vertices in a frame that bore less than the whole of their inner forces
     [[nodiscard]] bool valid() const
     {
         return stretch_99 < 0.12 && last_stretch < 0.15 && deep_share <= 0.001 && height < 0.30;

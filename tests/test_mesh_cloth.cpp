@@ -90,7 +90,6 @@ Run one_step(const std::vector<cloth::MeshCloth>& meshes, cloth::MeshLayout layo
     run.before = states();
     harness.step({.duration = run.h, .substeps = 1, .wind = {2, 1, -3}});
     run.after = states();
-    CHECK(harness.statistics().limited_vertices == 0); // the reference knows no limit
     return run;
 }
 

@@ -111,7 +111,6 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
         CAPTURE(substeps);
         steps += substeps;
         harness.step({.duration = k_step * static_cast<float>(substeps), .substeps = substeps, .wind = {1, 0.5f, -2}});
-        CHECK(harness.statistics().limited_vertices == 0);
         for (size_t i = 0; i < ids.size(); ++i)
         {
             CAPTURE(grids[i].columns);
@@ -161,7 +160,6 @@ TEST_CASE("a short Verlet trajectory follows the reference, of a grid and of mes
     const uint32_t substeps = harness.solver.stable_substeps(step.duration);
     const double h = static_cast<double>(step.duration) / substeps;
     harness.step(step, 2);
-    CHECK(harness.statistics().limited_vertices == 0);
     reference::Cloth reference(grid);
     const auto follow = [&](auto& cloth, cloth::ClothId id)
     {

@@ -83,7 +83,6 @@ void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame
     entry.contacts = measured.contacts;
     entry.candidates = measured.candidates;
     entry.contact_overflows = measured.overflowing_vertices;
-    entry.limited_vertices = measured.limited_vertices;
     if (frame.timestamps != nullptr)
         for (const gpu::PassTime& pass : frame.timestamps->read(frame.slot))
         {
@@ -139,7 +138,6 @@ Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, con
     summary.contacts = last.contacts;
     summary.candidates = last.candidates;
     summary.contact_overflows = last.contact_overflows;
-    summary.limited_vertices = last.limited_vertices;
     return result;
 }
 

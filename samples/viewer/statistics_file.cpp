@@ -51,7 +51,6 @@ Json summary_json(const StatisticsSummary& summary)
                    {"contacts", count(summary.contacts)},
                    {"candidates", count(summary.candidates)},
                    {"contact_overflows", count(summary.contact_overflows)},
-                   {"limited_vertices", count(summary.limited_vertices)},
                    {"verified", summary.verified}};
     result["gpu_ms"] = std::move(gpu);
     result["cpu_record_ms"] = pair(summary.cpu_record_ms);
@@ -72,7 +71,6 @@ Json frame_json(const FrameStatistics& frame)
             {"contacts", count(frame.contacts)},
             {"candidates", count(frame.candidates)},
             {"contact_overflows", count(frame.contact_overflows)},
-            {"limited_vertices", count(frame.limited_vertices)},
             {"gpu_frame_ms", number(frame.gpu_frame_ms)},
             {"gpu_cloth_ms", number(frame.gpu_cloth_ms)},
             {"cpu_record_ms", number(frame.cpu_record_ms)}};

@@ -48,7 +48,6 @@ struct StatisticsSummary
     std::optional<uint64_t> contacts;          // vertices that touch a collider
     std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
     std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
-    std::optional<uint64_t> limited_vertices;  // too stiff for the substep: they bore less than their inner forces
     bool verified = false;                     // the counts are those of --verify, on the CPU
     Percentiles gpu_frame_ms;                  // the whole frame
     Percentiles gpu_cloth_ms;                  // the cloth's passes
@@ -70,7 +69,6 @@ struct FrameStatistics
     std::optional<uint64_t> contacts;          // vertices that touch a collider
     std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
     std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
-    std::optional<uint64_t> limited_vertices;  // too stiff for the substep: they bore less than their inner forces
     double gpu_frame_ms = k_not_measured;
     double gpu_cloth_ms = k_not_measured;
     double cpu_record_ms = k_not_measured;

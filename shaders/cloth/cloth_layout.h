@@ -24,9 +24,6 @@
 #define VOILE_COLLIDER_CAPSULE 3
 #define VOILE_COLLIDER_BOX 4
 
-// How many substeps lie between two in which vertices find what share of their inner forces they bear (stability.glsl).
-#define VOILE_MEASURE 8
-
 // How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
 #define VOILE_CANDIDATES 23
 // the words of its list,
@@ -54,7 +51,6 @@
 // What a velocity's w says of its vertex, as a sum of these.
 #define VOILE_VERTEX_TOUCHES 1 // it touches a collider
 #define VOILE_VERTEX_MEETS 4   // a triangle or an edge around it meets a corner or an edge of a collider
-#define VOILE_VERTEX_LIMITED 2 // it bears less than the whole of its inner forces; see stable_acceleration
 
 VOILE_SHARED_BEGIN(cloth)
 
@@ -82,13 +78,13 @@ struct ClothRecord
     float drag_tangential; // C_t
     float border_share;    // of masses and of springs along a grid's border
     uint flags;
-    float omega_squared;         // 1/s^2, of the fastest mode at rest, bending included
-    float bending_omega_squared; // 1/s^2, what isometric bending has of it
-    float decay;                 // 1/s, of the fastest decay
-    float strain_limit;          // largest l / L - 1; 0: none
+    float omega_squared; // 1/s^2, of the fastest mode in any shape, bending included
+    float decay;         // 1/s, of the fastest decay in any shape
+    float strain_limit;  // largest l / L - 1; 0: none
     float inverse_density;   // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
     float strain_relaxation; // of a correction of the strain limit
     uint layers;             // bits; it meets colliders that have one of them
+    float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
     vec3 bending;       // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
     float bending_time; // s; the bending force sees x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
@@ -311,10 +307,10 @@ struct StatisticsRecord
     uint nan_vertices;         // vertices with a position or velocity that is not finite
     uint penetrating_vertices; // vertices under the surface of a collider
     uint contacts;             // vertices that touch a collider
-    uint limited_vertices;     // vertices that bore less than the whole of their inner forces
     uint candidates;           // triangles in the lists of all vertices
     uint overflowing_vertices; // vertices near more triangles than a list holds: they traverse in every substep
     uint padding_0;
+    uint padding_1;
 };
 
 VOILE_SHARED_END

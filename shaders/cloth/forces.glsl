@@ -2,8 +2,7 @@
 // order never changes).
 //
 // The including kernel declares cloths[], stage_positions[], stage_velocities[], mesh_vertices[], mesh_springs[],
-// mesh_corners[] and `push` (StagePush), and the constants VERLET (see stability.glsl) and MEASURE: whether the stiffness of
-// the springs in their present directions is summed up too, for the share of the acceleration that a step bears.
+// mesh_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
@@ -18,14 +17,37 @@ struct Gather
     vec3 v;       // m/s
     vec3 force;   // N, of the springs
     vec3 bending; // N, of the isometric model
-    float bending_stiffness; // the step's share of it: bending sees bending_stiffness * x + bending_damping * v
+    float bending_stiffness; // the step's scale of it: bending sees bending_stiffness * x + bending_damping * v
     float bending_damping;   // s
     vec3 wind;      // m/s, at x
     vec3 air;       // N
     float air_rate; // N s/m, force over relative velocity
-    StiffnessSum stiffness;
-    StiffnessSum damping; // likewise of the springs' damping, N s/m
+    Viscosity viscosity; // of fast springs
 };
+
+// Verlet has no damping of its own, and springs that change much within a substep heat it up: its resonances with modes near
+// the end of its reach gain energy without bound. So fast springs are viscous, by a coefficient that grows with the speed
+// (von Neumann and Richtmyer 1950, "A method for the numerical calculation of hydrodynamic shocks"): where both ends
+// approach or part by more than k_viscous_strain of the rest length in a substep, along the spring; where one passes the
+// other by more than k_viscous_shear of it, in all directions. Slower springs feel nothing. The pair's forces are equal and
+// opposite. bench/NOTES.md has the measurements behind the numbers.
+const float k_viscous_strain = 0.02;
+const float k_viscous_shear = 0.2;
+const float k_viscous_shear_slope = 0.4;
+
+vec3 viscous_force(Gather g, float stiffness, float rest_over_length, float per_length, vec3 direction,
+                   vec3 relative_velocity)
+{
+    const float change = length(relative_velocity) * per_length; // per substep, of the rest length
+    if (change < k_viscous_strain)
+        return vec3(0);
+    const float rate = dot(relative_velocity, direction);
+    const float along = min(max(abs(rate) * per_length - k_viscous_strain, 0), g.viscosity.most);
+    const float across = min(k_viscous_shear_slope * max(change - k_viscous_shear, 0), g.viscosity.most);
+    // A stretched spring resists in all directions and leaves less of the reach.
+    const float scale = min(rest_over_length * rest_over_length, 1) * g.viscosity.scale * stiffness * push.step;
+    return scale * (along * rate * direction + across * relative_velocity);
+}
 
 void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
 {
@@ -34,11 +56,9 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const vec3 direction = delta * inverse_length;
     const float stretch = length_squared * inverse_length - rest_length;
     g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
-    if (MEASURE)
-    {
-        add_stiffness(g.stiffness, stiffness, direction, rest_length * inverse_length);
-        add_stiffness(g.damping, damping, direction, 1);
-    }
+    if (VERLET)
+        g.force += viscous_force(g, stiffness, rest_length * inverse_length, push.step / rest_length, direction,
+                                 relative_velocity);
 }
 
 // Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
@@ -130,7 +150,7 @@ void gather_cell(inout Gather g, uint cloth, ChunkVertex self, ivec2 offset, Spr
 // Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
 // bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
 // the sum of the squared second differences along rows and columns and of twice the squared twist of the cells.
-void gather_grid(inout Gather g, uint cloth, ChunkVertex self, Shares shares)
+void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales scales)
 {
     const float share = cloths[cloth].border_share;
     const float row_share = self.place.y == 0 || self.place.y + 1 == int(cloths[cloth].rows) ? share : 1;
@@ -139,7 +159,7 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, Shares shares)
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
     {
         const float border = c % 4 == 0 ? row_share : c % 4 == 1 ? column_share : 1;
-        springs[c] = scaled(cloths[cloth].springs[c], border * shares.stiffness, border * shares.damping);
+        springs[c] = scaled(cloths[cloth].springs[c], border * scales.stiffness, border * scales.damping);
     }
     Neighbour east, west, south, north; // +column, -column, +row, -row
     gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], row_share * cloths[cloth].bending.x, east, west);
@@ -166,7 +186,7 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, Shares shares)
 }
 
 // A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it.
-void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
+void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
     const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
@@ -180,8 +200,8 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
         const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
         const vec3 delta = stage_positions[other].xyz - g.x;
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-        const float stiffness = shares.stiffness * weight * spring.stiffness;
-        const float damping = shares.damping * weight * spring.damping;
+        const float stiffness = scales.stiffness * weight * spring.stiffness;
+        const float damping = scales.damping * weight * spring.damping;
         if (stiffness + damping > 0)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
         g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
@@ -198,9 +218,8 @@ void gather_mesh(inout Gather g, uint cloth, uint local, Shares shares)
     }
 }
 
-// The acceleration of a vertex, m/s^2. `share`: what the step bears of the inner forces' part; found where MEASURE is set,
-// else given.
-vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout float share)
+// The acceleration of a vertex, m/s^2.
+vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v)
 {
     const uint cloth = self.cloth;
     Gather g;
@@ -209,28 +228,19 @@ vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v, inout fl
     g.force = g.bending = g.air = vec3(0);
     g.air_rate = 0;
     g.wind = wind_at(x);
-    g.stiffness = g.damping = StiffnessSum(vec3(0), vec3(0));
-    const Shares shares = stable_shares(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
-    g.bending_stiffness = shares.stiffness;
-    g.bending_damping = shares.damping * cloths[cloth].bending_time;
+    const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    if (VERLET)
+        g.viscosity = viscosity(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
+                                cloths[cloth].decay, push.step);
+    g.bending_stiffness = scales.stiffness;
+    g.bending_damping = scales.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
-        gather_grid(g, cloth, self, shares);
+        gather_grid(g, cloth, self, scales);
     else
-        gather_mesh(g, cloth, self.local, shares);
-    const float drag = shares.damping * cloths[cloth].linear_drag; // N s/m
-    const float air_decay = inverse_mass * g.air_rate;             // 1/s
-    const float air_share = stable_air(air_decay, push.step);
-    if (MEASURE)
-    {
-        // The largest eigenvalue of M^-1 K is at most twice that of a vertex's own block: u^T K u = sum k (d . (u_i -
-        // u_j))^2 <= sum 2 k ((d . u_i)^2 + (d . u_j)^2). The same holds for damping.
-        const float bending = cloths[cloth].bending_omega_squared;
-        const float omega_squared = 2 * inverse_mass * largest_eigenvalue(g.stiffness) + shares.stiffness * bending;
-        const float decay = inverse_mass * (2 * largest_eigenvalue(g.damping) + drag) +
-                            g.bending_damping * bending + 2 * air_share * air_decay;
-        share = stable_acceleration(omega_squared, decay, push.step);
-    }
-    return push.gravity + inverse_mass * (share * (g.force + g.bending + drag * (g.wind - v)) + air_share * g.air);
+        gather_mesh(g, cloth, self.local, scales);
+    const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
+    const float air = air_scale(inverse_mass * g.air_rate, push.step);
+    return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
 }
 
 #endif

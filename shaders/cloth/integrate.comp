@@ -3,9 +3,7 @@
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
-// neighbours, and writes the next stage's state. STAGE 4 writes the result of the step. Stage 1 also finds the share of
-// the inner forces that the step bears, in every VOILE_MEASURE-th substep; it holds until the next and travels in the w of the
-// velocity sums.
+// neighbours, and writes the next stage's state. STAGE 4 writes the result of the step.
 // Reads: cloths, chunks, mesh lists, base state, stage state. Writes: next state, running sums.
 #include "cloth_layout.h"
 
@@ -20,7 +18,7 @@ layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage
 layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
-layout(set = 0, binding = 8, std430) buffer VelocitySums { vec4 velocity_sums[]; };         // k1 + 2 k2 + 2 k3 of x; w: share
+layout(set = 0, binding = 8, std430) buffer VelocitySums { vec4 velocity_sums[]; };         // k1 + 2 k2 + 2 k3 of x
 layout(set = 0, binding = 9, std430) buffer AccelerationSums { vec4 acceleration_sums[]; }; // k1 + 2 k2 + 2 k3 of v
 
 layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
@@ -29,9 +27,7 @@ layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner m
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-layout(constant_id = 3) const uint MEASURES = 1;
 const bool VERLET = false;
-const bool MEASURE = STAGE == 1 && MEASURES == 1;
 #include "forces.glsl"
 
 void main()
@@ -43,12 +39,8 @@ void main()
     const vec4 stage_x = stage_positions[i];
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
-    vec4 velocity_sum = MEASURE ? vec4(0) : velocity_sums[i];
-    float share = velocity_sum.w;
-    if (STAGE == 1)
-        velocity_sum = vec4(0);
-    const vec3 a =
-        inverse_mass > 0 ? acceleration(self, stage_x.xyz, inverse_mass, stage_v, share) : vec3(0);
+    const vec3 velocity_sum = STAGE == 1 ? vec3(0) : velocity_sums[i].xyz;
+    const vec3 a = inverse_mass > 0 ? acceleration(self, stage_x.xyz, inverse_mass, stage_v) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.
     const vec3 x = STAGE == 1 ? stage_x.xyz : base_positions[i].xyz;
@@ -56,14 +48,13 @@ void main()
     const float h = push.step;
     if (STAGE == 4)
     {
-        next_positions[i] = vec4(x + h / 6 * (velocity_sum.xyz + stage_v), inverse_mass);
-        next_velocities[i] =
-            vec4(v + h / 6 * (acceleration_sums[i].xyz + a), inverse_mass > 0 && share < 1 ? VOILE_VERTEX_LIMITED : 0);
+        next_positions[i] = vec4(x + h / 6 * (velocity_sum + stage_v), inverse_mass);
+        next_velocities[i] = vec4(v + h / 6 * (acceleration_sums[i].xyz + a), 0);
         return;
     }
     const float reach = STAGE == 3 ? h : 0.5 * h;
     next_positions[i] = vec4(x + reach * stage_v, inverse_mass);
     next_velocities[i] = vec4(v + reach * a, 0);
-    velocity_sums[i] = vec4(velocity_sum.xyz + (STAGE == 1 ? 1.0 : 2.0) * stage_v, share);
+    velocity_sums[i] = vec4(velocity_sum + (STAGE == 1 ? 1.0 : 2.0) * stage_v, 0);
     acceleration_sums[i] = vec4(STAGE == 1 ? a : acceleration_sums[i].xyz + 2 * a, 0);
 }

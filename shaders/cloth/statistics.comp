@@ -141,7 +141,6 @@ void main()
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
             record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) != 0 ? 1 : 0;
-            record.limited_vertices = (uint(v.w) & VOILE_VERTEX_LIMITED) != 0 ? 1 : 0;
         }
     }
     const StatisticsRecord merged = merge_workgroup(record);

@@ -16,7 +16,6 @@ StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
     a.nan_vertices += b.nan_vertices;
     a.penetrating_vertices += b.penetrating_vertices;
     a.contacts += b.contacts;
-    a.limited_vertices += b.limited_vertices;
     a.candidates += b.candidates;
     a.overflowing_vertices += b.overflowing_vertices;
     return a;

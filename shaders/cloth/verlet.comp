@@ -6,8 +6,6 @@
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
 // after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction,
 // v + a h/2, for the next, which keeps the second order.
-// Every VOILE_MEASURE-th substep finds the share of the inner forces that the step bears; it holds until the next and travels
-// in the w of the predicted velocities.
 // A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions, predicted and own velocities. Writes: next
 // positions, velocities, predicted velocities.
 #include "cloth_layout.h"
@@ -28,9 +26,7 @@ layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner m
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-layout(constant_id = 3) const uint MEASURES = 1;
 const bool VERLET = true;
-const bool MEASURE = MEASURES == 1;
 #include "forces.glsl"
 
 void main()
@@ -40,9 +36,7 @@ void main()
         return;
     const uint i = self.index;
     const vec4 x = stage_positions[i];
-    const vec4 predicted = stage_velocities[i];
-    float share = MEASURE ? 1 : predicted.w;
-    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, predicted.xyz, share) : vec3(0);
+    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
     // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into
     // the surface. The next step's first kick has that half in it.
@@ -51,6 +45,6 @@ void main()
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
     const vec3 v = before.xyz + kick * a;
     next_positions[i] = vec4(x.xyz + push.drift * v, x.w);
-    next_velocities[i] = vec4(v, (ends ? touches : 0) + (share < 1 ? VOILE_VERTEX_LIMITED : 0));
-    next_predicted[i] = vec4(v + 0.5 * push.step * a, share);
+    next_velocities[i] = vec4(v, ends ? touches : 0);
+    next_predicted[i] = vec4(v + 0.5 * push.step * a, 0);
 }

@@ -32,10 +32,7 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
-        {&kernels.first_stage_on,
-         {k_stage_names[0], shaders::k_integrate_comp, 13, k_stage_bytes, {group, 1, layout, 0}}},
-        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout, 1}}},
-        {&kernels.verlet_on, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout, 0}}},
+        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout}}},
         {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 4, sizeof(shared::HoldPush), {group}}},
         {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 6, sizeof(shared::HoldPush), {group}}},
         {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 5, sizeof(shared::HoldPush), {group}}},
@@ -89,7 +86,7 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     for (uint32_t stage = 0; stage < 4; ++stage)
         requests.push_back(
             {&kernels.stages[stage],
-             {k_stage_names[stage], shaders::k_integrate_comp, 13, k_stage_bytes, {group, stage + 1, layout, 1}}});
+             {k_stage_names[stage], shaders::k_integrate_comp, 13, k_stage_bytes, {group, stage + 1, layout}}});
     for (const Request& request : requests)
     {
         auto kernel = gpu::Kernel::create(context, request.description);

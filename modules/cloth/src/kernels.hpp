@@ -15,9 +15,7 @@ struct SolverOptions;
 struct Kernels
 {
     std::array<gpu::Kernel, 4> stages; // the four stages of RK4
-    gpu::Kernel first_stage_on;        // stage 1 in a substep that goes on with the shares found before
     gpu::Kernel verlet;
-    gpu::Kernel verlet_on;
     gpu::Kernel pins;
     gpu::Kernel holds;
     gpu::Kernel tethers;

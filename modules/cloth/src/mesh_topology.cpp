@@ -3,7 +3,6 @@
 
 #include "mesh_elements.hpp"
 #include "mesh_input.hpp"
-#include "stability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,37 +156,55 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::s
     }
 }
 
-// The blocks of a vertex's springs at rest, sum of weight * d d^T, and the row sum of its bending.
-void find_bounds(MeshTopology& mesh, std::span<const glm::vec3> positions)
+// Bounds for every shape that the mesh can take (see grid_rates). A spring shares each of its ends with others: it may
+// count on as much of the vertex's mass as it has of the stiffness there. Then the fastest mode of the whole is at most
+// that of the fastest spring alone (the element eigenvalue theorem, Irons and Treharne 1971), stiffness over mass at
+// one end plus the same at the other.
+void find_bounds(MeshTopology& mesh)
 {
-    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    struct Sums // of a vertex
     {
-        const shared::MeshVertex& vertex = mesh.vertices[i];
-        if (mesh.areas[i] <= 0)
-            continue;
-        glm::dmat3 weighted[2] = {glm::dmat3(0.0), glm::dmat3(0.0)};
-        glm::dmat3 alike[2] = {glm::dmat3(0.0), glm::dmat3(0.0)};
+        double weighted[2] = {0, 0}; // by kind: edges, opposite vertices
+        double alike[2] = {0, 0};
         double bending = 0;
-        for (uint32_t s = 0; s < vertex.springs; ++s)
+    };
+    std::vector<Sums> sums(mesh.vertices.size());
+    const auto visit_springs = [&](auto&& visit)
+    {
+        for (size_t i = 0; i < mesh.vertices.size(); ++i)
+            for (uint32_t s = 0; s < mesh.vertices[i].springs; ++s)
+            {
+                const shared::MeshSpring& spring = mesh.springs[mesh.vertices[i].first_spring + s];
+                const bool opposite = (spring.neighbour & VOILE_OPPOSITE_BIT) != 0;
+                visit(i, spring.neighbour & ~VOILE_OPPOSITE_BIT, opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE,
+                      spring);
+            }
+    };
+    visit_springs(
+        [&](size_t i, uint32_t, int kind, const shared::MeshSpring& spring)
         {
-            const shared::MeshSpring& spring = mesh.springs[vertex.first_spring + s];
-            const int kind = (spring.neighbour & VOILE_OPPOSITE_BIT) != 0 ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE;
-            const glm::dvec3 delta =
-                glm::dvec3(positions[spring.neighbour & ~VOILE_OPPOSITE_BIT]) - glm::dvec3(positions[i]);
-            const glm::dmat3 block = glm::outerProduct(delta, delta) / std::max(glm::dot(delta, delta), 1e-30);
-            weighted[kind] += static_cast<double>(spring.weight) * block;
+            sums[i].weighted[kind] += static_cast<double>(spring.weight);
+            sums[i].alike[kind] += spring.weight > 0 ? 1 : 0;
+            sums[i].bending += std::abs(static_cast<double>(spring.bending));
+        });
+    double* const weighted[] = {&mesh.fabric.edge, &mesh.fabric.opposite};
+    double* const alike[] = {&mesh.alike.edge, &mesh.alike.opposite};
+    const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
+    visit_springs(
+        [&](size_t i, uint32_t j, int kind, const shared::MeshSpring& spring)
+        {
             if (spring.weight > 0)
-                alike[kind] += block;
-            bending += std::abs(static_cast<double>(spring.bending));
+            {
+                raise(*weighted[kind], sums[i].weighted[kind] / mesh.areas[i] + sums[j].weighted[kind] / mesh.areas[j]);
+                raise(*alike[kind], sums[i].alike[kind] + sums[j].alike[kind]);
+            }
+        });
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+        if (mesh.areas[i] > 0)
+        {
+            raise(mesh.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
+            raise(mesh.alike.bending, 2 * sums[i].bending);
         }
-        const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
-        raise(mesh.fabric.edge, 2 * largest_eigenvalue(weighted[0]) / mesh.areas[i]);
-        raise(mesh.fabric.opposite, 2 * largest_eigenvalue(weighted[1]) / mesh.areas[i]);
-        raise(mesh.fabric.bending, 2 * bending / mesh.areas[i]);
-        raise(mesh.alike.edge, 2 * largest_eigenvalue(alike[0]));
-        raise(mesh.alike.opposite, 2 * largest_eigenvalue(alike[1]));
-        raise(mesh.alike.bending, 2 * bending);
-    }
 }
 
 } // namespace
@@ -224,7 +241,7 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
     for (const Pair& pair : pairs)
         mesh.mean_weight += pair.edge / static_cast<double>(elements.edges.size());
     fill_lists(mesh, positions, solid, pairs);
-    find_bounds(mesh, positions);
+    find_bounds(mesh);
     return mesh;
 }
 

@@ -129,7 +129,6 @@ Statistics Solver::statistics(uint32_t slot) const
     result.penetrating_vertices = record.penetrating_vertices;
     result.nan_vertices = record.nan_vertices;
     result.contacts = record.contacts;
-    result.limited_vertices = record.limited_vertices;
     result.candidates = record.candidates;
     result.overflowing_vertices = record.overflowing_vertices;
     return result;
@@ -149,9 +148,9 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     Stability result;
     result.needed = cloth::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
-    const StableShares shares = stable_shares(record, static_cast<double>(step.duration) / result.used);
-    result.stiffness_share = static_cast<float>(shares.stiffness);
-    result.damping_share = static_cast<float>(shares.damping);
+    const StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
+    result.stiffness_share = static_cast<float>(scales.stiffness);
+    result.damping_share = static_cast<float>(scales.damping);
     return result;
 }
 

@@ -48,7 +48,7 @@ void SubstepRecorder::record()
         if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
             record_feature_reach(substep);
         const shared::StagePush push = make_push(substep);
-        record_rk4(push, substep);
+        record_rk4(push);
         record_verlet(push, substep);
         record_holds(substep);
         if (solver_.passes.features)
@@ -77,12 +77,10 @@ shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
     return push;
 }
 
-void SubstepRecorder::record_rk4(const shared::StagePush& push, uint32_t substep)
+void SubstepRecorder::record_rk4(const shared::StagePush& push)
 {
     const uint32_t threads = device_.rk4_chunks * group_;
-    const gpu::Kernel& first = substep % VOILE_MEASURE == 0 ? kernels_.stages[0] : kernels_.first_stage_on;
-    recorder_.dispatch(first, device_.stages[0], threads, group_, push);
-    for (size_t stage = 1; stage < 3; ++stage)
+    for (size_t stage = 0; stage < 3; ++stage)
         recorder_.dispatch(kernels_.stages[stage], device_.stages[stage], threads, group_, push);
     recorder_.dispatch(kernels_.stages[3], commits_ ? device_.stages[3] : device_.last_stage_alone, threads, group_,
                        push);
@@ -101,15 +99,14 @@ void SubstepRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     VkDescriptorSet set = in_stage_b(substep) ? device_.verlet_back : device_.verlet_forth;
     if (substep == 0)
         set = device_.verlet_first;
-    const gpu::Kernel& kernel = substep % VOILE_MEASURE == 0 ? kernels_.verlet : kernels_.verlet_on;
-    recorder_.dispatch(kernel, set, verlet_threads(), group_, push);
+    recorder_.dispatch(kernels_.verlet, set, verlet_threads(), group_, push);
 }
 
 void SubstepRecorder::finish_verlet(shared::StagePush push)
 {
     push.first_chunk = device_.rk4_chunks;
     push.kick = 0.5f * h_;
-    recorder_.dispatch(kernels_.verlet_on, in_stage_b(substeps_) ? device_.verlet_last_back : device_.verlet_last,
+    recorder_.dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.verlet_last_back : device_.verlet_last,
                        verlet_threads(), group_, push);
 }
 

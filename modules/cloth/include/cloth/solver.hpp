@@ -155,9 +155,8 @@ private:
 struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if it bore
-                                          // less than the whole of its inner forces, plus 4 if what is around it met
-                                          // a corner or an edge of a collider
+    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 4 if what
+                                          // is around it met a corner or an edge of a collider
     VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
     VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
@@ -259,9 +258,8 @@ public:
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
     // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
-    // From the blocks of M^-1 K and M^-1 C at rest (stability.hpp): RK4 takes omega h <= 2.6, velocity Verlet omega h
-    // <= 2, less with damping. A cloth that turns out stiffer on its way, crumpled or torn, is held by
-    // stable_acceleration in shaders/cloth/stability.glsl; Statistics::limited_vertices counts where.
+    // From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched:
+    // RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 

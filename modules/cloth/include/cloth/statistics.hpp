@@ -14,7 +14,6 @@ struct Statistics
     float deepest_penetration = 0;     // m under the surface of a collider; 0 if no vertex is under one
     uint32_t penetrating_vertices = 0; // vertices under the surface of a collider
     uint32_t nan_vertices = 0;         // vertices whose position or velocity is not finite
-    uint32_t limited_vertices = 0;     // vertices too stiff for the substep, which bore less than their inner forces
     uint32_t contacts = 0;             // vertices that touched a collider in the last substep
     uint32_t candidates = 0;           // triangles of colliders in the lists that vertices keep
     uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
