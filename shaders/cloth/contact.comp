@@ -6,7 +6,7 @@
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
-// own previous state.
+// own previous state, residuals of both.
 // Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -39,6 +39,8 @@ layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox pa
 layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorrection corrections[]; };
+layout(set = 0, binding = 20, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(set = 0, binding = 21, std430) buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -48,20 +50,31 @@ float rounding(vec3 x)
     return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
 }
 
+// m: a vertex that is nearer to the offset surface than this rests on it. Rounding moves both, more so where triangles are
+// long.
+float contact_slop(vec3 x, float thickness)
+{
+    return max(rounding(x), 5e-4 * thickness);
+}
+
 #define VOILE_NORMAL_POSITIONS proposed_positions
+#define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "vertex_normal.glsl"
 #include "collider_pose.glsl"
 #include "contact_query.glsl"
 #include "contact_candidates.glsl"
+#include "fine_position.glsl"
 #include "friction.glsl"
 
 struct Motion
 {
-    vec3 from; // m, before the substep
-    vec3 x;    // m, now
-    vec3 v;    // m/s
+    vec3 from;         // m, before the substep
+    vec3 displacement; // m, since then
+    vec3 v;            // m/s
     uint cloth;
 };
+
+vec3 position_of(Motion motion) { return motion.from + motion.displacement; }
 
 // What contact needs of the vertex's cloth.
 struct ClothContact
@@ -87,13 +100,13 @@ Passage passage_of(uint c, uint flags, Motion motion)
     Passage result;
     result.moves = is_moved(flags);
     result.from = motion.from;
-    result.to = motion.x;
+    result.to = position_of(motion);
     if (result.moves)
     {
         result.start = pose_at(c, push.progress_from);
         result.end = pose_at(c, push.progress_to);
         result.from = to_collider(result.start, motion.from);
-        result.to = to_collider(result.end, motion.x);
+        result.to = to_collider(result.end, result.to);
     }
     return result;
 }
@@ -120,7 +133,7 @@ float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step;
 void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, float static_friction,
              float kinetic_friction)
 {
-    motion.x += max(thickness - gap, 0) * n;
+    motion.displacement += max(thickness - gap, 0) * n;
     const vec3 relative = motion.v - way / push.step;
     const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
@@ -134,15 +147,14 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
     {
         // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
         // To the bit: roundings that add up would stretch stiff cloth until it slips.
-        const vec3 stuck = motion.from + way;
-        const float lift = dot(motion.x - stuck, n);
-        motion.x = stuck + (abs(lift) > rounding(stuck) ? lift : 0) * n;
+        const float lift = dot(motion.displacement - way, n);
+        motion.displacement = way + (abs(lift) > contact_slop(motion.from, thickness) ? lift : 0) * n;
         motion.v -= v_t;
         return;
     }
-    const vec3 change = -min(kinetic_friction * normal_impulse / speed, 1) * v_t;
+    const vec3 change = (slip_speed(speed, normal_impulse, static_friction, kinetic_friction) / speed - 1) * v_t;
     motion.v += change;
-    motion.x += drift(motion.cloth) * change;
+    motion.displacement += drift(motion.cloth) * change;
 }
 
 // What contact knows of the vertex.
@@ -157,7 +169,7 @@ void keep_out(inout Motion motion, Passage passage, Contact contact)
 {
     const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
     const vec3 n = world_direction(passage, contact.direction);
-    motion.x = motion.from + way;
+    motion.displacement = way;
     motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
 }
 
@@ -168,7 +180,7 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
     const Passage passage = passage_of(c, collider.flags, motion);
     const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
     // A vertex that rests lies on the offset surface within rounding, and touches it on either side of that.
-    const float reach = last ? 0 : cloth.thickness + rounding(motion.x);
+    const float reach = last ? 0 : cloth.thickness + contact_slop(motion.from, cloth.thickness);
     const Contact contact = find_contact(c, collider, last ? VOILE_METHOD_PATH_ALONE : METHOD, passage.from, passage.to,
                                          normal, reach);
     if (!contact.found)
@@ -180,8 +192,8 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
         return;
     }
     // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
-    const float moved = cloth.thickness - contact.gap + distance(passage.from, passage.to);
-    meeting.stays_out = !meeting.touches && moved < contact.gap;
+    const float farthest = cloth.thickness - contact.gap + distance(passage.from, passage.to);
+    meeting.stays_out = !meeting.touches && farthest < contact.gap;
     meeting.touches = true;
     respond(motion, world_direction(passage, contact.direction), contact.gap,
             surface_way(passage, passage.to - contact.gap * contact.direction, contact.way), cloth.thickness,
@@ -206,14 +218,20 @@ Meeting meet_all(inout Motion motion, ClothContact cloth)
 }
 
 // What integration proposes, corrected by features where they have met the vertex in this substep.
-void propose(uint i, out vec4 position, out vec4 velocity)
+Motion propose(uint i, uint cloth, FinePosition from, vec3 x, out vec4 velocity)
 {
-    position = proposed_positions[i];
     velocity = proposed_velocities[i];
-    if (push.features == 0 || corrections[i].substep != push.substep)
-        return;
-    position.xyz += corrections[i].shift;
-    velocity += vec4(corrections[i].change, VOILE_VERTEX_MEETS);
+    Motion motion;
+    motion.from = from.x;
+    motion.displacement = displacement(from, FinePosition(x, unpack_residual(x, proposed_residuals[i])));
+    motion.cloth = cloth;
+    if (push.features != 0 && corrections[i].substep == push.substep)
+    {
+        motion.displacement += corrections[i].shift;
+        velocity += vec4(corrections[i].change, VOILE_VERTEX_MEETS);
+    }
+    motion.v = velocity.xyz;
+    return motion;
 }
 
 void main()
@@ -223,10 +241,11 @@ void main()
         return;
     const uint i = self.index;
     const uint cloth = self.cloth;
-    vec4 proposed;
+    const vec4 proposed = proposed_positions[i];
+    const vec3 before = positions[i].xyz;
+    const FinePosition from = FinePosition(before, unpack_residual(before, residuals[i]));
     vec4 proposed_velocity;
-    propose(i, proposed, proposed_velocity);
-    Motion motion = Motion(positions[i].xyz, proposed.xyz, proposed_velocity.xyz, cloth);
+    Motion motion = propose(i, cloth, from, proposed.xyz, proposed_velocity);
     bool touches = false;
     if (proposed.w > 0)
     {
@@ -237,10 +256,12 @@ void main()
         contact.static_friction = cloths[cloth].static_friction;
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
-        find_candidates(i, motion.from, motion.x, motion.v, contact.thickness);
+        find_candidates(i, motion.from, position_of(motion), motion.v, contact.thickness);
         touches = meet_all(motion, contact).touches;
     }
-    positions[i] = vec4(motion.x, proposed.w);
+    const FinePosition to = moved(from, motion.displacement);
+    positions[i] = vec4(to.x, proposed.w);
+    residuals[i] = pack_residual(to);
     velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);
     if (is_verlet(cloth))
         predicted[i] = proposed_predicted[i] + vec4(motion.v - proposed_velocity.xyz, 0);

@@ -22,6 +22,9 @@
 // What lies behind an open mesh with one side has its nearest point straight before it: |cosine| to the face's normal.
 #define VOILE_BEHIND 0.99
 
+// A nearest point lies inside its triangle if the offset is this straight before it: |cosine|, 0.6 degrees.
+#define VOILE_INSIDE_FACE 0.99995
+
 struct Contact
 {
     bool found;
@@ -55,6 +58,7 @@ struct MeshQuery
     float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
     vec3 point;      // on that surface
     vec3 face;       // unit normal of its triangle
+    float height;    // m, of `to` above the triangle's plane
     uint crossing_triangle;
     float crossing;  // smallest parameter of from -> to at which the motion crosses a triangle; 2 = none
     vec3 crossing_face; // to the side that the motion comes from
@@ -82,6 +86,7 @@ void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
         query.alignment = alignment;
         query.point = point;
         query.face = face;
+        query.height = dot(query.to - a, face); // more precise than by the point, which is put together from corners
     }
 }
 
@@ -181,14 +186,15 @@ Contact nearest_contact()
     if (inside && !query.closed && query.alignment < VOILE_BEHIND)
         contact.found = false;
     // Near the surface the offset is too short to have a precise direction; the face has one. So it has for a ray's hit,
-    // whose offset follows the cloth.
+    // whose offset follows the cloth, and inside the triangle, where rounding of large coordinates would tilt the offset.
     const bool short_offset = query.distance < VOILE_SHORT_OFFSET * query.thickness;
-    if (short_offset || query.method == VOILE_METHOD_NORMAL_RAY)
+    const bool inside_face = query.method == VOILE_METHOD_NEAREST_POINT && query.alignment > VOILE_INSIDE_FACE;
+    if (short_offset || inside_face || query.method == VOILE_METHOD_NORMAL_RAY)
     {
         const vec3 side = query.method == VOILE_METHOD_NORMAL_RAY ? query.from - query.point : offset;
         const bool flip = !query.one_sided && dot(side, query.face) < 0;
         contact.direction = flip ? -query.face : query.face;
-        contact.gap = dot(offset, contact.direction);
+        contact.gap = inside_face ? (flip ? -query.height : query.height) : dot(offset, contact.direction);
         return contact;
     }
     contact.direction = (inside ? -1 : 1) * offset / query.distance;

@@ -11,8 +11,25 @@ layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths
 layout(set = 0, binding = 1, std430) readonly buffer Start { vec4 start[]; }; // w: inverse of what density multiplies
 layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StartResiduals { uvec2 start_residuals[]; };
+layout(set = 0, binding = 5, std430) buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { EditPush push; };
+
+#include "fine_position.glsl"
+
+// A product of floats with what its rounding leaves, and a sum likewise, give the position its residual.
+FinePosition moved_by(mat4 transform, FinePosition p)
+{
+    FinePosition result = FinePosition(transform[3].xyz, mat3(transform) * p.residual);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        precise const vec3 product = transform[axis].xyz * p.x[axis];
+        precise const vec3 rest = fma(transform[axis].xyz, vec3(p.x[axis]), -product);
+        result = moved(FinePosition(result.x, result.residual + rest), product);
+    }
+    return result;
+}
 
 void main()
 {
@@ -26,11 +43,16 @@ void main()
     else if (push.kind == VOILE_EDIT_RESET)
     {
         positions[i] = vec4(start[i].xyz, inverse_mass);
+        residuals[i] = start_residuals[i];
         velocities[i] = vec4(push.velocity, 0);
     }
     else if (push.kind == VOILE_EDIT_TRANSFORM)
     {
-        positions[i].xyz = (push.transform * vec4(positions[i].xyz, 1)).xyz;
+        const vec3 x = positions[i].xyz;
+        const vec3 residual = unpack_residual(x, residuals[i]);
+        const FinePosition next = moved_by(push.transform, FinePosition(x, residual));
+        positions[i].xyz = next.x;
+        residuals[i] = pack_residual(next);
         velocities[i] = vec4(mat3(push.transform) * velocities[i].xyz, 0);
     }
     else

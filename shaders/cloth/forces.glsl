@@ -1,20 +1,21 @@
 // The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbours (no atomics, so the sum's
 // order never changes).
 //
-// The including kernel declares cloths[], stage_positions[], stage_velocities[], mesh_vertices[], mesh_springs[],
+// The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[], mesh_springs[],
 // mesh_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
 #include "chunk.glsl"
+#include "fine_position.glsl"
 #include "mesh.glsl"
 #include "stability.glsl"
 #include "wind.glsl"
 
 struct Gather
 {
-    vec3 x;       // of the vertex, m
-    vec3 v;       // m/s
+    FinePosition x; // of the vertex
+    vec3 v;         // m/s
     vec3 force;   // N, of the springs
     vec3 bending; // N, of the isometric model
     float bending_stiffness; // the step's scale of it: bending sees bending_stiffness * x + bending_damping * v
@@ -54,7 +55,10 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
     const float inverse_length = inversesqrt(length_squared);
     const vec3 direction = delta * inverse_length;
-    const float stretch = length_squared * inverse_length - rest_length;
+    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest pulls with nothing.
+    const float excess =
+        fma(delta.x, delta.x, fma(delta.y, delta.y, fma(delta.z, delta.z, -rest_length * rest_length)));
+    const float stretch = excess / (length_squared * inverse_length + rest_length);
     g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
     if (VERLET)
         g.force += viscous_force(g, stiffness, rest_length * inverse_length, push.step / rest_length, direction,
@@ -83,6 +87,13 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
 bool feels_air(uint cloth) { return cloths[cloth].drag_normal + cloths[cloth].drag_tangential > 0; }
 bool bends_isometrically(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_ISOMETRIC) != 0; }
 
+// From the vertex to another one, m.
+vec3 delta_to(Gather g, uint other)
+{
+    const vec3 x = stage_positions[other].xyz;
+    return displacement(g.x, FinePosition(x, unpack_residual(x, stage_residuals[other])));
+}
+
 // A neighbour on a grid: its place from the vertex, and the same as bending sees it; zero where there is none.
 struct Neighbour
 {
@@ -101,7 +112,7 @@ Neighbour grid_neighbour(inout Gather g, uint cloth, ChunkVertex self, ivec2 off
     if (!n.exists)
         return n;
     const uint other = neighbour(self.index, offset, cloths[cloth].columns);
-    n.delta = stage_positions[other].xyz - g.x;
+    n.delta = delta_to(g, other);
     const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
     n.bending = g.bending_stiffness * n.delta + g.bending_damping * relative_velocity;
     if (spring.stiffness + spring.damping > 0)
@@ -198,7 +209,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
         const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
-        const vec3 delta = stage_positions[other].xyz - g.x;
+        const vec3 delta = delta_to(g, other);
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
         const float stiffness = scales.stiffness * weight * spring.stiffness;
         const float damping = scales.damping * weight * spring.damping;
@@ -212,14 +223,13 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         for (uint c = 0; c < vertex.corners; ++c)
         {
             const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
-            add_air(g, cloth, stage_positions[first_vertex + corner.b].xyz - g.x,
-                    stage_positions[first_vertex + corner.c].xyz - g.x, 1.0 / 3);
+            add_air(g, cloth, delta_to(g, first_vertex + corner.b), delta_to(g, first_vertex + corner.c), 1.0 / 3);
         }
     }
 }
 
 // The acceleration of a vertex, m/s^2.
-vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v)
+vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
 {
     const uint cloth = self.cloth;
     Gather g;
@@ -227,7 +237,7 @@ vec3 acceleration(ChunkVertex self, vec3 x, float inverse_mass, vec3 v)
     g.v = v;
     g.force = g.bending = g.air = vec3(0);
     g.air_rate = 0;
-    g.wind = wind_at(x);
+    g.wind = wind_at(x.x);
     const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
     if (VERLET)
         g.viscosity = viscosity(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,

@@ -6,7 +6,8 @@
 // place's velocity, w the inverse mass. What it adds to the velocity moves the vertex for half of the substep after RK4, in
 // which it acted throughout, and for all of it with Verlet's velocities between positions: a vertex at rest stays there. A
 // leash and a backstop put the vertex back and take the velocity that leads out.
-// Reads: holds, anchors, cloths. Writes: proposed state, predicted velocities.
+// Reads: holds, anchors, cloths. Writes: proposed state and residuals, predicted
+// velocities.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -17,15 +18,18 @@ layout(set = 0, binding = 2, std430) readonly buffer Cloths { ClothRecord cloths
 layout(set = 0, binding = 3, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 4, std430) buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 5, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(set = 0, binding = 6, std430) buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { HoldPush push; };
 
+#include "fine_position.glsl"
+
 // Puts a vertex that is `outside` m beyond a bound back along n, and takes what velocity leads it out.
-void keep_inside(inout vec3 x, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
+void keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
 {
     if (outside <= 0)
         return;
-    x -= outside * n;
+    shift -= outside * n;
     v -= max(dot(v - place_velocity, n), 0) * n;
 }
 
@@ -42,7 +46,9 @@ void main()
     const vec3 to = (anchor.to * vec4(hold.place, 1)).xyz;
     const vec3 place = mix(from, to, push.progress);
     const float h = push.step;
-    vec3 x = position.xyz;
+    const FinePosition here = FinePosition(position.xyz, unpack_residual(position.xyz, residuals[hold.vertex]));
+    const vec3 to_vertex = (position.xyz - place) + here.residual;
+    vec3 shift = vec3(0); // m, of the vertex
     const vec4 velocity = velocities[hold.vertex];
     vec3 v = velocity.xyz;
 
@@ -50,22 +56,24 @@ void main()
     const vec3 place_velocity = (to - from) * (push.progress_a_substep / h);
     const float stiffness = hold.stiffness;
     const float w = position.w;
-    const vec3 pull = stiffness * (place - x + h * v) + hold.damping * place_velocity;
+    const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * place_velocity;
     const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (hold.damping + h * stiffness));
     const bool verlet = (cloths[hold.cloth].flags & VOILE_CLOTH_VERLET) != 0;
-    x += (verlet ? h : 0.5 * h) * (spring_velocity - v);
+    shift += (verlet ? h : 0.5 * h) * (spring_velocity - v);
     v = spring_velocity;
 
-    const vec3 offset = x - place;
+    const vec3 offset = to_vertex + shift;
     const float distance = length(offset);
     if (distance > hold.max_distance)
-        keep_inside(x, v, offset / distance, distance - hold.max_distance, place_velocity);
+        keep_inside(shift, v, offset / distance, distance - hold.max_distance, place_velocity);
     if ((hold.flags & VOILE_HOLD_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * hold.normal);
-        keep_inside(x, v, -n, -dot(x - place, n) - hold.backstop, place_velocity);
+        keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, place_velocity);
     }
-    positions[hold.vertex].xyz = x;
+    const FinePosition next = moved(here, shift);
+    positions[hold.vertex].xyz = next.x;
+    residuals[hold.vertex] = pack_residual(next);
     velocities[hold.vertex].xyz = v;
     if (verlet)
         predicted[hold.vertex].xyz += v - velocity.xyz;

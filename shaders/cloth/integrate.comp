@@ -4,7 +4,7 @@
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
 // neighbours, and writes the next stage's state. STAGE 4 writes the result of the step.
-// Reads: cloths, chunks, mesh lists, base state, stage state. Writes: next state, running sums.
+// Reads: cloths, chunks, mesh lists, base state, stage state, residuals of both. Writes: next state, running sums.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -24,11 +24,26 @@ layout(set = 0, binding = 9, std430) buffer AccelerationSums { vec4 acceleration
 layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 11, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 13, std430) readonly buffer BaseResiduals { uvec2 base_residuals[]; };
+layout(set = 0, binding = 14, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 15, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
 const bool VERLET = false;
 #include "forces.glsl"
+
+FinePosition base_position(uint i)
+{
+    const vec3 x = base_positions[i].xyz;
+    return FinePosition(x, unpack_residual(x, base_residuals[i]));
+}
+
+void write_position(uint i, FinePosition x, float inverse_mass)
+{
+    next_positions[i] = vec4(x.x, inverse_mass);
+    next_residuals[i] = pack_residual(x);
+}
 
 void main()
 {
@@ -40,20 +55,21 @@ void main()
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
     const vec3 velocity_sum = STAGE == 1 ? vec3(0) : velocity_sums[i].xyz;
-    const vec3 a = inverse_mass > 0 ? acceleration(self, stage_x.xyz, inverse_mass, stage_v) : vec3(0);
+    const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_x.xyz, stage_residuals[i]));
+    const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.
-    const vec3 x = STAGE == 1 ? stage_x.xyz : base_positions[i].xyz;
+    const FinePosition x = STAGE == 1 ? here : base_position(i);
     const vec3 v = STAGE == 1 ? stage_v : base_velocities[i].xyz;
     const float h = push.step;
     if (STAGE == 4)
     {
-        next_positions[i] = vec4(x + h / 6 * (velocity_sum + stage_v), inverse_mass);
+        write_position(i, moved(x, h / 6 * (velocity_sum + stage_v)), inverse_mass);
         next_velocities[i] = vec4(v + h / 6 * (acceleration_sums[i].xyz + a), 0);
         return;
     }
     const float reach = STAGE == 3 ? h : 0.5 * h;
-    next_positions[i] = vec4(x + reach * stage_v, inverse_mass);
+    write_position(i, moved(x, reach * stage_v), inverse_mass);
     next_velocities[i] = vec4(v + reach * a, 0);
     velocity_sums[i] = vec4(velocity_sum + (STAGE == 1 ? 1.0 : 2.0) * stage_v, 0);
     acceleration_sums[i] = vec4(STAGE == 1 ? a : acceleration_sums[i].xyz + 2 * a, 0);

@@ -27,10 +27,13 @@ layout(set = 0, binding = 7, std430) readonly buffer MeshSprings { MeshSpring me
 
 layout(set = 0, binding = 8, std430) readonly buffer StepPositions { vec4 step_positions[]; };
 layout(set = 0, binding = 9, std430) readonly buffer StepVelocities { vec4 step_velocities[]; };
+layout(set = 0, binding = 10, std430) readonly buffer Residuals { uvec2 residuals[]; };
+layout(set = 0, binding = 11, std430) buffer NextResiduals { uvec2 next_residuals[]; };
 
 layout(push_constant, std430) uniform Push { StrainPush push; };
 
 #include "chunk.glsl"
+#include "fine_position.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
 #include "stiffness_sum.glsl"
@@ -192,9 +195,15 @@ void main()
         correction.x *= relaxation;
         correction.v *= relaxation;
     }
-    vec3 next_x = x.xyz + correction.x;
+    const FinePosition here = FinePosition(x.xyz, unpack_residual(x.xyz, residuals[i]));
     if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
-        next_x = mix(next_positions[i].xyz, next_x, push.acceleration);
-    next_positions[i] = vec4(next_x, x.w);
+    {
+        const vec3 last = next_positions[i].xyz;
+        correction.x = mix(displacement(here, FinePosition(last, unpack_residual(last, next_residuals[i]))), correction.x,
+                           push.acceleration);
+    }
+    const FinePosition next = moved(here, correction.x);
+    next_positions[i] = vec4(next.x, x.w);
+    next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(v.xyz + correction.v, uint(v.w) & ~VOILE_VERTEX_TOUCHES); // contact follows, and adds that
 }

@@ -11,6 +11,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Holds { HoldRecord holds[];
 layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
 layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { HoldPush push; };
 
@@ -24,5 +25,7 @@ void main()
     const vec3 from = placed ? (anchor.from * vec4(hold.place, 1)).xyz : positions[hold.vertex].xyz;
     const vec3 to = placed ? (anchor.to * vec4(hold.place, 1)).xyz : (anchor.motion * vec4(from, 1)).xyz;
     positions[hold.vertex] = vec4(from, 0);
+    if (placed)
+        residuals[hold.vertex] = uvec2(0);
     velocities[hold.vertex] = vec4((to - from) / push.step, 0);
 }

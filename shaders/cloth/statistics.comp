@@ -28,12 +28,14 @@ layout(set = 0, binding = 11, std430) readonly buffer CandidateTriangles { uint 
 layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
 #include "contact_query.glsl"
+#include "fine_position.glsl"
 
 void take_leaf(uint first, uint count)
 {
@@ -59,15 +61,21 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 
 bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
 
-void measure_spring(vec3 x, uint other, float rest_length, inout StatisticsRecord record)
+FinePosition position_of(uint i)
 {
-    const float stretch = distance(x, positions[other].xyz) / rest_length - 1;
+    const vec3 x = positions[i].xyz;
+    return FinePosition(x, unpack_residual(x, residuals[i]));
+}
+
+void measure_spring(uint self, uint other, float rest_length, inout StatisticsRecord record)
+{
+    const float stretch = length(displacement(position_of(self), position_of(other))) / rest_length - 1;
     record.max_stretch = max(record.max_stretch, stretch);
     record.stretch_sum += stretch;
     record.springs += 1;
 }
 
-void measure_grid_springs(ChunkVertex self, vec3 x, inout StatisticsRecord record)
+void measure_grid_springs(ChunkVertex self, inout StatisticsRecord record)
 {
     const uint cloth = self.cloth;
     for (int c = 0; c < 4; ++c) // structural and shear
@@ -76,12 +84,12 @@ void measure_grid_springs(ChunkVertex self, vec3 x, inout StatisticsRecord recor
         const ivec2 offset = k_spring_offsets[c];
         if (spring.stiffness > 0 &&
             in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows))
-            measure_spring(x, neighbour(self.index, offset, cloths[cloth].columns), spring.rest_length, record);
+            measure_spring(self.index, neighbour(self.index, offset, cloths[cloth].columns), spring.rest_length, record);
     }
 }
 
 // An edge is measured by the vertex with the smaller index.
-void measure_mesh_springs(uint cloth, uint local, vec3 x, inout StatisticsRecord record)
+void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
 {
     const uint first = cloths[cloth].first_vertex;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
@@ -89,7 +97,7 @@ void measure_mesh_springs(uint cloth, uint local, vec3 x, inout StatisticsRecord
     {
         const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
         if (entry.neighbour > local && (entry.neighbour & VOILE_OPPOSITE_BIT) == 0)
-            measure_spring(x, first + entry.neighbour, entry.rest_length, record);
+            measure_spring(first + local, first + entry.neighbour, entry.rest_length, record);
     }
 }
 
@@ -132,9 +140,9 @@ void main()
         {
             const uint columns = cloths[cloth].columns;
             if (columns > 0)
-                measure_grid_springs(self, x.xyz, record);
+                measure_grid_springs(self, record);
             else
-                measure_mesh_springs(cloth, self.local, x.xyz, record);
+                measure_mesh_springs(cloth, self.local, record);
             query_layers = cloths[cloth].layers;
             measure_penetration(x.xyz, cloths[cloth].thickness, record);
             if (push.colliders > 0)

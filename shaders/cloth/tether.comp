@@ -13,6 +13,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Cloths { ClothRecord cloths
 layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 4, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(set = 0, binding = 5, std430) writeonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { HoldPush push; };
 
@@ -39,6 +40,7 @@ void main()
     if (!taut || positions[tether.vertex].w == 0)
         return;
     positions[tether.vertex].xyz = x;
+    residuals[tether.vertex] = uvec2(0);
     velocities[tether.vertex].xyz = v;
     if ((cloths[tether.cloth].flags & VOILE_CLOTH_VERLET) != 0)
         predicted[tether.vertex].xyz += v - before;

@@ -6,8 +6,8 @@
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
 // after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction,
 // v + a h/2, for the next, which keeps the second order.
-// A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions, predicted and own velocities. Writes: next
-// positions, velocities, predicted velocities.
+// A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions and their residuals, predicted and own velocities.
+// Writes: next positions and residuals, velocities, predicted velocities.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -23,6 +23,8 @@ layout(set = 0, binding = 7, std430) writeonly buffer NextPredicted { vec4 next_
 layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 11, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 12, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
@@ -35,8 +37,9 @@ void main()
     if (!self.exists)
         return;
     const uint i = self.index;
-    const vec4 x = stage_positions[i];
-    const vec3 a = x.w > 0 ? acceleration(self, x.xyz, x.w, stage_velocities[i].xyz) : vec3(0);
+    const vec4 stage_x = stage_positions[i];
+    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_x.xyz, stage_residuals[i]));
+    const vec3 a = stage_x.w > 0 ? acceleration(self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
     // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into
     // the surface. The next step's first kick has that half in it.
@@ -44,7 +47,9 @@ void main()
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
     const vec3 v = before.xyz + kick * a;
-    next_positions[i] = vec4(x.xyz + push.drift * v, x.w);
+    const FinePosition next = moved(x, push.drift * v);
+    next_positions[i] = vec4(next.x, stage_x.w);
+    next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(v, ends ? touches : 0);
     next_predicted[i] = vec4(v + 0.5 * push.step * a, 0);
 }

@@ -1,16 +1,25 @@
-// The normal of a vertex, from the buffer that the including kernel names VOILE_NORMAL_POSITIONS. The kernel declares
-// cloths[], mesh_vertices[] and mesh_corners[] too.
+// The normal of a vertex, from the buffers that the including kernel names VOILE_NORMAL_POSITIONS and
+// VOILE_NORMAL_RESIDUALS. The kernel declares cloths[], mesh_vertices[] and mesh_corners[] too.
 #ifndef VOILE_VERTEX_NORMAL_GLSL
 #define VOILE_VERTEX_NORMAL_GLSL
 
 #include "chunk.glsl"
+#include "fine_position.glsl"
 #include "mesh.glsl"
+
+vec3 vertex_delta(uint from, uint to)
+{
+    const vec3 a = VOILE_NORMAL_POSITIONS[from].xyz;
+    const vec3 b = VOILE_NORMAL_POSITIONS[to].xyz;
+    return displacement(FinePosition(a, unpack_residual(a, VOILE_NORMAL_RESIDUALS[from])),
+                        FinePosition(b, unpack_residual(b, VOILE_NORMAL_RESIDUALS[to])));
+}
 
 vec3 neighbour_delta(ChunkVertex self, ivec2 offset, uint columns, uint rows)
 {
     if (!in_grid(self.place + offset, columns, rows))
         return vec3(0);
-    return VOILE_NORMAL_POSITIONS[neighbour(self.index, offset, columns)].xyz - VOILE_NORMAL_POSITIONS[self.index].xyz;
+    return vertex_delta(self.index, neighbour(self.index, offset, columns));
 }
 
 // The sum of the cross products of consecutive neighbours around the vertex, E x N + N x W + W x S + S x E, is the one
@@ -29,13 +38,12 @@ vec3 mesh_across(uint cloth, uint local)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
-    const vec3 x = VOILE_NORMAL_POSITIONS[first_vertex + local].xyz;
     vec3 across = vec3(0);
     for (uint c = 0; c < vertex.corners; ++c)
     {
         const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
-        across += cross(VOILE_NORMAL_POSITIONS[first_vertex + corner.b].xyz - x,
-                        VOILE_NORMAL_POSITIONS[first_vertex + corner.c].xyz - x);
+        across += cross(vertex_delta(first_vertex + local, first_vertex + corner.b),
+                        vertex_delta(first_vertex + local, first_vertex + corner.c));
     }
     return across;
 }

@@ -10,6 +10,8 @@
 #include <complex>
 #include <numbers>
 
+#include <glm/gtc/packing.hpp>
+
 namespace cloth
 {
 
@@ -281,6 +283,16 @@ void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
 namespace
 {
 
+// What a float position leaves of a place, as fine_position.glsl packs it.
+glm::uvec2 residual_of(const glm::dvec3& place)
+{
+    const glm::vec3 x(place);
+    const float largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    const double unit = std::ldexp(1.0, std::max(std::ilogb(largest), -101) - 24);
+    const glm::vec3 fraction((place - glm::dvec3(x)) / unit);
+    return {glm::packSnorm2x16({fraction.x, fraction.y}), glm::packSnorm2x16({fraction.z, 0})};
+}
+
 // What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
 // for masses given outright.
 double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
@@ -317,7 +329,7 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
     return {};
 }
 
-void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index)
+void append_state(Model& model, const ClothInput& cloth, std::span<const glm::dvec3> places, uint32_t index)
 {
     ClothModel& kept = model.cloths[index];
     shared::ClothRecord& record = model.records[index];
@@ -330,7 +342,8 @@ void append_state(Model& model, const ClothInput& cloth, std::span<const glm::ve
             inverse = measure > 0 ? static_cast<double>(cloth.inverse_masses[i]) : 0;
             kept.own_inverse_mass = std::max(kept.own_inverse_mass, inverse * measure);
         }
-        model.start.emplace_back(places[i], static_cast<float>(inverse));
+        model.start.emplace_back(glm::vec3(places[i]), static_cast<float>(inverse));
+        model.residuals.push_back(residual_of(places[i]));
     }
     if (kept.own_inverse_mass > 0)
         apply_material(kept, record);
@@ -338,7 +351,7 @@ void append_state(Model& model, const ClothInput& cloth, std::span<const glm::ve
     for (uint32_t i = 0; i < places.size(); ++i)
     {
         const float inverse_mass = model.start[record.first_vertex + i].w * record.inverse_density;
-        model.positions.emplace_back(places[i], inverse_mass);
+        model.positions.emplace_back(glm::vec3(places[i]), inverse_mass);
         model.velocities.emplace_back(inverse_mass > 0 ? cloth.velocity : glm::vec3(0), 0);
     }
     std::vector<bool> pinned(places.size());

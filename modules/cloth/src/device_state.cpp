@@ -23,6 +23,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
+    const VkDeviceSize per_residual = model.positions.size() * sizeof(glm::uvec2);
     const BufferRequest requests[] = {
         {&state.cloths, "cloth records", model.records.size() * sizeof(shared::ClothRecord)},
         {&state.chunks, "cloth chunks", chunk_count * sizeof(shared::Chunk)},
@@ -47,14 +48,18 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.recover_dispatch[0], "cloth recover dispatch a", sizeof(VkDispatchIndirectCommand)},
         {&state.recover_dispatch[1], "cloth recover dispatch b", sizeof(VkDispatchIndirectCommand)},
         {&state.start, "cloth start", per_vertex},
+        {&state.start_residuals, "cloth start residuals", per_residual},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
         {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
         {&state.tethers, "cloth tethers", data.tethers * sizeof(shared::TetherRecord)},
         {&state.state.positions, "cloth positions", per_vertex},
+        {&state.state.residuals, "cloth position residuals", per_residual},
         {&state.state.velocities, "cloth velocities", per_vertex},
         {&state.stage_a.positions, "cloth stage a positions", per_vertex},
+        {&state.stage_a.residuals, "cloth stage a residuals", per_residual},
         {&state.stage_a.velocities, "cloth stage a velocities", per_vertex},
         {&state.stage_b.positions, "cloth stage b positions", per_vertex},
+        {&state.stage_b.residuals, "cloth stage b residuals", per_residual},
         {&state.stage_b.velocities, "cloth stage b velocities", per_vertex},
         {&state.sums.positions, "cloth velocity sums", per_vertex},
         {&state.sums.velocities, "cloth acceleration sums", per_vertex},
@@ -97,20 +102,24 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
     const VkBuffer positions = s.stage_b.positions.handle();
     const VkBuffer velocities = s.stage_b.velocities.handle();
     const VkBuffer predicted = s.sums.velocities.handle();
+    const VkBuffer residuals = s.stage_b.residuals.handle();
     binder.bind(s.pins, kernels.pins,
-                {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+                {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.state.residuals.handle()});
     binder.bind(s.proposed_holds, kernels.holds,
-                {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), positions, velocities, predicted});
+                {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
     binder.bind(s.proposed_tethers, kernels.tethers,
-                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted});
+                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
     binder.bind(s.edit, kernels.edit,
-                {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+                {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.start_residuals.handle(), s.state.residuals.handle()});
     const auto bind_strain = [&](VkDescriptorSet& set, const StateBuffers& input, const StateBuffers& output)
     {
         binder.bind(set, kernels.limit_strain,
                     {s.cloths.handle(), s.chunks.handle(), input.positions.handle(), input.velocities.handle(),
                      output.positions.handle(), output.velocities.handle(), s.mesh_vertices.handle(),
-                     s.mesh_springs.handle(), s.state.positions.handle(), s.state.velocities.handle()});
+                     s.mesh_springs.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                     input.residuals.handle(), output.residuals.handle()});
     };
     bind_strain(s.strain_first, s.state, s.stage_b);
     bind_strain(s.strain_back, s.stage_b, s.stage_a);
@@ -139,7 +148,9 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.padded_boxes.handle(),
                  s.padded_leaves.handle(),
                  s.deforming_positions.handle(),
-                 s.feature_corrections.handle()});
+                 s.feature_corrections.handle(),
+                 s.stage_b.residuals.handle(),
+                 s.state.residuals.handle()});
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
@@ -161,7 +172,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                     {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
                      output.velocities.handle(), s.sums.positions.handle(), s.sums.velocities.handle(),
-                     s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle()});
+                     s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle(),
+                     s.state.residuals.handle(), input.residuals.handle(), output.residuals.handle()});
     };
     bind_stage(s.stages[0], 0, s.state, s.stage_a);
     bind_stage(s.stages[1], 1, s.stage_a, s.stage_b);
@@ -172,25 +184,26 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
     struct Motion
     {
         const gpu::Buffer& positions;
+        const gpu::Buffer& residuals;
         const gpu::Buffer& gathered;
         const gpu::Buffer& velocities;
     };
-    const Motion start{s.state.positions, s.state.velocities, s.state.velocities};
-    const Motion here{s.state.positions, s.stage_a.velocities, s.state.velocities};
-    const Motion there{s.stage_b.positions, s.sums.velocities, s.stage_b.velocities};
+    const Motion start{s.state.positions, s.state.residuals, s.state.velocities, s.state.velocities};
+    const Motion here{s.state.positions, s.state.residuals, s.stage_a.velocities, s.state.velocities};
+    const Motion there{s.stage_b.positions, s.stage_b.residuals, s.sums.velocities, s.stage_b.velocities};
     const auto bind_verlet = [&](VkDescriptorSet& set, const Motion& input, const Motion& output)
     {
         binder.bind(set, kernels.verlet,
                     {s.cloths.handle(), s.chunks.handle(), input.positions.handle(), input.gathered.handle(),
                      input.velocities.handle(), output.positions.handle(), output.velocities.handle(),
                      output.gathered.handle(), s.mesh_vertices.handle(), s.mesh_springs.handle(),
-                     s.mesh_corners.handle()});
+                     s.mesh_corners.handle(), input.residuals.handle(), output.residuals.handle()});
     };
     bind_verlet(s.verlet_first, start, there);
     bind_verlet(s.verlet_forth, here, there);
     bind_verlet(s.verlet_back, there, here);
     // The last kick leaves positions alone; what it would write of them goes where nobody looks.
-    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.sums.velocities, s.state.velocities});
+    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.stage_b.residuals, s.sums.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
     bind_contact(s, kernels, binder);
@@ -205,13 +218,13 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});
     binder.bind(s.normals_set, kernels.normals,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.normals.handle(),
-                 s.mesh_vertices.handle(), s.mesh_corners.handle()});
+                 s.mesh_vertices.handle(), s.mesh_corners.handle(), s.state.residuals.handle()});
     binder.bind(s.statistics, kernels.statistics,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
                  s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
                  s.candidate_triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                 s.deforming_positions.handle()});
+                 s.deforming_positions.handle(), s.state.residuals.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
     return binder.status;
 }
@@ -234,7 +247,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
         return buffers.error();
     constexpr uint32_t k_sets = 27;
-    constexpr uint32_t k_most_bindings = 20;
+    constexpr uint32_t k_most_bindings = 22;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
     if (!pool)
         return pool.error();

@@ -15,6 +15,7 @@ namespace cloth
 struct StateBuffers
 {
     gpu::Buffer positions;
+    gpu::Buffer residuals; // of the positions, what floats do not hold of them (fine_position.glsl)
     gpu::Buffer velocities;
 };
 
@@ -43,6 +44,7 @@ struct DeviceState
     std::array<gpu::Buffer, 2>
         recover_dispatch; // workgroups that bring vertices out of meshes, of this step and the next
     gpu::Buffer start;    // places at the start, and what density multiplies
+    gpu::Buffer start_residuals;
     gpu::Buffer anchors;
     gpu::Buffer holds;
     gpu::Buffer tethers;

@@ -27,16 +27,23 @@ Result<void> validate_shape(const Grid& grid)
     return {};
 }
 
-std::vector<glm::vec3> places(const Grid& grid)
+glm::vec2 spacing_of(const Grid& grid)
 {
-    std::vector<glm::vec3> result;
+    return {grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)};
+}
+
+std::vector<glm::dvec3> places(const Grid& grid)
+{
+    const glm::dmat4 transform = without_rounding(grid.transform);
+    const glm::vec2 spacing = spacing_of(grid); // as the springs' rest lengths have it
+    std::vector<glm::dvec3> result;
     result.reserve(size_t{grid.columns} * grid.rows);
     for (uint32_t row = 0; row < grid.rows; ++row)
         for (uint32_t column = 0; column < grid.columns; ++column)
         {
-            const float u = static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f;
-            const float v = static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f;
-            result.emplace_back(grid.transform * glm::vec4(u * grid.width, 0, v * grid.depth, 1));
+            const double x = (column - 0.5 * (grid.columns - 1)) * static_cast<double>(spacing.x);
+            const double z = (row - 0.5 * (grid.rows - 1)) * static_cast<double>(spacing.y);
+            result.emplace_back(transform * glm::dvec4(x, 0, z, 1));
         }
     return result;
 }
@@ -59,7 +66,7 @@ Result<ClothId> Model::add(const Grid& grid)
     cloth.name = grid.name;
     cloth.material = grid.material;
     cloth.integrator = grid.integrator;
-    cloth.spacing = {grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)};
+    cloth.spacing = spacing_of(grid);
     shared::ClothRecord record{};
     record.first_vertex = static_cast<uint32_t>(first);
     record.vertices = static_cast<uint32_t>(count);

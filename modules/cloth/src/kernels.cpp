@@ -32,19 +32,19 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
-        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 11, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 4, sizeof(shared::HoldPush), {group}}},
-        {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 6, sizeof(shared::HoldPush), {group}}},
-        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 5, sizeof(shared::HoldPush), {group}}},
+        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 13, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
+        {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
+        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 6, sizeof(shared::HoldPush), {group}}},
         {&kernels.limit_strain,
-         {"cloth strain limit", shaders::k_limit_strain_comp, 10, sizeof(shared::StrainPush), {group, 0, layout}}},
-        {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 4, k_edit_bytes, {group}}},
+         {"cloth strain limit", shaders::k_limit_strain_comp, 12, sizeof(shared::StrainPush), {group, 0, layout}}},
+        {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 6, k_edit_bytes, {group}}},
         {&kernels.contact,
-         {"cloth contact", shaders::k_contact_comp, 20, sizeof(shared::ContactPush), {group, method, layout, 0, 0}}},
+         {"cloth contact", shaders::k_contact_comp, 22, sizeof(shared::ContactPush), {group, method, layout, 0, 0}}},
         {&kernels.contact_convex,
-         {"cloth contact", shaders::k_contact_comp, 20, sizeof(shared::ContactPush), {group, method, layout, 0, 1}}},
+         {"cloth contact", shaders::k_contact_comp, 22, sizeof(shared::ContactPush), {group, method, layout, 0, 1}}},
         {&kernels.contact_moving,
-         {"cloth contact", shaders::k_contact_comp, 20, sizeof(shared::ContactPush), {group, method, layout, 1, 1}}},
+         {"cloth contact", shaders::k_contact_comp, 22, sizeof(shared::ContactPush), {group, method, layout, 1, 1}}},
         {&kernels.feature_reach,
          {"cloth feature reach",
           shaders::k_feature_reach_comp,
@@ -73,9 +73,9 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
         {&kernels.recover_moving,
          {"cloth recover", shaders::k_recover_comp, 13, sizeof(shared::RecoverPush), {group, 1}}},
         {&kernels.deform, {"cloth deform", shaders::k_deform_comp, 2, sizeof(shared::DeformPush), {group}}},
-        {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 6, 0, {group, 0, layout}}},
+        {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 7, 0, {group, 0, layout}}},
         {&kernels.statistics,
-         {"cloth statistics", shaders::k_statistics_comp, 15, sizeof(shared::StatisticsPush), {group, 0, layout}}},
+         {"cloth statistics", shaders::k_statistics_comp, 16, sizeof(shared::StatisticsPush), {group, 0, layout}}},
         {&kernels.statistics_reduce,
          {"cloth statistics reduce",
           shaders::k_statistics_reduce_comp,
@@ -86,7 +86,7 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
     for (uint32_t stage = 0; stage < 4; ++stage)
         requests.push_back(
             {&kernels.stages[stage],
-             {k_stage_names[stage], shaders::k_integrate_comp, 13, k_stage_bytes, {group, stage + 1, layout}}});
+             {k_stage_names[stage], shaders::k_integrate_comp, 16, k_stage_bytes, {group, stage + 1, layout}}});
     for (const Request& request : requests)
     {
         auto kernel = gpu::Kernel::create(context, request.description);

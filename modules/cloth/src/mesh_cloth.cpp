@@ -24,30 +24,31 @@ Result<void> validate_shape(const MeshCloth& cloth)
     return {};
 }
 
-std::vector<glm::vec3> places(const MeshCloth& cloth)
+std::vector<glm::dvec3> places(const MeshCloth& cloth)
 {
-    std::vector<glm::vec3> result;
+    const glm::dmat4 transform = without_rounding(cloth.transform);
+    std::vector<glm::dvec3> result;
     result.reserve(cloth.positions.size());
     for (const glm::vec3& p : cloth.positions)
-        result.emplace_back(cloth.transform * glm::vec4(p, 1));
+        result.emplace_back(transform * glm::dvec4(p, 1));
     return result;
 }
 
 // The mesh seen along the axis of its smallest extent.
-std::vector<glm::vec2> projected(std::span<const glm::vec3> positions)
+std::vector<glm::vec2> projected(std::span<const glm::dvec3> positions)
 {
-    glm::vec3 low(std::numeric_limits<float>::max());
-    glm::vec3 high(std::numeric_limits<float>::lowest());
-    for (const glm::vec3& p : positions)
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& p : positions)
     {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    const glm::vec3 extent = high - low;
+    const glm::dvec3 extent = high - low;
     const int along = extent.x <= extent.y && extent.x <= extent.z ? 0 : extent.y <= extent.z ? 1 : 2;
     std::vector<glm::vec2> result;
     result.reserve(positions.size());
-    for (const glm::vec3& p : positions)
+    for (const glm::dvec3& p : positions)
         result.emplace_back((p - low)[along == 0 ? 1 : 0], (p - low)[along == 2 ? 1 : 2]);
     return result;
 }
@@ -85,8 +86,8 @@ Result<ClothId> Model::add(const MeshCloth& description)
         return valid.error();
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", description.name, "more than 2 147 483 647 vertices in one solver");
-    const std::vector<glm::vec3> world = places(description);
-    if (!std::all_of(world.begin(), world.end(), [](const glm::vec3& p) { return finite(p); }))
+    const std::vector<glm::dvec3> world = places(description);
+    if (!std::all_of(world.begin(), world.end(), [](const glm::dvec3& p) { return finite(glm::vec3(p)); }))
         return invalid("cloth", description.name, "its transform takes a position out of range");
 
     ClothModel cloth;

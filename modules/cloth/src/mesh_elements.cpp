@@ -27,7 +27,7 @@ double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
     return glm::dot(p - at, q - at) / glm::length(glm::cross(p - at, q - at));
 }
 
-Hinge make_hinge(std::span<const glm::vec3> positions, const MeshSide& first, const MeshSide& second)
+Hinge make_hinge(std::span<const glm::dvec3> positions, const MeshSide& first, const MeshSide& second)
 {
     Hinge hinge{};
     const uint32_t corners[4] = {first.a, first.b, first.opposite, second.opposite};
@@ -35,7 +35,7 @@ Hinge make_hinge(std::span<const glm::vec3> positions, const MeshSide& first, co
     for (int i = 0; i < 4; ++i)
     {
         hinge.corner[i] = corners[i];
-        x[i] = glm::dvec3(positions[corners[i]]);
+        x[i] = positions[corners[i]];
     }
     const double c01 = cotangent(x[0], x[1], x[2]);
     const double c02 = cotangent(x[0], x[1], x[3]);
@@ -148,13 +148,13 @@ void soften_stiffest(std::vector<Element>& elements, std::span<const double> are
 
 } // namespace
 
-double triangle_area(std::span<const glm::vec3> x, const glm::uvec3& t)
+double triangle_area(std::span<const glm::dvec3> x, const glm::uvec3& t)
 {
     const glm::dvec3 a(x[t.x]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(x[t.y]) - a, glm::dvec3(x[t.z]) - a));
+    return 0.5 * glm::length(glm::cross(x[t.y] - a, x[t.z] - a));
 }
 
-std::vector<MeshSide> sides_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+std::vector<MeshSide> sides_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
 {
     std::vector<MeshSide> sides;
     sides.reserve(3 * triangles.size());
@@ -174,7 +174,7 @@ std::vector<MeshSide> sides_of(std::span<const glm::vec3> positions, std::span<c
     return sides;
 }
 
-void add_edge(std::span<const glm::vec3> positions, const MeshEdge& edge, MeshElements& elements)
+void add_edge(std::span<const glm::dvec3> positions, const MeshEdge& edge, MeshElements& elements)
 {
     const std::span<const MeshSide> sides = edge.sides;
     const auto index = static_cast<uint32_t>(elements.edges.size());

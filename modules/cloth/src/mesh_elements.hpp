@@ -30,8 +30,8 @@ struct MeshEdge
 };
 
 // All sides, those of an edge side by side.
-std::vector<MeshSide> sides_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
-double triangle_area(std::span<const glm::vec3> positions, const glm::uvec3& triangle); // m^2
+std::vector<MeshSide> sides_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles);
+double triangle_area(std::span<const glm::dvec3> positions, const glm::uvec3& triangle); // m^2
 
 struct ElementSpring
 {
@@ -60,7 +60,7 @@ struct MeshElements
     std::vector<Hinge> hinges;
 };
 
-void add_edge(std::span<const glm::vec3> positions, const MeshEdge& edge, MeshElements& elements);
+void add_edge(std::span<const glm::dvec3> positions, const MeshEdge& edge, MeshElements& elements);
 
 // What one triangle adds to the bending form.
 struct BendingEntry

@@ -18,11 +18,10 @@ namespace
 {
 
 // A triangle is degenerate where float cannot tell its height from 0.
-bool degenerate(std::span<const glm::vec3> x, const glm::uvec3& t)
+bool degenerate(std::span<const glm::dvec3> x, const glm::uvec3& t)
 {
-    const double longest = std::max({glm::distance(glm::dvec3(x[t.x]), glm::dvec3(x[t.y])),
-                                     glm::distance(glm::dvec3(x[t.y]), glm::dvec3(x[t.z])),
-                                     glm::distance(glm::dvec3(x[t.z]), glm::dvec3(x[t.x]))});
+    const double longest =
+        std::max({glm::distance(x[t.x], x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], x[t.x])});
     return triangle_area(x, t) <= 1e-6 * longest * longest;
 }
 
@@ -71,7 +70,7 @@ std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, flo
     return entries;
 }
 
-MeshElements elements_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                          MeshReport& report)
 {
     const std::vector<MeshSide> sides = sides_of(positions, triangles);
@@ -81,8 +80,7 @@ MeshElements elements_of(std::span<const glm::vec3> positions, std::span<const g
         size_t last = first + 1;
         while (last < sides.size() && sides[last].key() == sides[first].key())
             ++last;
-        const double length =
-            glm::distance(glm::dvec3(positions[sides[first].a]), glm::dvec3(positions[sides[first].b]));
+        const double length = glm::distance(positions[sides[first].a], positions[sides[first].b]);
         add_edge(positions, {std::span(sides).subspan(first, last - first), length}, elements);
         report.boundary_edges += last - first == 1 ? 1 : 0;
         report.non_manifold_edges += last - first > 2 ? 1 : 0;
@@ -129,7 +127,7 @@ uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles
     return components;
 }
 
-void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                 std::span<const Pair> pairs)
 {
     std::vector<std::vector<shared::MeshSpring>> springs(mesh.vertices.size());
@@ -137,7 +135,7 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::vec3> positions, std::s
     const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
     {
         for (const shared::MeshSpring& entry :
-             entries_of(pair, other, glm::distance(positions[pair.a], positions[pair.b])))
+             entries_of(pair, other, static_cast<float>(glm::distance(positions[pair.a], positions[pair.b]))))
             springs[vertex].push_back(entry);
     };
     for (const Pair& pair : pairs) // sorted by a, then b: a vertex meets its smaller neighbours first
@@ -209,7 +207,7 @@ void find_bounds(MeshTopology& mesh)
 
 } // namespace
 
-MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                                 bool isometric, bool masses_alike)
 {
     std::vector<glm::uvec3> solid;
@@ -231,9 +229,12 @@ MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<
         mesh.mean_area += area;
     }
     mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
-    const std::vector<uint32_t> places = weld(positions);
-    for (uint32_t i = 0; i < places.size(); ++i)
-        mesh.report.coincident_vertices += places[i] != i && mesh.areas[i] > 0 ? 1 : 0;
+    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbours would be one place to float
+    for (const glm::dvec3& x : positions)
+        offsets.emplace_back(x - positions.front());
+    const std::vector<uint32_t> welded = weld(offsets);
+    for (uint32_t i = 0; i < welded.size(); ++i)
+        mesh.report.coincident_vertices += welded[i] != i && mesh.areas[i] > 0 ? 1 : 0;
 
     MeshElements elements = elements_of(positions, solid, mesh.report);
     mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);

@@ -38,7 +38,7 @@ struct MeshTopology
 // `positions`: the shape at rest. Indices must be within it. `isometric`: with the coefficients of isometric bending,
 // which reaches half as many vertices again as springs do. `masses_alike`: the vertices' masses are not in proportion
 // to their areas, nor are the springs' constants to their weights.
-MeshTopology make_mesh_topology(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                                 bool isometric, bool masses_alike);
 
 } // namespace cloth

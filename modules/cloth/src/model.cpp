@@ -4,6 +4,7 @@
 
 #include "gpu/printable.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -41,6 +42,24 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
     return invalid(what, name,
                    contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
                        std::to_string(model.max_buffer_bytes >> 20) + " MiB");
+}
+
+glm::dmat4 without_rounding(const glm::mat4& transform)
+{
+    constexpr double k_rounding = 1e-6;
+    glm::dmat3 m(transform);
+    const glm::dmat3 strain = glm::transpose(m) * m - glm::dmat3(1);
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(strain[column][row]));
+    if (!(largest < k_rounding))
+        return glm::dmat4(transform);
+    m = 0.5 *
+        (m + glm::inverse(glm::transpose(m))); // Newton's iteration for the polar factor (Higham 1986); 1e-13 left
+    glm::dmat4 result(m);
+    result[3] = glm::dvec4(transform[3]);
+    return result;
 }
 
 bool finite(const glm::vec3& v)

@@ -58,6 +58,7 @@ struct Model
     std::vector<shared::ClothRecord> records; // one a cloth
     std::vector<glm::vec4> start;             // places; w: inverse of the area or share that the density multiplies
     std::vector<glm::vec4> positions;         // at the start; w: inverse mass, 0 if held
+    std::vector<glm::uvec2> residuals;        // of the positions at the start (fine_position.glsl)
     std::vector<glm::vec4> velocities;        // at the start
     std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
     std::vector<shared::MeshSpring> mesh_springs;
@@ -93,6 +94,9 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
                         const std::string& contents, uint64_t bytes);
 bool finite(const glm::vec3& v);
 bool finite(const glm::mat4& m);
+// A rotation in floats stretches by some 1e-7, which stiff springs feel. What is that near to a rigid transform is made
+// one exactly.
+glm::dmat4 without_rounding(const glm::mat4& transform);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
 shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction);
 
@@ -118,7 +122,7 @@ bool bends_isometrically(const ClothMaterial& material);
 void apply_material(const ClothModel& cloth, shared::ClothRecord& record);
 
 // Appends the start of a cloth whose record is complete: masses from the material unless they are given.
-void append_state(Model& model, const ClothInput& cloth, std::span<const glm::vec3> places, uint32_t index);
+void append_state(Model& model, const ClothInput& cloth, std::span<const glm::dvec3> places, uint32_t index);
 
 // The holds of all cloths as records, pins first, and the tethers.
 struct HoldLists

@@ -2,14 +2,15 @@
 #include "solver_state.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cloth
 {
 
 struct Snapshot::Contents
 {
-    gpu::Buffer buffer; // positions, then velocities, then normals
-    VkDeviceSize bytes_a_stream = 0;
+    gpu::Buffer buffer; // one stream after the other
+    uint32_t vertices = 0;
 };
 
 Snapshot::Snapshot(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
@@ -37,16 +38,26 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
 namespace
 {
 
-constexpr uint32_t k_streams = 3;
-
-struct Streams
+struct Stream
 {
-    VkBuffer buffers[k_streams];
+    VkBuffer buffer;
+    VkDeviceSize bytes_per_vertex;
 };
 
-Streams streams_of(const DeviceState& device)
+std::array<Stream, 4> streams_of(const DeviceState& device)
 {
-    return {{device.state.positions.handle(), device.state.velocities.handle(), device.normals.handle()}};
+    return {{{device.state.positions.handle(), sizeof(glm::vec4)},
+             {device.state.residuals.handle(), sizeof(glm::uvec2)},
+             {device.state.velocities.handle(), sizeof(glm::vec4)},
+             {device.normals.handle(), sizeof(glm::vec4)}}};
+}
+
+VkDeviceSize total_bytes(const DeviceState& device)
+{
+    VkDeviceSize bytes = 0;
+    for (const Stream& stream : streams_of(device))
+        bytes += stream.bytes_per_vertex * device.vertices;
+    return bytes;
 }
 
 // Copies wait for compute, vertex input and earlier copies; what follows waits for them.
@@ -72,9 +83,9 @@ Result<Snapshot> Solver::create_snapshot() const
     if (!state_->device || state_->device->vertices == 0)
         return Error{"snapshot: nothing has been uploaded yet"};
     auto contents = std::make_unique<Snapshot::Contents>();
-    contents->bytes_a_stream = state_->device->vertices * sizeof(glm::vec4);
+    contents->vertices = state_->device->vertices;
     auto buffer =
-        gpu::create_buffer(state_->context, "cloth snapshot", k_streams * contents->bytes_a_stream,
+        gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(*state_->device),
                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);
     if (!buffer)
         return buffer.error();
@@ -84,15 +95,16 @@ Result<Snapshot> Solver::create_snapshot() const
 
 Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const
 {
-    const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
-    if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
+    const uint32_t vertices = snapshot.contents_->vertices;
+    if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
     barrier(state_->context, cmd, true);
-    const Streams streams = streams_of(*state_->device);
-    for (uint32_t i = 0; i < k_streams; ++i)
+    VkDeviceSize offset = 0;
+    for (const Stream& stream : streams_of(*state_->device))
     {
-        const VkBufferCopy region{0, i * bytes, bytes};
-        state_->context.fn.vkCmdCopyBuffer(cmd, streams.buffers[i], snapshot.contents_->buffer.handle(), 1, &region);
+        const VkBufferCopy region{0, offset, stream.bytes_per_vertex * vertices};
+        state_->context.fn.vkCmdCopyBuffer(cmd, stream.buffer, snapshot.contents_->buffer.handle(), 1, &region);
+        offset += region.size;
     }
     barrier(state_->context, cmd, false);
     return {};
@@ -100,15 +112,16 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
 
 Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapshot)
 {
-    const VkDeviceSize bytes = snapshot.contents_->bytes_a_stream;
-    if (!state_->device || state_->device->vertices * sizeof(glm::vec4) != bytes)
+    const uint32_t vertices = snapshot.contents_->vertices;
+    if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
     barrier(state_->context, cmd, true);
-    const Streams streams = streams_of(*state_->device);
-    for (uint32_t i = 0; i < k_streams; ++i)
+    VkDeviceSize offset = 0;
+    for (const Stream& stream : streams_of(*state_->device))
     {
-        const VkBufferCopy region{i * bytes, 0, bytes};
-        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), streams.buffers[i], 1, &region);
+        const VkBufferCopy region{offset, 0, stream.bytes_per_vertex * vertices};
+        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), stream.buffer, 1, &region);
+        offset += region.size;
     }
     barrier(state_->context, cmd, false);
     state_->recovery_due = true;

@@ -101,6 +101,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const size_t kept = s.device ? s.device->vertices : 0;
     const size_t kept_deforming = s.device ? s.device->deforming_vertices : 0;
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
+    const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     std::vector<shared::ColliderMotion> motions;
@@ -129,9 +130,11 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.feature_nodes, 0, bytes_of(data.features.nodes)},
         {next.features, 0, bytes_of(data.features.features)},
         {next.start, 0, bytes_of(s.model.start)},
+        {next.start_residuals, 0, bytes_of(s.model.residuals)},
         {next.holds, 0, bytes_of(s.hold_lists.holds)},
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
+        {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
         {next.normals, kept_bytes, bytes_of(up)},
     };
@@ -141,6 +144,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     if (s.device)
     {
         uploader.copy(s.device->state.positions, next.state.positions, kept_bytes);
+        uploader.copy(s.device->state.residuals, next.state.residuals, kept_residual_bytes);
         uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
         uploader.copy(s.device->normals, next.normals, kept_bytes);
         uploader.copy(s.device->deforming_positions, next.deforming_positions, kept_deforming * sizeof(glm::vec4));
