@@ -13,6 +13,8 @@ struct FinePosition
     vec3 residual; // m; the position is x + residual
 };
 
+const float k_residual_steps = 32767; // a residual's fractions, either way
+
 // m: half the distance from the largest coordinate to the next float.
 float residual_unit(vec3 x)
 {
@@ -23,13 +25,14 @@ float residual_unit(vec3 x)
 
 vec3 unpack_residual(vec3 x, uvec2 bits)
 {
-    return residual_unit(x) * vec3(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y).x);
+    const ivec3 fraction = ivec3(bitfieldExtract(int(bits.x), 0, 16), int(bits.x) >> 16, int(bits.y));
+    return residual_unit(x) / k_residual_steps * vec3(fraction);
 }
 
 uvec2 pack_residual(FinePosition p)
 {
-    const vec3 fraction = p.residual / residual_unit(p.x);
-    return uvec2(packSnorm2x16(fraction.xy), packSnorm2x16(vec2(fraction.z, 0)));
+    const ivec3 fraction = ivec3(round(p.residual / residual_unit(p.x) * k_residual_steps));
+    return uvec2((fraction.x & 0xffff) | fraction.y << 16, fraction.z);
 }
 
 // The position moved by a displacement, m.

@@ -94,30 +94,34 @@ vec3 delta_to(Gather g, uint other)
     return displacement(g.x, FinePosition(x, unpack_residual(x, stage_residuals[other])));
 }
 
-// A neighbour on a grid: its place from the vertex, and the same as bending sees it; zero where there is none.
+// A neighbour on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
+// to it pulls with nothing, and no branch keeps loads from being issued together.
 struct Neighbour
 {
     bool exists;
-    vec3 delta;   // m
-    vec3 bending; // m, bending_stiffness * delta + bending_damping * relative velocity
+    vec3 delta;    // m
+    vec3 velocity; // m/s, relative
 };
 
-// Reads the neighbour and adds the spring to it, if the class has any.
-Neighbour grid_neighbour(inout Gather g, uint cloth, ChunkVertex self, ivec2 offset, SpringClass spring)
+Neighbour grid_neighbour(Gather g, uint cloth, ChunkVertex self, ivec2 offset)
 {
     Neighbour n;
     n.exists = in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows);
-    n.delta = vec3(0);
-    n.bending = vec3(0);
-    if (!n.exists)
-        return n;
-    const uint other = neighbour(self.index, offset, cloths[cloth].columns);
+    const uint other = n.exists ? neighbour(self.index, offset, cloths[cloth].columns) : self.index;
     n.delta = delta_to(g, other);
-    const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-    n.bending = g.bending_stiffness * n.delta + g.bending_damping * relative_velocity;
-    if (spring.stiffness + spring.damping > 0)
-        add_spring(g, spring.stiffness, spring.damping, spring.rest_length, n.delta, relative_velocity);
+    n.velocity = stage_velocities[other].xyz - g.v;
     return n;
+}
+
+// m: the neighbor as bending sees it.
+vec3 bent(Gather g, Neighbour n) { return g.bending_stiffness * n.delta + g.bending_damping * n.velocity; }
+
+bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
+
+void add_springs(inout Gather g, SpringClass spring, Neighbour a, Neighbour b)
+{
+    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, a.delta, a.velocity);
+    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, b.delta, b.velocity);
 }
 
 SpringClass scaled(SpringClass spring, float stiffness, float damping)
@@ -130,32 +134,28 @@ SpringClass scaled(SpringClass spring, float stiffness, float damping)
 // One line of the grid through the vertex: its structural and bend springs, and bending by the isometric model, from the
 // energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of the line: minus its gradient over c.
 void gather_line(inout Gather g, uint cloth, ChunkVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
-                 out Neighbour ahead, out Neighbour behind)
+                 Neighbour ahead, Neighbour behind)
 {
-    ahead = grid_neighbour(g, cloth, self, along, spring);
-    behind = grid_neighbour(g, cloth, self, -along, spring);
-    if (c == 0 && bend.stiffness + bend.damping == 0)
-        return;
-    const Neighbour far_ahead = grid_neighbour(g, cloth, self, 2 * along, bend);
-    const Neighbour far_behind = grid_neighbour(g, cloth, self, -2 * along, bend);
-    if (far_ahead.exists)
-        g.bending -= c * (far_ahead.bending - 2 * ahead.bending);
-    if (far_behind.exists)
-        g.bending -= c * (far_behind.bending - 2 * behind.bending);
-    if (ahead.exists && behind.exists)
-        g.bending += 2 * c * (ahead.bending + behind.bending);
+    if (c != 0 || has_springs(bend))
+    {
+        const Neighbour far_ahead = grid_neighbour(g, cloth, self, 2 * along);
+        const Neighbour far_behind = grid_neighbour(g, cloth, self, -2 * along);
+        add_springs(g, bend, far_ahead, far_behind);
+        if (far_ahead.exists)
+            g.bending -= c * (bent(g, far_ahead) - 2 * bent(g, ahead));
+        if (far_behind.exists)
+            g.bending -= c * (bent(g, far_behind) - 2 * bent(g, behind));
+        if (ahead.exists && behind.exists)
+            g.bending += 2 * c * (bent(g, ahead) + bent(g, behind));
+    }
+    add_springs(g, spring, ahead, behind);
 }
 
-// One cell at the vertex: its shear spring and the cell's twist, x_diagonal - x_along_row - x_along_column + x.
-void gather_cell(inout Gather g, uint cloth, ChunkVertex self, ivec2 offset, SpringClass shear, Neighbour along_row,
-                 Neighbour along_column)
+// A cell's twist, x_diagonal - x_along_row - x_along_column + x.
+void add_twist(inout Gather g, float c, Neighbour diagonal, Neighbour along_row, Neighbour along_column)
 {
-    const float c = cloths[cloth].bending.z;
-    if (c == 0 && shear.stiffness + shear.damping == 0)
-        return;
-    const Neighbour diagonal = grid_neighbour(g, cloth, self, offset, shear);
     if (diagonal.exists)
-        g.bending -= c * (diagonal.bending - along_row.bending - along_column.bending);
+        g.bending -= c * (bent(g, diagonal) - bent(g, along_row) - bent(g, along_column));
 }
 
 // Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
@@ -172,19 +172,32 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales s
         const float border = c % 4 == 0 ? row_share : c % 4 == 1 ? column_share : 1;
         springs[c] = scaled(cloths[cloth].springs[c], border * scales.stiffness, border * scales.damping);
     }
-    Neighbour east, west, south, north; // +column, -column, +row, -row
+    const Neighbour east = grid_neighbour(g, cloth, self, ivec2(1, 0));
+    const Neighbour west = grid_neighbour(g, cloth, self, ivec2(-1, 0));
+    const Neighbour south = grid_neighbour(g, cloth, self, ivec2(0, 1));
+    const Neighbour north = grid_neighbour(g, cloth, self, ivec2(0, -1));
+    const Neighbour south_east = grid_neighbour(g, cloth, self, ivec2(1, 1));
+    const Neighbour north_west = grid_neighbour(g, cloth, self, ivec2(-1, -1));
+    const Neighbour north_east = grid_neighbour(g, cloth, self, ivec2(1, -1));
+    const Neighbour south_west = grid_neighbour(g, cloth, self, ivec2(-1, 1));
     gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], row_share * cloths[cloth].bending.x, east, west);
     gather_line(g, cloth, self, ivec2(0, 1), springs[1], springs[5], column_share * cloths[cloth].bending.y, south, north);
-    gather_cell(g, cloth, self, ivec2(1, 1), springs[2], east, south);
-    gather_cell(g, cloth, self, ivec2(-1, -1), springs[2], west, north);
-    gather_cell(g, cloth, self, ivec2(1, -1), springs[3], east, north);
-    gather_cell(g, cloth, self, ivec2(-1, 1), springs[3], west, south);
-    if (springs[6].stiffness + springs[6].damping > 0)
+    add_springs(g, springs[2], south_east, north_west);
+    add_springs(g, springs[3], north_east, south_west);
+    const float twist = cloths[cloth].bending.z;
+    if (twist != 0)
     {
-        grid_neighbour(g, cloth, self, ivec2(2, 2), springs[6]);
-        grid_neighbour(g, cloth, self, ivec2(-2, -2), springs[6]);
-        grid_neighbour(g, cloth, self, ivec2(2, -2), springs[7]);
-        grid_neighbour(g, cloth, self, ivec2(-2, 2), springs[7]);
+        add_twist(g, twist, south_east, east, south);
+        add_twist(g, twist, north_west, west, north);
+        add_twist(g, twist, north_east, east, north);
+        add_twist(g, twist, south_west, west, south);
+    }
+    if (has_springs(springs[6]))
+    {
+        add_springs(g, springs[6], grid_neighbour(g, cloth, self, ivec2(2, 2)),
+                    grid_neighbour(g, cloth, self, ivec2(-2, -2)));
+        add_springs(g, springs[7], grid_neighbour(g, cloth, self, ivec2(2, -2)),
+                    grid_neighbour(g, cloth, self, ivec2(-2, 2)));
     }
     if (feels_air(cloth))
     {

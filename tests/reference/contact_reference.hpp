@@ -132,7 +132,14 @@ inline void respond(const Contact& contact, double thickness, double mu_s, doubl
         x -= slid - glm::dot(slid, n) * n;
         return;
     }
-    const double braking = std::min(mu_k * normal_impulse / glm::length(tangential), 1.0);
+    // The coefficient falls from static to kinetic within 1 mm/s of slip.
+    const double speed = glm::length(tangential);
+    const double range = 1e-3;
+    const double fall = (mu_s - mu_k) * normal_impulse;
+    double left = std::max(speed - mu_k * normal_impulse, 0.0);
+    if (fall < range)
+        left = std::min(left, (speed - mu_s * normal_impulse) * range / (range - fall));
+    const double braking = 1 - left / speed;
     v -= braking * tangential;
     x -= 0.5 * h * braking * tangential;
 }

@@ -10,7 +10,6 @@
 #include <complex>
 #include <numbers>
 
-#include <glm/gtc/packing.hpp>
 
 namespace cloth
 {
@@ -289,8 +288,9 @@ glm::uvec2 residual_of(const glm::dvec3& place)
     const glm::vec3 x(place);
     const float largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     const double unit = std::ldexp(1.0, std::max(std::ilogb(largest), -101) - 24);
-    const glm::vec3 fraction((place - glm::dvec3(x)) / unit);
-    return {glm::packSnorm2x16({fraction.x, fraction.y}), glm::packSnorm2x16({fraction.z, 0})};
+    const glm::ivec3 fraction(glm::round((place - glm::dvec3(x)) / unit * 32767.0));
+    return {static_cast<uint32_t>(fraction.x & 0xffff) | static_cast<uint32_t>(fraction.y) << 16,
+            static_cast<uint32_t>(fraction.z)};
 }
 
 // What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
