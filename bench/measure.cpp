@@ -121,7 +121,7 @@ private:
 
 cloth::Statistics statistics(TimedQueue& queue, const cloth::Solver& solver)
 {
-    queue.run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+    queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
     return solver.statistics(0);
 }
 
@@ -136,7 +136,7 @@ void check_finite(const Case& item, const cloth::Statistics& state, const char* 
 uint32_t advance(TimedQueue& queue, cloth::Solver& solver, const Case& item)
 {
     for (uint32_t i = 0; i < item.frames_before; ++i)
-        queue.run([&](VkCommandBuffer cmd) { solver.record(cmd, {.duration = k_frame}); });
+        queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, {.duration = k_frame})); });
     const cloth::Statistics state = statistics(queue, solver);
     check_finite(item, state, "before the measurement");
     if (item.in_contact && state.contacts == 0)
@@ -152,7 +152,7 @@ void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Case& item, const 
                            .substeps = result.measured,
                            .wind = {item.wind, 0, 0},
                            .gust = item.gust};
-    const auto record = [&](VkCommandBuffer cmd) { solver.record(cmd, step); };
+    const auto record = [&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); };
     const auto restore = [&](VkCommandBuffer cmd) { start.record_restore(cmd); };
     std::vector<double> times;
     (void)queue.time(record, restore); // warms up
@@ -168,14 +168,14 @@ void time_recording(TimedQueue& queue, cloth::Solver& solver, uint32_t repetitio
     const cloth::Step step{.duration = k_frame, .substeps = result.substeps};
     std::vector<double> times;
     times.reserve(repetitions);
-    queue.record_only([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+    queue.record_only([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); });
     for (uint32_t i = 0; i < repetitions; ++i)
         queue.record_only(
             [&](VkCommandBuffer cmd)
             {
                 const uint64_t allocated = allocations();
                 const Clock::time_point begin = Clock::now();
-                solver.record(cmd, step);
+                engine::take(solver.record(cmd, step));
                 const Clock::time_point end = Clock::now();
                 result.record_allocations += allocations() - allocated;
                 times.push_back(std::chrono::duration<double, std::micro>(end - begin).count());

@@ -63,12 +63,12 @@ public:
     void step(const cloth::Step& step, uint32_t times = 1)
     {
         for (uint32_t i = 0; i < times; ++i)
-            run([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+            run([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); });
     }
 
     cloth::Statistics statistics()
     {
-        run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+        run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
         return solver.statistics(0);
     }
 

@@ -197,8 +197,8 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     OneDispatchEach buffers(tests::device());
     gpu::Recorder recorder(harness.context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
-    harness.solver.record(recorder, {.substeps = 3});
-    harness.solver.record(recorder, {.substeps = 2});
+    engine::take(harness.solver.record(recorder, {.substeps = 3}));
+    engine::take(harness.solver.record(recorder, {.substeps = 2}));
     buffers.submit();
     // One a dispatch, and the one that follows the last: six a substep; normals, recovery, which needs the normals of
     // the start, and one look at what comes near features a step.

@@ -264,9 +264,9 @@ TEST_CASE("holds and tethers refuse bad input, and nothing changes")
     CHECK(refused({.vertex = 3, .anchor = cloth::AnchorId{7}}) ==
           "cloth \"flag\": the hold of vertex 3: anchor 7 does not exist");
     CHECK(refused({.vertex = 1, .place = glm::vec3(NAN)}) ==
-          "cloth \"flag\": the hold of vertex 1: its place is not finite");
+          "cloth \"flag\": the hold of vertex 1: place is (nan, nan, nan) m, each must be -1e+06 to 1e+06");
     CHECK(refused({.vertex = 1, .stiffness = -1}) ==
-          "cloth \"flag\": the hold of vertex 1: stiffness is -1.000000 N/m, must be >= 0");
+          "cloth \"flag\": the hold of vertex 1: stiffness is -1 N/m, must be 0 to 1e+09, or infinite for a pin");
     CHECK(refused({.vertex = 1, .damping = INFINITY}).find("damping is inf") != std::string::npos);
     CHECK(refused({.vertex = 1, .max_distance = -2}).find("max_distance is -2") != std::string::npos);
     CHECK(refused({.vertex = 1, .backstop_normal = {0, 2, 0}}).find("not of unit length") != std::string::npos);
@@ -282,8 +282,11 @@ TEST_CASE("holds and tethers refuse bad input, and nothing changes")
     engine::take(harness.solver.set_tethers(id, cloth::Tethers{}));
     CHECK(message(harness.solver.set_holds(id, {})) == "cloth \"flag\": tethers need a pin, and it has none");
     CHECK(harness.solver.holds(id).size() == 1);
-    CHECK(harness.solver.add_anchor(glm::mat4(0.f)).error().message ==
-          "anchor: its transform is not finite or has no inverse");
+    glm::mat4 flat(1.f);
+    flat[2] = {};
+    CHECK(harness.solver.add_anchor(flat).error().message ==
+          "anchor: the transform's determinant is 0, must be 1e-09 to 1e+09");
+    CHECK(harness.solver.add_anchor(glm::mat4(NAN)).error().message == "anchor: the transform is not finite");
     CHECK(message(harness.solver.move_anchor({0}, glm::mat4(1.f))) == "anchor 0 does not exist");
 }
 

@@ -39,7 +39,7 @@ void Rig::upload()
 void Rig::step(const cloth::Step& step, uint32_t times)
 {
     for (uint32_t i = 0; i < times; ++i)
-        run([&](VkCommandBuffer cmd) { solver.record(cmd, step); });
+        run([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); });
 }
 
 std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const cloth::VertexStreams& streams)
@@ -65,7 +65,7 @@ std::vector<glm::dvec3> Rig::velocities(cloth::ClothId cloth)
 
 double Rig::kinetic_energy()
 {
-    run([&](VkCommandBuffer cmd) { solver.record_statistics(cmd, 0); });
+    run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
     return static_cast<double>(solver.statistics(0).kinetic_energy);
 }
 

@@ -26,10 +26,10 @@ void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& fr
     step.time = frame.time;
     {
         const gpu::LabelScope scope(solver_.context(), cmd, "cloth", frame.timestamps);
-        solver_.record(cmd, step, frame.timestamps);
+        engine::take(solver_.record(cmd, step, frame.timestamps));
     }
     if (collect_statistics)
-        solver_.record_statistics(cmd, frame.slot, frame.timestamps);
+        engine::take(solver_.record_statistics(cmd, frame.slot, frame.timestamps));
 }
 
 Sheet::Sheet(ClothWorld& world, engine::UploadBatch& uploads, const Grid& grid, const engine::Surface& surface)

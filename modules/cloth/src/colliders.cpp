@@ -24,13 +24,7 @@ Result<void> check_friction(const std::string& name, const std::optional<Frictio
 {
     if (!friction)
         return {};
-    const float s = friction->static_coefficient;
-    const float k = friction->kinetic_coefficient;
-    if (!std::isfinite(s) || !std::isfinite(k) || k < 0 || s < k)
-        return invalid("collider", name,
-                       "friction " + std::to_string(s) + " static, " + std::to_string(k) +
-                           " kinetic; needs static >= kinetic >= 0");
-    return {};
+    return check_friction(subject("collider", name), friction->static_coefficient, friction->kinetic_coefficient);
 }
 
 shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction)

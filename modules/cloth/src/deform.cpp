@@ -46,16 +46,16 @@ Result<size_t> find_deforming(const Model& model, ColliderId collider)
     for (size_t i = 0; i < model.deforming.size(); ++i)
         if (model.deforming[i].collider == collider.index)
             return i;
-    return Error{"collider " + std::to_string(collider.index) +
-                 (collider.index < model.colliders.size() ? " does not deform: it was added without \"deforms\""
-                                                          : " does not exist")};
+    if (auto exists = check_id("collider", collider.index, model.colliders.size()); !exists)
+        return exists.error();
+    return Error{"collider " + std::to_string(collider.index) + " does not deform: it was added without \"deforms\""};
 }
 
 } // namespace
 
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    for (size_t i = 0; i < solver.deformations.size(); ++i)
+    for (size_t i = 0; i < solver.device->deforming_count; ++i)
     {
         const DeformingMesh& mesh = solver.model.deforming[i];
         const Deformation& deformation = solver.deformations[i];
@@ -77,7 +77,7 @@ void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
 {
     bool came_to_rest = false;
-    for (size_t i = 0; i < solver.deformations.size(); ++i)
+    for (size_t i = 0; i < solver.device->deforming_count; ++i)
     {
         const DeformingMesh& mesh = solver.model.deforming[i];
         Deformation& deformation = solver.deformations[i];

@@ -12,11 +12,10 @@ struct BufferRequest
     gpu::Buffer* buffer = nullptr;
     const char* name = nullptr;
     VkDeviceSize bytes = 0;
-    gpu::Memory memory = gpu::Memory::device;
 };
 
 gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const Model& model,
-                                 const UploadData& data, uint32_t statistics_slots)
+                                 const UploadData& data)
 {
     const size_t chunk_count = data.chunks.chunks.size();
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
@@ -68,11 +67,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
          model.positions.size() * VOILE_CANDIDATE_WORDS * sizeof(uint32_t)},
         {&state.normals, "cloth normals", per_vertex},
         {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
-        {&state.result, "cloth statistics", statistics_slots * sizeof(shared::StatisticsRecord), gpu::Memory::readback},
     };
     for (const BufferRequest& request : requests)
     {
-        auto buffer = gpu::create_buffer(context, request.name, request.bytes, k_usage, request.memory);
+        auto buffer = gpu::create_buffer(context, request.name, request.bytes, k_usage, gpu::Memory::device);
         if (!buffer)
             return buffer.error();
         *request.buffer = std::move(buffer.value());
@@ -162,7 +160,7 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle()});
 }
 
-gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
+gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::Buffer& statistics)
 {
     Binder binder{s.pool};
     const auto bind_stage =
@@ -225,26 +223,28 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels)
                  s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
                  s.candidate_triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
                  s.deforming_positions.handle(), s.state.residuals.handle()});
-    binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), s.result.handle()});
+    binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), statistics.handle()});
     return binder.status;
 }
 
 } // namespace
 
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const UploadData& data, uint32_t statistics_slots)
+                                             const UploadData& data, const gpu::Buffer& statistics)
 {
     DeviceState state;
     state.vertices = static_cast<uint32_t>(model.positions.size());
     state.chunk_count = static_cast<uint32_t>(data.chunks.chunks.size());
     state.deforming_vertices = model.deforming_positions.size();
+    state.deforming_count = model.deforming.size();
     state.rk4_chunks = data.chunks.rk4;
     state.anchor_capacity = data.anchors;
     state.hold_capacity = data.holds;
     state.tether_capacity = data.tethers;
     state.feature_count = static_cast<uint32_t>(data.features.features.size());
+    state.cloth_count = static_cast<uint32_t>(model.cloths.size());
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
-    if (auto buffers = create_buffers(context, state, model, data, statistics_slots); !buffers)
+    if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
     constexpr uint32_t k_sets = 27;
     constexpr uint32_t k_most_bindings = 22;
@@ -252,7 +252,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     if (!pool)
         return pool.error();
     state.pool = std::move(pool.value());
-    if (auto sets = bind_sets(state, kernels); !sets)
+    if (auto sets = bind_sets(state, kernels, statistics); !sets)
         return sets.error();
     return state;
 }

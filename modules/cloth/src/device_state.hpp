@@ -56,7 +56,6 @@ struct DeviceState
     gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
     gpu::Buffer partials; // statistics, one record a chunk
-    gpu::Buffer result;   // statistics, one record a slot; the host reads it
 
     gpu::BindingPool pool;
     std::array<VkDescriptorSet, 4> stages{};
@@ -86,8 +85,10 @@ struct DeviceState
 
     uint32_t vertices = 0;
     size_t deforming_vertices = 0;
+    size_t deforming_count = 0; // meshes that deform, the first ones of the model
     uint32_t chunk_count = 0;
     uint32_t rk4_chunks = 0; // the first ones
+    uint32_t cloth_count = 0; // of the model's, the first ones
     uint32_t collider_count = 0;
     uint32_t feature_count = 0;
     uint32_t anchor_capacity = 0;
@@ -106,7 +107,8 @@ struct UploadData
     uint32_t tethers = 0;
 };
 
+// `statistics`: where the reduction writes, one record a slot.
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const UploadData& data, uint32_t statistics_slots);
+                                             const UploadData& data, const gpu::Buffer& statistics);
 
 } // namespace cloth

@@ -26,18 +26,17 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values)
 // The anchors as the GPU sees them, one at a time: recording allocates nothing.
 void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    for (size_t i = 0; i < solver.anchors.size(); ++i)
+    const size_t count = std::min<size_t>(solver.anchors.size(), solver.device->anchor_capacity);
+    for (size_t i = 0; i < count; ++i)
     {
-        const Anchor& anchor = solver.anchors[i];
-        const glm::mat4 motion = anchor.to == anchor.from ? glm::mat4(1) : anchor.to * glm::inverse(anchor.from);
-        const shared::AnchorRecord record{anchor.from, anchor.to, motion};
+        const shared::AnchorRecord record = make_record(solver.anchors[i]);
         update(recorder, solver.device->anchors, i * sizeof(record), std::as_bytes(std::span(&record, 1)));
     }
 }
 
 void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    for (uint32_t i = 0; i < solver.colliders.size(); ++i)
+    for (uint32_t i = 0; i < solver.device->collider_count; ++i)
     {
         if (!is_moving(solver.model.colliders[i]))
             continue;
@@ -57,15 +56,17 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
 {
     const DeviceState& device = *solver.device;
     for (const uint32_t cloth : solver.edits.records)
-        update(recorder, device.cloths, cloth * sizeof(shared::ClothRecord),
-               std::as_bytes(std::span(&solver.model.records[cloth], 1)));
-    if (solver.edits.holds)
+        if (cloth < device.cloth_count)
+            update(recorder, device.cloths, cloth * sizeof(shared::ClothRecord),
+                   std::as_bytes(std::span(&solver.model.records[cloth], 1)));
+    if (solver.edits.holds && !solver.dirty)
         update(recorder, device.holds, 0, bytes_of(solver.hold_lists.holds));
-    if (solver.edits.tethers)
+    if (solver.edits.tethers && !solver.dirty)
         update(recorder, device.tethers, 0, bytes_of(solver.hold_lists.tethers));
     for (const uint32_t collider : solver.edits.colliders)
-        update(recorder, device.colliders, collider * sizeof(shared::ColliderRecord),
-               std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
+        if (collider < device.collider_count)
+            update(recorder, device.colliders, collider * sizeof(shared::ColliderRecord),
+                   std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
     if (moved.anchors)
         update_anchors(recorder, solver);
     if (moved.colliders)
@@ -114,6 +115,20 @@ void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize off
     }
 }
 
+shared::AnchorRecord make_record(const Anchor& anchor)
+{
+    const glm::mat4 motion = anchor.to == anchor.from ? glm::mat4(1) : anchor.to * glm::inverse(anchor.from);
+    return {anchor.from, anchor.to, motion};
+}
+
+bool Solver::State::changes_due() const
+{
+    const bool lists = !dirty && (edits.holds || edits.tethers);
+    return lists || edits.pins || !edits.records.empty() || !edits.colliders.empty() ||
+           std::any_of(edits.places.begin(), edits.places.end(),
+                       [&](const shared::EditPush& edit) { return edit.cloth < device->cloth_count; });
+}
+
 bool Solver::State::fits() const
 {
     return device && anchors.size() <= device->anchor_capacity && hold_lists.holds.size() <= device->hold_capacity &&
@@ -133,23 +148,26 @@ void Solver::State::update_holds()
 
 void Solver::State::update_passes()
 {
-    if (dirty)
-        return; // the next upload does it: until then the buffers are those of before
-    passes.pins = hold_lists.pins;
-    passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
-    passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
-    passes.moving = std::any_of(model.colliders.begin(), model.colliders.end(), is_moving);
-    passes.convex =
-        std::any_of(model.colliders.begin(), model.colliders.end(),
-                    [](const auto& collider)
-                    { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
-    passes.features = device && device->feature_count > 0;
-    passes.recover =
-        options.recovery &&
-        std::any_of(model.colliders.begin(), model.colliders.end(),
-                    [](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
+    if (!device)
+        return;
+    if (!dirty) // else the lists in the buffers are those of before
+    {
+        passes.pins = hold_lists.pins;
+        passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
+        passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
+    }
+    const std::span present = std::span(model.colliders).first(device->collider_count);
+    const auto any_collider = [&](auto&& predicate) { return std::ranges::any_of(present, predicate); };
+    passes.moving = any_collider(is_moving);
+    passes.convex = any_collider(
+        [](const auto& collider)
+        { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
+    passes.features = device->feature_count > 0;
+    passes.recover = options.recovery && any_collider([](const auto& collider) {
+        return (collider.flags & k_recovering_flags) == k_recovering_flags;
+    });
     passes.strain_spacing = 0;
-    for (const shared::ClothRecord& record : model.records)
+    for (const shared::ClothRecord& record : std::span(model.records).first(device->cloth_count))
     {
         if (record.strain_limit == 0)
             continue;
@@ -159,26 +177,24 @@ void Solver::State::update_passes()
                                   : static_cast<uint32_t>(std::sqrt(static_cast<double>(record.vertices)));
         passes.strain_spacing = std::max(passes.strain_spacing, std::bit_floor(std::max(side / 2, 1u)));
     }
-    passes.commit = !model.colliders.empty() || passes.holds > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
+    passes.commit = !present.empty() || passes.holds > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
 }
 
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
 {
     if (solver.passes.features)
         solver.farthest_motion = farthest_motion(solver);
-    if (solver.dirty)
-        return;
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
     const auto moves = [](const auto& poses)
     { return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.from != pose.to; }); };
-    const bool deforms = std::any_of(solver.deformations.begin(), solver.deformations.end(),
-                                     [](const Deformation& deformation) { return deformation.due; });
+    const bool deforms = std::ranges::any_of(std::span(solver.deformations).first(device.deforming_count),
+                                             [](const Deformation& deformation) { return deformation.due; });
     const Moved now{moves(solver.anchors), moves(solver.colliders) || deforms};
     // Anchors that came to rest leave their pins with the velocity of the last step, colliders their surfaces.
-    const Moved due{now.anchors || solver.anchors_moved || solver.edits.holds || solver.edits.pins,
+    const Moved due{now.anchors || solver.anchors_moved || solver.edits.pins,
                     now.colliders || solver.colliders_moved || solver.refit_due || !solver.edits.colliders.empty()};
-    if (!due.anchors && !due.colliders && !solver.edits.any())
+    if (!due.anchors && !due.colliders && !solver.changes_due())
         return;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
@@ -189,19 +205,26 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
     record_deforming_passes(recorder, solver);
+    const auto uploaded = [&](const shared::EditPush& edit) { return edit.cloth < device.cloth_count; };
     for (const shared::EditPush& edit : solver.edits.places)
-        recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
-    if (due.anchors || !solver.edits.places.empty())
+        if (uploaded(edit))
+            recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
+    const size_t edited = std::erase_if(solver.edits.places, uploaded);
+    if (due.anchors || edited > 0)
         recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
                           shared::HoldPush{0, solver.passes.pins, step.duration, 0, 0});
-    solver.normals_due |= !solver.edits.places.empty();
+    solver.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
     for (Anchor& anchor : solver.anchors)
         anchor.from = anchor.to;
     for (ColliderPose& pose : solver.colliders)
         pose.from = pose.to;
-    solver.edits = {};
+    solver.edits.records.clear();
+    solver.edits.colliders.clear();
+    solver.edits.pins = false;
+    if (!solver.dirty)
+        solver.edits.holds = solver.edits.tethers = false;
 }
 
 } // namespace cloth

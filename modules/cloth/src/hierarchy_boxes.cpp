@@ -28,9 +28,9 @@ void collect(const shared::BvhNode* nodes, uint32_t node, uint32_t levels, std::
 
 std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t level) const
 {
-    const Model& model = state_->model;
-    if (collider.index >= model.colliders.size())
+    if (!state_->has(collider))
         return {};
+    const Model& model = state_->model;
     const shared::ColliderRecord& record = model.colliders[collider.index];
     if (record.kind != VOILE_COLLIDER_MESH || (record.flags & VOILE_COLLIDER_DEFORMS) != 0)
         return {};

@@ -11,27 +11,33 @@ namespace
 
 bool is_pin(const Hold& hold)
 {
-    return std::isinf(hold.stiffness);
+    return hold.stiffness == std::numeric_limits<float>::infinity();
 }
 
 Result<void> validate_hold(const Model& model, const Hold& hold)
 {
-    const auto bad = [&](const std::string& reason)
-    { return Error{"the hold of vertex " + std::to_string(hold.vertex) + ": " + reason}; };
-    if (hold.anchor && hold.anchor->index >= model.anchors.size())
-        return bad("anchor " + std::to_string(hold.anchor->index) + " does not exist");
-    if (hold.place && !finite(*hold.place))
-        return bad("its place is not finite");
-    if (!(hold.stiffness >= 0))
-        return bad("stiffness is " + std::to_string(hold.stiffness) + " N/m, must be >= 0");
-    if (!(hold.damping >= 0) || !std::isfinite(hold.damping))
-        return bad("damping is " + std::to_string(hold.damping) + " N s/m, must be finite and >= 0");
+    const std::string what = "the hold of vertex " + std::to_string(hold.vertex);
+    const auto bad = [&](const std::string& reason) { return Error{what + ": " + reason}; };
+    if (hold.anchor)
+        if (auto exists = check_anchor(model, *hold.anchor); !exists)
+            return bad(exists.error().message);
+    if (hold.place)
+        if (auto valid = check(what, "place", *hold.place, k_most_coordinate, " m"); !valid)
+            return valid;
+    if (!is_pin(hold))
+        if (auto valid = check(what, {"stiffness", hold.stiffness, 0, k_most_hold_stiffness, " N/m"}); !valid)
+            return Error{valid.error().message + ", or infinite for a pin"};
     if (!(hold.max_distance >= 0))
-        return bad("max_distance is " + std::to_string(hold.max_distance) + " m, must be >= 0");
-    if (!finite(hold.backstop_normal) || !std::isfinite(hold.backstop))
-        return bad("its backstop is not finite");
+        return bad("max_distance is " + text(hold.max_distance) + " m, must be >= 0");
+    const Range ranges[] = {
+        {"damping", hold.damping, 0, k_most_hold_damping, " N s/m"},
+        {"backstop", hold.backstop, -k_most_coordinate, k_most_coordinate, " m"},
+    };
+    for (const Range& range : ranges)
+        if (auto valid = check(what, range); !valid)
+            return valid;
     const float length = glm::length(hold.backstop_normal);
-    if (length != 0 && std::abs(length - 1) > 1e-3f)
+    if (length != 0 && !(std::abs(length - 1) <= 1e-3f))
         return bad("its backstop's normal is not of unit length");
     return {};
 }
@@ -58,6 +64,13 @@ shared::HoldRecord make_record(const Model& model, uint32_t cloth, const Hold& h
 }
 
 } // namespace
+
+Result<void> check_anchor(const Model& model, AnchorId anchor)
+{
+    if (anchor.index == 0) // the world, which has no id
+        return Error{"anchor 0 does not exist"};
+    return check_id("anchor", anchor.index, model.anchors.size());
+}
 
 Result<void> validate_holds(const Model& model, uint32_t cloth, std::span<const Hold> holds)
 {

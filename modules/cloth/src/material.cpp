@@ -1,9 +1,10 @@
 // Materials: from fabric properties to springs, and the checks of both.
 #include "cloth/material.hpp"
 
+#include "range_checks.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace cloth
@@ -12,55 +13,20 @@ namespace cloth
 namespace
 {
 
-std::string text(float value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof(buffer), "%g", static_cast<double>(value));
-    return buffer;
-}
-
-struct Range
-{
-    const char* name;
-    float value;
-    float min;
-    float max;
-    const char* unit;
-};
-
-Result<void> check(const char* what, const Range& range)
-{
-    if (range.value >= range.min && range.value <= range.max) // false for NaN
-        return {};
-    return Error{std::string(what) + ": " + range.name + " is " + text(range.value) + range.unit + ", must be " +
-                 text(range.min) + " to " + text(range.max)};
-}
-
 constexpr float k_least_thickness = 1e-5f; // m
-constexpr float k_most_friction = 100;
 constexpr float k_most_spring = 1e7f;  // N/m
 constexpr float k_most_damping = 1e6f; // N s/m
 constexpr float k_most_bending = 1e3f; // N m
 constexpr float k_least_strain = 1e-3f;
 constexpr float k_most_strain = 10;
 
-Result<void> check_strain_limit(const char* what, float limit)
+Result<void> check_strain_limit(const std::string& what, float limit)
 {
     if (limit == 0)
         return {};
     if (auto result = check(what, {"strain_limit", limit, k_least_strain, k_most_strain, ""}); !result)
         return Error{result.error().message + ", or 0 for none"};
     return {};
-}
-
-Result<void> check_friction(const char* what, float static_friction, float kinetic_friction)
-{
-    if (auto result = check(what, {"kinetic_friction", kinetic_friction, 0, k_most_friction, ""}); !result)
-        return result;
-    if (!(static_friction >= kinetic_friction))
-        return Error{std::string(what) + ": static_friction is " + text(static_friction) +
-                     ", must be at least kinetic_friction, " + text(kinetic_friction)};
-    return check(what, {"static_friction", static_friction, 0, k_most_friction, ""});
 }
 
 Spring damped_spring(float stiffness, float damping_ratio, float vertex_mass)

@@ -28,9 +28,14 @@ static_assert(sizeof(shared::StagePush) == 68);
 static_assert(offsetof(shared::StagePush, gust_phases) == 32);
 static_assert(sizeof(shared::StatisticsRecord) == 48);
 
+std::string subject(const std::string& what, const std::string& name)
+{
+    return what + " \"" + gpu::printable(name) + "\"";
+}
+
 Error invalid(const std::string& what, const std::string& name, const std::string& reason)
 {
-    return Error{what + " \"" + gpu::printable(name) + "\": " + reason};
+    return Error{subject(what, name) + ": " + reason};
 }
 
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
@@ -60,20 +65,6 @@ glm::dmat4 without_rounding(const glm::mat4& transform)
     glm::dmat4 result(m);
     result[3] = glm::dvec4(transform[3]);
     return result;
-}
-
-bool finite(const glm::vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool finite(const glm::mat4& m)
-{
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]))
-                return false;
-    return true;
 }
 
 } // namespace cloth

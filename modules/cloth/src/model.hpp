@@ -8,6 +8,7 @@
 #include "cloth_layout.h"
 #include "mesh_topology.hpp"
 #include "padded_layout.h"
+#include "range_checks.hpp"
 
 #include <limits>
 #include <optional>
@@ -88,12 +89,11 @@ struct Model
 };
 
 // What the validation of cloths and colliders shares.
+std::string subject(const std::string& what, const std::string& name); // cloth "name"
 Error invalid(const std::string& what, const std::string& name, const std::string& reason);
 // Errors: `contents` need a buffer of more bytes than the device binds.
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
                         const std::string& contents, uint64_t bytes);
-bool finite(const glm::vec3& v);
-bool finite(const glm::mat4& m);
 // A rotation in floats stretches by some 1e-7, which stiff springs feel. What is that near to a rigid transform is made
 // one exactly.
 glm::dmat4 without_rounding(const glm::mat4& transform);
@@ -132,6 +132,9 @@ struct HoldLists
     std::vector<shared::TetherRecord> tethers;
 };
 HoldLists make_hold_lists(const Model& model);
+
+// Errors: an anchor that add_anchor did not give.
+Result<void> check_anchor(const Model& model, AnchorId anchor);
 
 // Errors: a vertex that does not exist or is held twice, an anchor that does not exist, values out of range.
 Result<void> validate_holds(const Model& model, uint32_t cloth, std::span<const Hold> holds);

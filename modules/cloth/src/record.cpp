@@ -110,30 +110,36 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
                      k_storage);
 }
 
-void Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
+Result<void> Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
 {
     gpu::Recorder recorder(state_->context, cmd, timestamps);
-    record(recorder, step);
+    return record(recorder, step);
 }
 
-void Solver::record(gpu::Recorder& recorder, const Step& step)
+Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
 {
+    if (auto valid = validate(step); !valid)
+        return valid;
     if (!state_->device || state_->device->chunk_count == 0)
-        return;
+        return {};
     begin_scope(recorder);
-    state_->recovery_due |= state_->edits.any();
+    state_->recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
     record_recovery(recorder, *state_, step);
     const uint32_t substeps = State::substeps(*this, step);
     SubstepRecorder(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps)).record();
     record_normals(recorder, *state_);
     end_scope(recorder);
+    return {};
 }
 
-void Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps) const
+Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps) const
 {
-    if (!state_->device || slot >= state_->options.statistics_slots)
-        return;
+    if (slot >= state_->options.statistics_slots)
+        return Error{"statistics: slot " + std::to_string(slot) + " of " +
+                     std::to_string(state_->options.statistics_slots) + " does not exist"};
+    if (!state_->device)
+        return {};
     const DeviceState& device = *state_->device;
     const Kernels& kernels = state_->kernels;
     const uint32_t group = state_->options.workgroup_size;
@@ -145,11 +151,12 @@ void Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestam
                       shared::StatisticsReducePush{device.chunk_count, slot});
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
                      VK_ACCESS_2_HOST_READ_BIT_KHR);
+    return {};
 }
 
 uint32_t Solver::dispatches(const Step& step) const
 {
-    if (!state_->device || state_->device->chunk_count == 0)
+    if (!state_->device || state_->device->chunk_count == 0 || !validate(step))
         return 0;
     const DeviceState& device = *state_->device;
     const bool rk4 = device.rk4_chunks > 0;

@@ -21,6 +21,19 @@ uint32_t feature_threads(const gpu::Context& context, const SolverOptions& optio
     return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.workgroup_size);
 }
 
+// One record a slot, all 0.
+Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
+{
+    auto buffer = gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsRecord),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback);
+    if (buffer)
+    {
+        std::ranges::fill(buffer.value().mapped(), std::byte{0});
+        buffer.value().flush();
+    }
+    return buffer;
+}
+
 } // namespace
 
 Requirements requirements()
@@ -64,6 +77,10 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     state->options.feature_threads = feature_threads(state->context, options);
     state->model.max_buffer_bytes = state->context.max_buffer_bytes;
     state->kernels = std::move(kernels.value());
+    auto statistics = create_statistics(state->context, options.statistics_slots);
+    if (!statistics)
+        return statistics.error();
+    state->statistics = std::move(statistics.value());
     return Solver(std::move(state));
 }
 
@@ -116,9 +133,9 @@ bool Solver::needs_upload() const
 Statistics Solver::statistics(uint32_t slot) const
 {
     Statistics result;
-    if (!state_->device || slot >= state_->options.statistics_slots)
+    if (slot >= state_->options.statistics_slots)
         return result;
-    const gpu::Buffer& buffer = state_->device->result;
+    const gpu::Buffer& buffer = state_->statistics;
     buffer.invalidate();
     shared::StatisticsRecord record{};
     std::memcpy(&record, buffer.mapped().data() + slot * sizeof(record), sizeof(record));
@@ -136,6 +153,8 @@ Statistics Solver::statistics(uint32_t slot) const
 
 uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
 {
+    if (!validate(Step{.duration = duration}))
+        return 0;
     uint32_t substeps = 1;
     for (const shared::ClothRecord& record : state_->model.records)
         substeps = std::max(substeps, cloth::stable_substeps(record, static_cast<double>(duration)));
@@ -144,8 +163,10 @@ uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
 
 Stability Solver::stability(ClothId cloth, const Step& step) const
 {
-    const shared::ClothRecord& record = state_->model.records[cloth.index];
     Stability result;
+    if (!state_->has(cloth) || !validate(step))
+        return result;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
     result.needed = cloth::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
     const StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
@@ -157,7 +178,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
 VertexStreams Solver::vertices(ClothId cloth) const
 {
     VertexStreams streams;
-    if (!state_->device)
+    if (!state_->device || cloth.index >= state_->device->cloth_count)
         return streams;
     const DeviceState& device = *state_->device;
     const shared::ClothRecord& record = state_->model.records[cloth.index];
@@ -171,11 +192,13 @@ VertexStreams Solver::vertices(ClothId cloth) const
 
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
-    return cloth_triangles(state_->model, cloth.index);
+    return state_->has(cloth) ? cloth_triangles(state_->model, cloth.index) : std::vector<glm::uvec3>{};
 }
 
 std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
 {
+    if (!state_->has(cloth))
+        return {};
     const ClothModel& model = state_->model.cloths[cloth.index];
     if (model.mesh)
         return model.texture_coordinates;
@@ -191,11 +214,14 @@ std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
 
 const std::string& Solver::name(ClothId cloth) const
 {
-    return state_->model.cloths[cloth.index].name;
+    static const std::string k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].name : k_none;
 }
 
 MeshReport Solver::mesh_report(ClothId cloth) const
 {
+    if (!state_->has(cloth))
+        return {};
     const ClothModel& model = state_->model.cloths[cloth.index];
     return model.mesh ? model.mesh->report : MeshReport{};
 }

@@ -78,19 +78,12 @@ FindSurface surface_finder(const Model& model, uint32_t collider, double distanc
     }
 }
 
-Result<void> check_exists(const Model& model, ColliderId collider)
-{
-    if (collider.index < model.colliders.size())
-        return {};
-    return Error{"collider " + std::to_string(collider.index) + " does not exist"};
-}
-
 } // namespace
 
 Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
 {
     State& s = *state_;
-    if (auto exists = check_exists(s.model, collider); !exists)
+    if (auto exists = s.check(collider); !exists)
         return exists;
     if (!is_rigid(motion))
         return Error{"collider " + std::to_string(collider.index) +
@@ -112,7 +105,9 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
 Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance)
 {
     State& s = *state_;
-    if (auto exists = check_exists(s.model, collider); !exists)
+    if (auto exists = s.check(cloth); !exists)
+        return exists.error();
+    if (auto exists = s.check(collider); !exists)
         return exists.error();
     if (!(distance >= 0) || !std::isfinite(distance))
         return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};

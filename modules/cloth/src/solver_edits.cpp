@@ -1,6 +1,7 @@
 // Changes of cloths that are there already. Each is validated here and recorded by edits.cpp.
 #include "solver_state.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace cloth
@@ -23,6 +24,14 @@ Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
     return {};
 }
 
+Result<void> check_frame(const std::string& what, const glm::mat4& world_from_anchor)
+{
+    if (auto valid = check_affine(what, world_from_anchor, k_most_coordinate); !valid)
+        return valid;
+    const float volume = std::abs(glm::determinant(glm::mat3(world_from_anchor)));
+    return check(what, {"the transform's determinant", volume, k_least_anchor_volume, std::pow(k_most_scale, 3.f)});
+}
+
 void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
 {
     edits.places.push_back({transform, velocity, kind, cloth.index});
@@ -33,6 +42,8 @@ void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& tran
 Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
 {
     State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
     ClothModel& model = s.model.cloths[cloth.index];
     if (auto valid = check_kind(model, material); !valid)
         return valid;
@@ -48,12 +59,15 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
 
 const ClothMaterial& Solver::material(ClothId cloth) const
 {
-    return state_->model.cloths[cloth.index].material;
+    static const ClothMaterial k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].material : k_none;
 }
 
 Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
 {
     State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
     if (auto valid = validate_holds(s.model, cloth.index, holds); !valid)
         return valid;
     ClothModel& model = s.model.cloths[cloth.index];
@@ -75,12 +89,15 @@ Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
 
 const std::vector<Hold>& Solver::holds(ClothId cloth) const
 {
-    return state_->model.cloths[cloth.index].holds;
+    static const std::vector<Hold> k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].holds : k_none;
 }
 
 Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)
 {
     State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
     ClothModel& model = s.model.cloths[cloth.index];
     std::vector<shared::TetherRecord> records;
     if (tethers)
@@ -99,8 +116,8 @@ Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& te
 Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
 {
     State& s = *state_;
-    if (!finite(world_from_anchor) || !finite(glm::inverse(world_from_anchor)))
-        return Error{"anchor: its transform is not finite or has no inverse"};
+    if (auto valid = check_frame("anchor", world_from_anchor); !valid)
+        return valid.error();
     s.model.anchors.push_back(world_from_anchor);
     s.anchors.push_back({world_from_anchor, world_from_anchor});
     if (!s.fits())
@@ -112,31 +129,38 @@ Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
 Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor)
 {
     State& s = *state_;
-    if (anchor.index == 0 || anchor.index >= s.anchors.size())
-        return Error{"anchor " + std::to_string(anchor.index) + " does not exist"};
-    if (!finite(world_from_anchor) || !finite(glm::inverse(world_from_anchor)))
-        return Error{"anchor " + std::to_string(anchor.index) + ": its transform is not finite or has no inverse"};
+    if (auto exists = check_anchor(s.model, anchor); !exists)
+        return exists;
+    if (auto valid = check_frame("anchor " + std::to_string(anchor.index), world_from_anchor); !valid)
+        return valid;
     s.anchors[anchor.index].to = world_from_anchor;
     return {};
 }
 
-void Solver::reset(ClothId cloth)
+Result<void> Solver::reset(ClothId cloth)
 {
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
     add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->model.cloths[cloth.index].velocity);
+    return {};
 }
 
 Result<void> Solver::transform(ClothId cloth, const glm::mat4& transform)
 {
-    if (!finite(transform))
-        return invalid("cloth", name(cloth), "the transform is not finite");
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
+    if (auto valid = check_affine(subject("cloth", name(cloth)), transform, 2 * k_most_coordinate); !valid)
+        return valid;
     add_place(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
     return {};
 }
 
 Result<void> Solver::set_velocity(ClothId cloth, const glm::vec3& velocity)
 {
-    if (!finite(velocity))
-        return invalid("cloth", name(cloth), "the velocity is not finite");
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
+    if (auto valid = check(subject("cloth", name(cloth)), "velocity", velocity, k_most_speed, " m/s"); !valid)
+        return valid;
     add_place(state_->edits, cloth, VOILE_EDIT_VELOCITY, glm::mat4(1), velocity);
     return {};
 }

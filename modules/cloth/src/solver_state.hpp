@@ -11,7 +11,8 @@
 namespace cloth
 {
 
-// What the host asked for since the last record; recorded at the beginning of the next one.
+// What the host asked for since the last record; recorded at the beginning of the next one. Lists of holds and tethers
+// wait for an upload that is due, and so does what is asked of cloths and colliders that are not uploaded yet.
 struct Edits
 {
     std::vector<uint32_t> records;        // cloths whose record changed
@@ -20,11 +21,6 @@ struct Edits
     bool holds = false;
     bool tethers = false;
     bool pins = false; // they must be set again
-
-    [[nodiscard]] bool any() const
-    {
-        return !records.empty() || !colliders.empty() || !places.empty() || holds || tethers || pins;
-    }
 };
 
 // So many substeps are told apart by the lists of candidates before they must be made anew.
@@ -49,6 +45,9 @@ struct Anchor
     glm::mat4 from{1.f}; // world from anchor, at the end of the last step
     glm::mat4 to{1.f};   // at the end of the next one
 };
+
+// As the GPU sees it.
+shared::AnchorRecord make_record(const Anchor& anchor);
 
 // Of the strain limit, on each level.
 constexpr uint32_t k_strain_passes = 16;
@@ -77,10 +76,19 @@ struct Solver::State
     uint32_t recovery_step = 0; // counts the steps with recovery
     uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
     HoldLists hold_lists;
+    gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
     Edits edits;
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
     bool dirty = false;
+
+    [[nodiscard]] bool has(ClothId cloth) const { return cloth.index < model.cloths.size(); }
+    [[nodiscard]] bool has(ColliderId collider) const { return collider.index < model.colliders.size(); }
+    [[nodiscard]] Result<void> check(ClothId cloth) const { return check_id("cloth", cloth.index, model.cloths.size()); }
+    [[nodiscard]] Result<void> check(ColliderId collider) const
+    {
+        return check_id("collider", collider.index, model.colliders.size());
+    }
 
     // Substeps that a step takes.
     [[nodiscard]] static uint32_t substeps(const Solver& solver, const Step& step)
@@ -88,7 +96,9 @@ struct Solver::State
         return step.substeps > 0 ? step.substeps : solver.stable_substeps(step.duration, step.max_substeps);
     }
 
-    // After holds, tethers or materials changed, or an upload.
+    // Whether the next record has edits to record.
+    [[nodiscard]] bool changes_due() const;
+    // After holds, tethers or materials changed, or an upload: the passes over what is uploaded.
     void update_passes();
     void update_holds();
     // After a cloth was added.

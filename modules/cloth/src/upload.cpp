@@ -92,7 +92,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     data.anchors = room(s.anchors.size());
     data.holds = room(s.hold_lists.holds.size());
     data.tethers = room(s.hold_lists.tethers.size());
-    auto created = create_device_state(s.context, s.kernels, s.model, data, s.options.statistics_slots);
+    auto created = create_device_state(s.context, s.kernels, s.model, data, s.statistics);
     if (!created)
         return created.error();
     DeviceState& next = created.value();
@@ -107,6 +107,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     std::vector<shared::ColliderMotion> motions;
     for (uint32_t i = 0; i < s.colliders.size(); ++i)
         motions.push_back(make_motion(s.model, i, s.colliders[i], s.deformations));
+    std::vector<shared::AnchorRecord> anchors;
+    for (const Anchor& anchor : s.anchors)
+        anchors.push_back(make_record(anchor));
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -131,6 +134,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.features, 0, bytes_of(data.features.features)},
         {next.start, 0, bytes_of(s.model.start)},
         {next.start_residuals, 0, bytes_of(s.model.residuals)},
+        {next.anchors, 0, bytes_of(anchors)},
         {next.holds, 0, bytes_of(s.hold_lists.holds)},
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
@@ -159,6 +163,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     clear_dispatch(recorder, next.feature_dispatch);
     for (const gpu::Buffer& size : next.recover_dispatch)
         clear_dispatch(recorder, size);
+    if (s.edits.holds) // what is no longer held has its mass again
+        for (uint32_t cloth = 0; s.device && cloth < s.device->cloth_count; ++cloth)
+            s.edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, cloth});
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;
@@ -168,7 +175,6 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.normals_due = true;
     s.recovery_due = true;
     s.edits.holds = s.edits.tethers = false;
-    s.edits.pins |= s.hold_lists.pins > 0; // anchors are not uploaded: the next step sets them
     s.update_passes();
     return upload;
 }

@@ -1,6 +1,7 @@
 // What can be added to a solver: cloths and colliders. Everything is copied and validated when it is added.
 #pragma once
 
+#include "cloth/ids.hpp"
 #include "cloth/material.hpp"
 
 #include <glm/glm.hpp>
@@ -178,16 +179,6 @@ struct BoundingBox
 {
     glm::vec3 min{0.f}; // m
     glm::vec3 max{0.f};
-};
-
-// Names of what was added; only valid in the solver that gave them.
-struct ClothId
-{
-    uint32_t index = 0;
-};
-struct ColliderId
-{
-    uint32_t index = 0;
 };
 
 } // namespace cloth

@@ -1,6 +1,8 @@
 // Holds and tethers: what keeps vertices of a cloth in place, or near one. Both can change while the cloth moves.
 #pragma once
 
+#include "cloth/ids.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -9,12 +11,6 @@
 
 namespace cloth
 {
-
-// A moving frame of the host's (a curtain rod, a bone, a hand); see Solver::add_anchor.
-struct AnchorId
-{
-    uint32_t index = 0;
-};
 
 // What holds one vertex: a pin, a spring, a leash with a backstop, or the last two together. At most one a vertex.
 struct Hold

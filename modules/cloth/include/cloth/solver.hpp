@@ -4,7 +4,7 @@
 //   auto sheet  = solver.value().add_cloth({...});              // copied and validated
 //   auto ball   = solver.value().add_collider(cloth::SphereCollider{...});
 //   auto upload = solver.value().record_upload(cmd);            // keep until cmd has completed
-//   each frame:   solver.value().record(cmd, {.duration = 1.f / 60});
+//   each frame:   if (auto r = solver.value().record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
 //                 draw solver.value().vertices(sheet.value())   // the same buffers that were written
 //
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
@@ -31,6 +31,22 @@
 //   dispatch sizes    3 words                feature reach,         indirect dispatches
 //                                              recovery
 //   partials, result  StatisticsRecord       statistics             the host (result)
+//
+// Lifetime. The solver submits nothing and waits for nothing, so the host keeps things alive for the GPU:
+// - destroy a Solver, or assign another one to it, when no command buffer that it recorded into is pending;
+// - keep an Upload until the command buffer that record_upload recorded into has completed;
+// - keep a Snapshot until the command buffers that save it or restore from it have completed;
+// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots. Uploads and Snapshots may outlive
+//   the Solver.
+// Where SolverOptions::lifetime_checks is on, destroying a Solver or an Upload while the GPU executes its commands ends
+// the program with a line on stderr. A Solver, an Upload or a Snapshot that was moved from may only be destroyed or
+// assigned to.
+//
+// Threads. One solver is used by one thread at a time: the host orders the calls, with a lock of its own where several
+// threads make them. Const functions of one solver may run at the same time as each other. Different solvers may be used
+// by different threads at the same time, also if they share a device, an allocator and a pipeline cache (VMA's allocator
+// and Vulkan's cache lock themselves unless the host made them externally synchronized). A command buffer, and the pool
+// that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit is for any thread.
 #pragma once
 
 #include "cloth/descriptions.hpp"
@@ -82,21 +98,25 @@ struct SolverOptions
                                   // workgroup_size; 0: eight, on CPU devices one
     bool recovery = true;         // what is inside a closed mesh at the start of a step is brought out
     MeshLayout mesh_layout = MeshLayout::interleaved;
+    std::optional<bool> lifetime_checks{}; // see above. None: on where the module was compiled without NDEBUG
 };
 
-// One call of record.
+// One call of record. Everything must be finite and in the range given; vectors, each component (cloth/ranges.hpp).
 struct Step
 {
-    float duration = 1.f / 60;       // s, > 0
-    uint32_t substeps = 0;           // 0: as many as stability asks for, stable_substeps(duration)
-    uint32_t max_substeps = 2000;    // of those; a cloth for which they are too few is softened, see stability
-    glm::vec3 gravity{0, -9.81f, 0}; // m/s^2
-    glm::vec3 wind{0.f};             // m/s
+    float duration = 1.f / 60;       // s, 1e-6..10
+    uint32_t substeps = 0;           // 0..1000000; 0: as many as stability asks for, stable_substeps(duration)
+    uint32_t max_substeps = 2000;    // of those, 1..1000000; a cloth for which they are too few is softened, see stability
+    glm::vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
+    glm::vec3 wind{0.f};             // m/s, -1e3..1e3
     float gust = 0;                  // root mean square of the gusts as a share of the wind's speed, 0..10
-    float gust_length = 4;           // m, > 0: the wavelength of the longest gusts; the shortest are an eighth of it
-    double time = 0;                 // s, at the step's start; the gusts depend on it and on the place alone
-    float air_density = 1.225f;      // kg/m^3
+    float gust_length = 4;           // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;                 // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
+    float air_density = 1.225f;      // kg/m^3, 0..1e4
 };
+
+// Errors: a member out of its range, with its name and value.
+Result<void> validate(const Step& step);
 
 // Vertices in a buffer of the host's, three floats each. It needs TRANSFER_SRC usage.
 struct DeviceVertices
@@ -115,7 +135,9 @@ struct Stability
     float damping_share = 1;   // likewise
 };
 
-// Staging memory and the buffers that an upload replaced. Destroy it once the command buffer has completed.
+// Staging memory and the buffers that an upload replaced. Destroy it, or assign another one to it, once the command
+// buffer has completed; one that was never submitted may go at any time. It may outlive the solver. A default-constructed
+// one holds nothing.
 class Upload
 {
 public:
@@ -131,7 +153,8 @@ private:
 };
 
 // The state of all cloths at one time: positions, velocities, normals. Copied on the GPU by record_save and
-// record_restore, in memory that the host sees, so that it can be kept in a file.
+// record_restore, in memory that the host sees, so that it can be kept in a file. Destroy it once the command buffers that
+// use it have completed. It may outlive the solver.
 class Snapshot
 {
 public:
@@ -151,7 +174,8 @@ private:
     std::unique_ptr<Contents> contents_;
 };
 
-// Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload that follows an addition.
+// Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles and 0 vertices
+// for a cloth that is not uploaded yet or does not exist.
 struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
@@ -178,8 +202,13 @@ public:
     Result<ClothId> add_cloth(const MeshCloth& mesh);
     Result<ColliderId> add_collider(const Collider& collider);
 
-    // Changes of a cloth that is there already. They take effect with the next record (or, where an upload is due, with
-    // the next record after it), without new buffers. Errors leave everything as it was.
+    // Every function below that takes an id and returns a Result has one more error: an id that is not valid. Those that
+    // answer without a Result say so with an empty answer: no holds, no boxes, no triangles, an empty name, a default
+    // material, null handles, zeros. References that they return hold until the solver changes.
+
+    // Changes of what is there already. They take effect with the next record, without new buffers; those of a cloth, a
+    // collider or an anchor that is not uploaded yet with the first record after that. Holds and tethers that are set
+    // while an upload is due wait for it as well. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
     // isometric bending of a mesh that was added without. Which corners and edges of colliders count follows a new
@@ -225,7 +254,7 @@ public:
     [[nodiscard]] std::vector<BoundingBox> hierarchy_boxes(ColliderId collider, uint32_t level) const;
 
     // Back to the start: places, velocities, masses. Holds stay as they are.
-    void reset(ClothId cloth);
+    Result<void> reset(ClothId cloth);
     // Moves a cloth at once: places by the transform, velocities by its turning. Pins that have a place go back to it.
     // Errors: a transform that is not finite.
     Result<void> transform(ClothId cloth, const glm::mat4& transform);
@@ -243,9 +272,11 @@ public:
     // Records the passes of one step. Never allocates, submits, waits or reads a clock. Outside rendering.
     // Begins: earlier reads of the vertex streams by vertex input, and transfers, are waited for here; earlier uploads
     // too. Ends: writes are visible to vertex input, compute and transfer reads that follow. Nothing is recorded before
-    // the first record_upload, or without cloths.
-    void record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
-    void record(gpu::Recorder& recorder, const Step& step);
+    // the first record_upload, or without cloths. While an upload is due, everything that is uploaded goes on: motions
+    // of anchors and colliders, and changes, as above.
+    // Errors: a member of the step out of its range. Nothing is recorded then, and what waits for the next step waits on.
+    Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
+    Result<void> record(gpu::Recorder& recorder, const Step& step);
 
     // The state of all cloths, saved and brought back to the bit. Materials, holds and anchors are the host's and are
     // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices.
@@ -253,14 +284,18 @@ public:
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
 
-    // Records the reduction of the statistics into `slot`, to be read once the submission has completed.
-    void record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
+    // Records the reduction of the statistics into `slot`, to be read once the submission has completed, also after
+    // uploads. Nothing is recorded before the first record_upload. Errors: a slot that does not exist.
+    Result<void> record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
+    // All 0 for a slot that nothing was recorded into, or that does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
+    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps. 0
+    // for a duration that record refuses.
     // From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched:
     // RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
+    // needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;
@@ -276,7 +311,8 @@ public:
     [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;               // of all cloths
     [[nodiscard]] uint32_t triangle_count() const;             // of all cloths
-    [[nodiscard]] uint32_t dispatches(const Step& step) const; // that record makes, without edits
+    // That record makes, without edits; 0 for a step that it refuses.
+    [[nodiscard]] uint32_t dispatches(const Step& step) const;
 
     struct State; // of the implementation
 

@@ -1,0 +1,90 @@
+// What the validation of all input shares: is a value within its range, and the words where it is not.
+#include "range_checks.hpp"
+
+#include "cloth/ids.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace cloth
+{
+
+std::string text(float value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof(buffer), "%g", static_cast<double>(value));
+    return buffer;
+}
+
+std::string text(const glm::vec3& v)
+{
+    return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")";
+}
+
+Result<void> check(const std::string& what, const Range& range)
+{
+    if (range.value >= range.min && range.value <= range.max) // false for NaN
+        return {};
+    return Error{what + ": " + range.name + " is " + text(range.value) + range.unit + ", must be " + text(range.min) +
+                 " to " + text(range.max)};
+}
+
+Result<void> check(const std::string& what, const char* name, const glm::vec3& value, float most, const char* unit)
+{
+    if (within(value, most))
+        return {};
+    return Error{what + ": " + name + " is " + text(value) + unit + ", each must be " + text(-most) + " to " +
+                 text(most)};
+}
+
+Result<void> check_friction(const std::string& what, float static_friction, float kinetic_friction)
+{
+    if (auto result = check(what, {"kinetic_friction", kinetic_friction, 0, k_most_friction}); !result)
+        return result;
+    if (!(static_friction >= kinetic_friction))
+        return Error{what + ": static_friction is " + text(static_friction) +
+                     ", must be at least kinetic_friction, " + text(kinetic_friction)};
+    return check(what, {"static_friction", static_friction, 0, k_most_friction});
+}
+
+bool within(const glm::vec3& value, float most)
+{
+    return std::abs(value.x) <= most && std::abs(value.y) <= most && std::abs(value.z) <= most;
+}
+
+bool finite(const glm::vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool finite(const glm::mat4& m)
+{
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]))
+                return false;
+    return true;
+}
+
+Result<void> check_id(const char* what, uint32_t index, size_t count)
+{
+    if (index < count)
+        return {};
+    if (index == k_no_index)
+        return Error{std::string(what) + ": the id is a default-constructed one"};
+    return Error{std::string(what) + " " + std::to_string(index) + " does not exist"};
+}
+
+Result<void> check_affine(const std::string& what, const glm::mat4& transform, float most)
+{
+    if (!finite(transform))
+        return Error{what + ": the transform is not finite"};
+    if (transform[0].w != 0 || transform[1].w != 0 || transform[2].w != 0 || transform[3].w != 1)
+        return Error{what + ": the transform's last row is not 0 0 0 1"};
+    for (int column = 0; column < 3; ++column)
+        if (auto axis = check(what, "an axis of the transform", glm::vec3(transform[column]), k_most_scale); !axis)
+            return axis;
+    return check(what, "the transform's translation", glm::vec3(transform[3]), most, " m");
+}
+
+} // namespace cloth

@@ -1,0 +1,54 @@
+// What the validation of all input shares: is a value within its range, and the words where it is not.
+#pragma once
+
+#include "cloth/ranges.hpp"
+
+#include "gpu/result.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace cloth
+{
+
+using gpu::Error;
+using gpu::Result;
+
+struct Range
+{
+    const char* name;
+    float value;
+    float min;
+    float max;
+    const char* unit = ""; // with a blank before it
+};
+
+// With six digits, as short as possible.
+std::string text(float value);
+std::string text(const glm::vec3& value);
+
+// Errors: a value that is not within, NaN among them. `what` says whose it is.
+Result<void> check(const std::string& what, const Range& range);
+
+// The same for each component; the error has all of them.
+Result<void> check(const std::string& what, const char* name, const glm::vec3& value, float most,
+                   const char* unit = "");
+
+// Coulomb's coefficients: kinetic 0..k_most_friction, static from that on.
+Result<void> check_friction(const std::string& what, float static_friction, float kinetic_friction);
+
+bool within(const glm::vec3& value, float most); // each component, either way; false for NaN
+
+bool finite(const glm::vec3& v);
+bool finite(const glm::mat4& m);
+
+// Errors: an index that is not below `count`; `what` is "cloth", "collider" or "anchor".
+Result<void> check_id(const char* what, uint32_t index, size_t count);
+
+// A transform's entries: the linear part within k_most_scale, the translation within `most` m, the last row 0 0 0 1.
+// Errors name which of them it is.
+Result<void> check_affine(const std::string& what, const glm::mat4& transform, float most);
+
+} // namespace cloth
