@@ -118,7 +118,8 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_
             engine::take(solver.record(cmd, step));
             engine::take(solver.record_restore(cmd, start));
         };
-        const double time = queue.time([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
+        const double time =
+            queue.time([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
         if (frame >= k_first_timed)
             times.push_back(time);
         const cloth::VertexStreams streams = solver.vertices(id);

@@ -285,8 +285,8 @@ TEST_CASE("holds and tethers refuse bad input, and nothing changes")
     glm::mat4 flat(1.f);
     flat[2] = {};
     CHECK(harness.solver.add_anchor(flat).error().message ==
-          "anchor: the transform's determinant is 0, must be 1e-09 to 1e+09");
-    CHECK(harness.solver.add_anchor(glm::mat4(NAN)).error().message == "anchor: the transform is not finite");
+          "anchor: its transform's determinant is 0, must be 1e-09 to 1e+09");
+    CHECK(harness.solver.add_anchor(glm::mat4(NAN)).error().message == "anchor: its transform is not finite");
     CHECK(message(harness.solver.move_anchor({0}, glm::mat4(1.f))) == "anchor 0 does not exist");
 }
 

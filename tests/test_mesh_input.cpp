@@ -134,9 +134,9 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver stay
         [](cloth::MeshCloth& m) { m.inverse_masses.assign(9, std::abs(k_nan)); });
     add("held vertex 9 of 9", [](cloth::MeshCloth& m) { m.held = {0, 9}; });
     add("its transform is not finite", [](cloth::MeshCloth& m) { m.transform[3].x = k_nan; });
-    add("its transform takes a position out of range",
+    add("its transform takes vertex 0 to (3e+38, 0, 0), each must be -1e+06 to 1e+06 m",
         [](cloth::MeshCloth& m) { m.transform[0].x = m.transform[3].x = 3e38f; });
-    add("its velocity is not finite", [](cloth::MeshCloth& m) { m.velocity.y = k_nan; });
+    add("velocity is (0, nan, 0) m/s, each must be -10000 to 10000", [](cloth::MeshCloth& m) { m.velocity.y = k_nan; });
     add("fabric: areal_density is 0 kg/m^2, must be 0.001 to 1000",
         [](cloth::MeshCloth& m) { m.material = cloth::Fabric{.areal_density = 0}; });
 

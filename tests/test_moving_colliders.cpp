@@ -314,9 +314,9 @@ TEST_CASE("what a collider cannot do is refused and changes nothing")
           "collider 0: its motion is not rigid");
     CHECK(reason(solver.add_collider(cloth::CapsuleCollider{.radius = -1})).find("radius is -1") != std::string::npos);
     CHECK(reason(solver.add_collider(cloth::CapsuleCollider{.from = {nan, 0, 0}})) ==
-          "collider \"capsule\": an end of the capsule is not finite");
+          "collider \"capsule\": from is (nan, 0, 0) m, each must be -1e+06 to 1e+06");
     CHECK(reason(solver.add_collider(cloth::BoxCollider{.min = {0, 1, 0}, .max = {1, 1, 1}})) ==
-          "collider \"box\": the box has a side without length: min must be below max");
+          "collider \"box\": the side along y is 0 m, must be 0.0001 to 2e+06");
     CHECK(reason(solver.add_collider(cloth::BoxCollider{.transform = glm::mat4(3)})) ==
           "collider \"box\": the box's transform is not rigid");
     CHECK(engine::take(solver.add_collider(cloth::PlaneCollider{})).index == 1);

@@ -91,9 +91,40 @@ TEST_CASE("numbers that are not finite, out of range or of the wrong kind")
     CHECK(cloth_message("\"material\": {\"areal_density\": 1e-300}") ==
           "dir/s.json:1: cloths[0].material.areal_density is 1e-300; it must be larger than 0");
     CHECK(cloth_message("\"transform\": {\"scale\": -1}") ==
-          "dir/s.json:1: cloths[0].transform.scale is -1; it must be larger than 0");
+          "dir/s.json:1: cloths[0].transform.scale is -1; it must be larger than 0 and at most 1000000");
     CHECK(cloth_message("\"self_collision\": 1") ==
           "dir/s.json:1: cloths[0].self_collision is a number; expected true or false");
+}
+
+TEST_CASE("values beyond the ranges of the cloth module are refused where they stand")
+{
+    const std::string at = "dir/s.json:1: ";
+    const std::string world = "; it must be within -1000000 to 1000000";
+    CHECK(scene_message("\"gravity\": [0, -1e30, 0]") ==
+          at + "gravity[1] is -1e+30; it must be within -10000 to 10000");
+    CHECK(scene_message("\"wind\": {\"velocity\": [1e20, 0, 0]}") ==
+          at + "wind.velocity[0] is 1e+20; it must be within -1000 to 1000");
+    CHECK(scene_message("\"wind\": {\"gust_length\": 1e-38}") ==
+          at + "wind.gust_length is 1e-38; it must be within 0.01 to 1000000");
+    CHECK(cloth_message("\"velocity\": [0, 1e20, 0]") ==
+          at + "cloths[0].velocity[1] is 1e+20; it must be within -10000 to 10000");
+    CHECK(cloth_message("\"transform\": {\"scale\": 1e18}") ==
+          at + "cloths[0].transform.scale is 1e+18; it must be larger than 0 and at most 1000000");
+    CHECK(cloth_message("\"transform\": {\"translate\": [0, 0, -1e7]}") ==
+          at + "cloths[0].transform.translate[2] is -10000000" + world);
+    CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"stiffness\": 1e30}]") ==
+          at + "cloths[0].pins[0].stiffness is 1e+30; it must be within 0 to 1000000000");
+    CHECK(collider_message(R"({"sphere": {"center": [1e9, 0, 0], "radius": 1}})") ==
+          at + "colliders[0].sphere.center[0] is 1000000000" + world);
+    CHECK(collider_message(R"({"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 1e18}})") ==
+          at + "colliders[0].capsule.radius is 1e+18; it must be within 0.0001 to 2000000");
+    CHECK(collider_message(R"({"plane": {"y": -1e20}})") == at + "colliders[0].plane.y is -1e+20" + world);
+    CHECK(collider_message(R"({"box": {"min": [-1e8, 0, 0], "max": [1, 1, 1]}})") ==
+          at + "colliders[0].box.min[0] is -100000000" + world);
+    CHECK(collider_message(R"({"plane": {"y": 0}, "friction": 1e30})") ==
+          at + "colliders[0].friction is 1e+30; it must be within 0 to 100");
+    CHECK(collider_message(R"({"plane": {"y": 0}, "motion": {"velocity": [0, 1e20, 0]}})") ==
+          at + "colliders[0].motion.velocity[1] is 1e+20; it must be within -10000 to 10000");
 }
 
 TEST_CASE("grids")
@@ -117,7 +148,7 @@ TEST_CASE("grids")
     CHECK(grid(R"({"vertices": [4, 9999999999999], "size": [1, 1]})") ==
           "dir/s.json:1: cloths[0].grid.vertices[1] is 9999999999999; it must be within 2 to 8192");
     CHECK(grid(R"({"vertices": [4, 4], "size": [-1, 1]})") ==
-          "dir/s.json:1: cloths[0].grid.size[0] is -1; it must be larger than 0");
+          "dir/s.json:1: cloths[0].grid.size[0] is -1; it must be within 0.0001 to 100000");
     CHECK(grid(R"({"vertices": [4], "size": [1, 1]})") ==
           "dir/s.json:1: cloths[0].grid.vertices has 1 item; expected an array of 2 numbers");
     CHECK(grid(R"({"vertices": [4, 4]})") == "dir/s.json:1: cloths[0].grid has no \"size\"");
@@ -180,7 +211,7 @@ TEST_CASE("colliders and camera")
     CHECK(collider_message(R"({"mesh": "a.stl"})") ==
           at + ".mesh is \"a.stl\"; expected a file that ends in .obj or .ply");
     CHECK(collider_message(R"({"sphere": {"center": [0, 0, 0], "radius": -1}})") ==
-          at + ".sphere.radius is -1; it must be larger than 0");
+          at + ".sphere.radius is -1; it must be within 0.0001 to 2000000");
     CHECK(collider_message(R"({"sphere": {"radius": 1}})") == at + ".sphere has no \"center\"");
     CHECK(collider_message(R"({"box": {"min": [0, 0, 0], "max": [1, 0, 1]}})") ==
           at + ".box is empty: each number of min must be below that of max");

@@ -1,6 +1,8 @@
 // Colliders, transforms and motions of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
+#include "cloth/ranges.hpp"
+
 #include <cctype>
 
 namespace viewer
@@ -8,11 +10,16 @@ namespace viewer
 namespace
 {
 
+const Range k_position = within(cloth::k_most_coordinate);
+const Range k_radius = between(cloth::k_least_collider_size, cloth::k_most_collider_size);
+const Range k_friction = between(0, cloth::k_most_friction);
+const Range k_scale{0, static_cast<double>(cloth::k_most_coordinate), true}; // of a mesh of 1 m
+
 PlaneShape parse_plane(SceneReader& reader, const Field& field)
 {
     PlaneShape plane;
     if (reader.object(field, {"y"}))
-        reader.read(reader.required(field, "y"), k_any, plane.y);
+        reader.read(reader.required(field, "y"), k_position, plane.y);
     return plane;
 }
 
@@ -21,8 +28,8 @@ SphereShape parse_sphere(SceneReader& reader, const Field& field)
     SphereShape sphere;
     if (!reader.object(field, {"center", "radius"}))
         return sphere;
-    reader.read(reader.required(field, "center"), k_any, sphere.center);
-    reader.read(reader.required(field, "radius"), k_positive, sphere.radius);
+    reader.read(reader.required(field, "center"), k_position, sphere.center);
+    reader.read(reader.required(field, "radius"), k_radius, sphere.radius);
     return sphere;
 }
 
@@ -31,9 +38,9 @@ CapsuleShape parse_capsule(SceneReader& reader, const Field& field)
     CapsuleShape capsule;
     if (!reader.object(field, {"from", "to", "radius"}))
         return capsule;
-    reader.read(reader.required(field, "from"), k_any, capsule.from);
-    reader.read(reader.required(field, "to"), k_any, capsule.to);
-    reader.read(reader.required(field, "radius"), k_positive, capsule.radius);
+    reader.read(reader.required(field, "from"), k_position, capsule.from);
+    reader.read(reader.required(field, "to"), k_position, capsule.to);
+    reader.read(reader.required(field, "radius"), k_radius, capsule.radius);
     return capsule;
 }
 
@@ -42,8 +49,8 @@ BoxShape parse_box(SceneReader& reader, const Field& field)
     BoxShape box;
     if (!reader.object(field, {"min", "max"}))
         return box;
-    reader.read(reader.required(field, "min"), k_any, box.min);
-    reader.read(reader.required(field, "max"), k_any, box.max);
+    reader.read(reader.required(field, "min"), k_position, box.min);
+    reader.read(reader.required(field, "max"), k_position, box.max);
     if (!reader.failed() && !glm::all(glm::lessThan(box.min, box.max)))
         reader.fail(field, "is empty: each number of min must be below that of max");
     return box;
@@ -55,7 +62,7 @@ FrictionEntry parse_friction(SceneReader& reader, const Field& field)
     FrictionEntry friction;
     if (field.node->kind == JsonNode::Kind::number)
     {
-        reader.read(field, k_not_negative, friction.static_friction);
+        reader.read(field, k_friction, friction.static_friction);
         friction.kinetic_friction = friction.static_friction;
         return friction;
     }
@@ -65,8 +72,8 @@ FrictionEntry parse_friction(SceneReader& reader, const Field& field)
         return friction;
     std::optional<float> at_rest;
     std::optional<float> sliding;
-    reader.read(SceneReader::child(field, "static"), k_not_negative, at_rest);
-    reader.read(SceneReader::child(field, "kinetic"), k_not_negative, sliding);
+    reader.read(SceneReader::child(field, "static"), k_friction, at_rest);
+    reader.read(SceneReader::child(field, "kinetic"), k_friction, sliding);
     if (!at_rest && !sliding)
         reader.fail(field, "has neither \"static\" nor \"kinetic\"");
     friction.static_friction = at_rest.value_or(sliding.value_or(0.f));
@@ -145,13 +152,13 @@ void parse_shape(ParseContext& context, const Field& field, ColliderEntry& colli
 MotionEntry read_motion(SceneReader& reader, const Field& field)
 {
     MotionEntry motion;
-    reader.read(SceneReader::child(field, "velocity"), k_any, motion.velocity);
+    reader.read(SceneReader::child(field, "velocity"), within(cloth::k_most_speed), motion.velocity);
     reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
-    reader.read(SceneReader::child(field, "pivot"), k_any, motion.pivot);
+    reader.read(SceneReader::child(field, "pivot"), k_position, motion.pivot);
     if (const Field sway = SceneReader::child(field, "sway"); reader.object(sway, {"amplitude", "period"}))
     {
         motion.sway.emplace();
-        reader.read(reader.required(sway, "amplitude"), k_any, motion.sway->amplitude);
+        reader.read(reader.required(sway, "amplitude"), k_position, motion.sway->amplitude);
         reader.read(reader.required(sway, "period"), k_positive, motion.sway->period);
     }
     return motion;
@@ -164,9 +171,9 @@ TransformEntry parse_transform(SceneReader& reader, const Field& field)
     TransformEntry transform;
     if (!reader.object(field, {"translate", "rotate", "scale"}))
         return transform;
-    reader.read(SceneReader::child(field, "translate"), k_any, transform.translate);
+    reader.read(SceneReader::child(field, "translate"), k_position, transform.translate);
     reader.read(SceneReader::child(field, "rotate"), k_any, transform.rotate);
-    reader.read(SceneReader::child(field, "scale"), k_positive, transform.scale);
+    reader.read(SceneReader::child(field, "scale"), k_scale, transform.scale);
     return transform;
 }
 

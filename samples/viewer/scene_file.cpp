@@ -3,6 +3,7 @@
 
 #include "samples/viewer/scene_parse.hpp"
 
+#include "cloth/ranges.hpp"
 #include "engine/assets/file.hpp"
 #include "engine/assets/words.hpp"
 
@@ -202,13 +203,14 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
     const Field root{&tree.value(), ""};
     if (reader.object(root, {"gravity", "wind", "step", "cloths", "colliders", "camera"}))
     {
-        reader.read(SceneReader::child(root, "gravity"), k_any, scene.gravity);
+        reader.read(SceneReader::child(root, "gravity"), within(cloth::k_most_gravity), scene.gravity);
         if (const Field wind = SceneReader::child(root, "wind");
             reader.object(wind, {"velocity", "gust", "gust_length"}))
         {
-            reader.read(SceneReader::child(wind, "velocity"), k_any, scene.wind.velocity);
-            reader.read(SceneReader::child(wind, "gust"), Range{0, 10}, scene.wind.gust);
-            reader.read(SceneReader::child(wind, "gust_length"), k_positive, scene.wind.gust_length);
+            reader.read(SceneReader::child(wind, "velocity"), within(cloth::k_most_wind), scene.wind.velocity);
+            reader.read(SceneReader::child(wind, "gust"), between(0, cloth::k_most_gust), scene.wind.gust);
+            reader.read(SceneReader::child(wind, "gust_length"),
+                        between(cloth::k_least_gust_length, cloth::k_most_gust_length), scene.wind.gust_length);
         }
         parse_step(reader, SceneReader::child(root, "step"), scene.step);
         parse_cloths(context, root, scene.cloths);

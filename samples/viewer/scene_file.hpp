@@ -1,6 +1,7 @@
-// A scene file (JSON) as plain structs. Nothing here knows the cloth module: what a value means for the simulation is
-// decided where the scene is built. SI units, degrees for angles, y is up. A field that is std::optional or absent was
-// not written in the file; its default belongs to whoever builds the scene.
+// A scene file (JSON) as plain structs. Of the cloth module this knows the ranges alone
+// (cloth/ranges.hpp): what a value means for the simulation is decided where the scene is built. SI units, degrees for
+// angles, y is up. A field that is std::optional or absent was not written in the file; its default belongs to whoever
+// builds the scene.
 #pragma once
 
 #include "gpu/result.hpp"
@@ -34,7 +35,7 @@ struct TransformEntry
 {
     glm::vec3 translate{0.f}; // m
     glm::vec3 rotate{0.f};    // degrees about x, then y, then z
-    float scale = 1.f;        // > 0
+    float scale = 1.f;        // > 0, at most 1e6
 };
 
 // To and fro: amplitude * sin(2 pi t / period).
@@ -64,7 +65,7 @@ struct WindEntry
 {
     glm::vec3 velocity{0.f}; // m/s
     float gust = 0.f;        // root mean square of the gusts as a share of the speed, 0..10
-    float gust_length = 4.f; // m, wavelength of the longest gusts, > 0
+    float gust_length = 4.f; // m, wavelength of the longest gusts, 0.01..1e6
 };
 
 struct StepEntry

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace viewer
 {
@@ -12,6 +13,8 @@ std::string range_text(Range range)
 {
     const bool below = std::isfinite(range.max);
     const bool above = std::isfinite(range.min);
+    if (range.min_excluded && below)
+        return "it must be larger than " + number_text(range.min) + " and at most " + number_text(range.max);
     if (above && below)
         return "it must be within " + number_text(range.min) + " to " + number_text(range.max);
     if (above)
@@ -20,6 +23,11 @@ std::string range_text(Range range)
 }
 
 } // namespace
+
+Range between(float min, float max)
+{
+    return {std::strtod(number_text(min).c_str(), nullptr), std::strtod(number_text(max).c_str(), nullptr)};
+}
 
 void SceneReader::fail(uint32_t line, const std::string& message)
 {

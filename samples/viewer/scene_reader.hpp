@@ -35,6 +35,12 @@ struct Range
 constexpr Range k_any{};
 constexpr Range k_positive{0, std::numeric_limits<double>::infinity(), true};
 constexpr Range k_not_negative{0};
+// Bounds as their decimals read: 0.0001 is not 9.9999997e-05.
+Range between(float min, float max);
+inline Range within(float most)
+{
+    return between(-most, most);
+}
 
 class SceneReader
 {

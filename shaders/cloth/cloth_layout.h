@@ -11,6 +11,13 @@
 #define VOILE_CLASS_EDGE 0
 #define VOILE_CLASS_OPPOSITE 1
 
+// Ranges of the input along each axis, either way, as in cloth/ranges.hpp.
+#define VOILE_MOST_COORDINATE 1e6 // m
+#define VOILE_MOST_SPEED 1e4      // m/s
+// Of the air against a vertex, along each axis, and of the cell that it acts on.
+#define VOILE_MOST_AIR_SPEED 1e5 // m/s
+#define VOILE_MOST_AIR_AREA 1e12 // m^2
+
 // Flags of a cloth.
 #define VOILE_CLOTH_VERLET 1u    // velocity Verlet; else RK4
 #define VOILE_CLOTH_ISOMETRIC 2u // bends by the isometric model; its bend springs are slack

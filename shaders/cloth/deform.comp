@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The vertices of a deforming mesh collider, from what the host gave, into the collider's space. One thread a vertex.
-// A vertex that is not finite stays where it is.
+// A vertex that is not finite, or beyond the range of positions, stays where it is.
 // Reads: input. Writes: deforming positions.
 #include "cloth_layout.h"
 
@@ -19,7 +19,7 @@ void main()
         return;
     const uint word = push.first_word + i * push.stride;
     vec3 p = (push.transform * vec4(words[word], words[word + 1], words[word + 2], 1)).xyz;
-    if (any(isnan(p)) || any(isinf(p)))
+    if (any(isnan(p)) || any(greaterThan(abs(p), vec3(VOILE_MOST_COORDINATE))))
         p = deforming_positions[push.first_from + i].xyz;
     deforming_positions[push.first_to + i] = vec4(p, 0);
 }

@@ -50,10 +50,13 @@ void main()
     {
         const vec3 x = positions[i].xyz;
         const vec3 residual = unpack_residual(x, residuals[i]);
-        const FinePosition next = moved_by(push.transform, FinePosition(x, residual));
+        FinePosition next = moved_by(push.transform, FinePosition(x, residual));
+        // Scales multiply from call to call: what they make stays within the ranges of the input.
+        next.x = clamp(next.x, vec3(-VOILE_MOST_COORDINATE), vec3(VOILE_MOST_COORDINATE));
+        const vec3 v = mat3(push.transform) * velocities[i].xyz;
         positions[i].xyz = next.x;
         residuals[i] = pack_residual(next);
-        velocities[i] = vec4(mat3(push.transform) * velocities[i].xyz, 0);
+        velocities[i] = vec4(clamp(v, vec3(-VOILE_MOST_SPEED), vec3(VOILE_MOST_SPEED)), 0);
     }
     else
         velocities[i] = vec4(push.velocity, 0);

@@ -74,10 +74,11 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
     if (across_length < 1e-20)
         return;
     const vec3 n = across / across_length;
-    const vec3 u = g.wind - g.v;
+    // Beyond that speed, and that area below, the force in the densest air would overflow.
+    const vec3 u = clamp(g.wind - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
     const float u_n = dot(u, n);
     const vec3 u_t = u - u_n * n;
-    const float c = 0.25 * push.air_density * share * across_length;
+    const float c = 0.25 * push.air_density * share * min(across_length, VOILE_MOST_AIR_AREA);
     const float normal = c * cloths[cloth].drag_normal * abs(u_n);
     const float tangential = c * cloths[cloth].drag_tangential * length(u_t);
     g.air += normal * u_n * n + tangential * u_t;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Pins, once a step before its first substep: sets each on its place and gives it the velocity that takes it to where it is
 // at the step's end, along a straight line. One thread a pin.
+// Anchors can leap and scale: a pin stays within the range of positions.
 // Reads: holds, anchors. Writes: state.
 #include "cloth_layout.h"
 
@@ -22,8 +23,9 @@ void main()
     const HoldRecord hold = holds[push.first + gl_GlobalInvocationID.x];
     const AnchorRecord anchor = anchors[hold.anchor];
     const bool placed = (hold.flags & VOILE_HOLD_PLACED) != 0;
-    const vec3 from = placed ? (anchor.from * vec4(hold.place, 1)).xyz : positions[hold.vertex].xyz;
-    const vec3 to = placed ? (anchor.to * vec4(hold.place, 1)).xyz : (anchor.motion * vec4(from, 1)).xyz;
+    const vec3 bound = vec3(VOILE_MOST_COORDINATE);
+    const vec3 from = placed ? clamp((anchor.from * vec4(hold.place, 1)).xyz, -bound, bound) : positions[hold.vertex].xyz;
+    const vec3 to = clamp((placed ? anchor.to * vec4(hold.place, 1) : anchor.motion * vec4(from, 1)).xyz, -bound, bound);
     positions[hold.vertex] = vec4(from, 0);
     if (placed)
         residuals[hold.vertex] = uvec2(0);

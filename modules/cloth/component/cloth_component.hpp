@@ -23,8 +23,8 @@ public:
 
     [[nodiscard]] Solver& solver() { return solver_; }
 
-    // Gravity, wind and substeps of every step; duration and time are the frame's. May be changed between frames. A frame
-    // whose step the solver refuses ends in StartupError.
+    // Gravity, wind and substeps of every step; duration and time are the frame's. May be changed between frames. A
+    // frame whose step the solver refuses ends in StartupError.
     Step step;
     bool collect_statistics = false; // reduce statistics each frame, into the frame's slot
 

@@ -310,10 +310,11 @@ double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, 
 Result<void> validate(const ClothInput& cloth, uint64_t vertices)
 {
     const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
-    if (!finite(cloth.transform))
-        return bad("its transform is not finite");
-    if (!finite(cloth.velocity))
-        return bad("its velocity is not finite");
+    if (auto affine = check_affine(subject("cloth", cloth.name), cloth.transform); !affine)
+        return affine;
+    if (auto velocity = check(subject("cloth", cloth.name), "velocity", cloth.velocity, k_most_speed, " m/s");
+        !velocity)
+        return velocity;
     if (auto material = std::visit([](const auto& m) { return validate(m); }, cloth.material); !material)
         return bad(material.error().message);
     for (const uint32_t held : cloth.held)
@@ -390,10 +391,15 @@ namespace
 // How many columns of a grid a workgroup works on, unless it or the grid is smaller; bench/NOTES.md has others.
 constexpr uint32_t k_tile_width = 32;
 
+uint32_t tile_width(uint32_t columns, uint32_t workgroup_size)
+{
+    return std::min(std::bit_ceil(std::min(columns, k_tile_width)), workgroup_size);
+}
+
 void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workgroup_size,
                std::vector<shared::Chunk>& chunks)
 {
-    const uint32_t width = std::min(std::bit_ceil(std::min(record.columns, k_tile_width)), workgroup_size);
+    const uint32_t width = tile_width(record.columns, workgroup_size);
     const uint32_t height = workgroup_size / width;
     for (uint32_t row = 0; row < record.rows; row += height)
         for (uint32_t column = 0; column < record.columns; column += width)
@@ -401,6 +407,18 @@ void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workg
 }
 
 } // namespace
+
+uint64_t count_grid_chunks(uint32_t columns, uint32_t rows, uint32_t workgroup_size)
+{
+    const uint64_t width = tile_width(columns, workgroup_size);
+    const uint64_t height = workgroup_size / width;
+    return (columns + width - 1) / width * ((rows + height - 1) / height);
+}
+
+uint64_t count_mesh_chunks(uint64_t vertices, uint32_t workgroup_size)
+{
+    return (vertices + workgroup_size - 1) / workgroup_size;
+}
 
 Chunks make_chunks(const Model& model, uint32_t workgroup_size)
 {

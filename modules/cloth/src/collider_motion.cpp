@@ -11,7 +11,18 @@ namespace cloth
 namespace
 {
 
-// The point of a collider that goes straight.
+glm::quat rotation_of(const glm::mat4& rigid)
+{
+    return glm::normalize(glm::quat_cast(glm::mat3(rigid)));
+}
+
+glm::vec4 components(const glm::quat& q)
+{
+    return {q.x, q.y, q.z, q.w};
+}
+
+} // namespace
+
 glm::vec3 center_of(const shared::ColliderRecord& record)
 {
     const glm::vec3 shape(record.shape);
@@ -27,18 +38,6 @@ glm::vec3 center_of(const shared::ColliderRecord& record)
         return shape;
     }
 }
-
-glm::quat rotation_of(const glm::mat4& rigid)
-{
-    return glm::normalize(glm::quat_cast(glm::mat3(rigid)));
-}
-
-glm::vec4 components(const glm::quat& q)
-{
-    return {q.x, q.y, q.z, q.w};
-}
-
-} // namespace
 
 bool is_rigid(const glm::mat4& transform)
 {

@@ -10,13 +10,39 @@ namespace cloth
 namespace
 {
 
-Result<void> check_radius(const std::string& name, const std::string& what, float radius)
+// What all of them have: positions within the world, sizes, friction.
+class Checks
 {
-    if (std::isfinite(radius) && radius > 0)
-        return {};
-    return invalid("collider", name,
-                   "the " + what + "'s radius is " + std::to_string(radius) + " m, must be finite and > 0");
-}
+public:
+    Checks(const std::string& name, const std::optional<Friction>& friction) : what_(subject("collider", name))
+    {
+        status_ = check_friction(name, friction);
+    }
+
+    void position(const char* name, const glm::vec3& value)
+    {
+        keep(check(what_, name, value, k_most_coordinate, " m"));
+    }
+    void offset(const char* name, float value)
+    {
+        keep(check(what_, {name, value, -k_most_coordinate, k_most_coordinate, " m"}));
+    }
+    void size(const char* name, float value)
+    {
+        keep(check(what_, {name, value, k_least_collider_size, k_most_collider_size, " m"}));
+    }
+
+    void keep(Result<void> result)
+    {
+        if (status_)
+            status_ = std::move(result);
+    }
+    [[nodiscard]] const Result<void>& status() const { return status_; }
+
+private:
+    std::string what_;
+    Result<void> status_;
+};
 
 } // namespace
 
@@ -54,10 +80,10 @@ Result<ColliderId> Model::add(const PlaneCollider& collider)
 {
     if (!finite(collider.normal) || std::abs(glm::length(collider.normal) - 1) > 1e-3f)
         return invalid("collider", collider.name, "the plane's normal is not of unit length");
-    if (!std::isfinite(collider.offset))
-        return invalid("collider", collider.name, "the plane's offset is not finite");
-    if (auto friction = check_friction(collider.name, collider.friction); !friction)
-        return friction.error();
+    Checks checks(collider.name, collider.friction);
+    checks.offset("offset", collider.offset);
+    if (!checks.status())
+        return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
     record.shape = glm::vec4(glm::normalize(collider.normal), collider.offset);
     return append(record, glm::mat4(1));
@@ -65,12 +91,11 @@ Result<ColliderId> Model::add(const PlaneCollider& collider)
 
 Result<ColliderId> Model::add(const SphereCollider& collider)
 {
-    if (!finite(collider.center))
-        return invalid("collider", collider.name, "the sphere's centre is not finite");
-    if (auto radius = check_radius(collider.name, "sphere", collider.radius); !radius)
-        return radius.error();
-    if (auto friction = check_friction(collider.name, collider.friction); !friction)
-        return friction.error();
+    Checks checks(collider.name, collider.friction);
+    checks.position("center", collider.center);
+    checks.size("radius", collider.radius);
+    if (!checks.status())
+        return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_SPHERE, collider.layers, collider.friction);
     record.shape = glm::vec4(collider.center, collider.radius);
     return append(record, glm::mat4(1));
@@ -78,12 +103,12 @@ Result<ColliderId> Model::add(const SphereCollider& collider)
 
 Result<ColliderId> Model::add(const CapsuleCollider& collider)
 {
-    if (!finite(collider.from) || !finite(collider.to))
-        return invalid("collider", collider.name, "an end of the capsule is not finite");
-    if (auto radius = check_radius(collider.name, "capsule", collider.radius); !radius)
-        return radius.error();
-    if (auto friction = check_friction(collider.name, collider.friction); !friction)
-        return friction.error();
+    Checks checks(collider.name, collider.friction);
+    checks.position("from", collider.from);
+    checks.position("to", collider.to);
+    checks.size("radius", collider.radius);
+    if (!checks.status())
+        return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_CAPSULE, collider.layers, collider.friction);
     record.shape = glm::vec4(collider.from, collider.radius);
     record.second = glm::vec4(collider.to, 0);
@@ -92,14 +117,18 @@ Result<ColliderId> Model::add(const CapsuleCollider& collider)
 
 Result<ColliderId> Model::add(const BoxCollider& collider)
 {
-    if (!finite(collider.min) || !finite(collider.max))
-        return invalid("collider", collider.name, "a corner of the box is not finite");
-    if (!glm::all(glm::lessThan(collider.min, collider.max)))
-        return invalid("collider", collider.name, "the box has a side without length: min must be below max");
     if (!is_rigid(collider.transform))
         return invalid("collider", collider.name, "the box's transform is not rigid");
-    if (auto friction = check_friction(collider.name, collider.friction); !friction)
-        return friction.error();
+    Checks checks(collider.name, collider.friction);
+    checks.position("min", collider.min);
+    checks.position("max", collider.max);
+    const glm::vec3 sides = collider.max - collider.min;
+    checks.size("the side along x", sides.x);
+    checks.size("the side along y", sides.y);
+    checks.size("the side along z", sides.z);
+    checks.position("its center", glm::vec3(collider.transform * glm::vec4(0.5f * (collider.min + collider.max), 1)));
+    if (!checks.status())
+        return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_BOX, collider.layers, collider.friction);
     record.shape = glm::vec4(0.5f * (collider.min + collider.max), 0);
     record.second = glm::vec4(0.5f * (collider.max - collider.min), 0);

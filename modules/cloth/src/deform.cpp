@@ -51,6 +51,19 @@ Result<size_t> find_deforming(const Model& model, ColliderId collider)
     return Error{"collider " + std::to_string(collider.index) + " does not deform: it was added without \"deforms\""};
 }
 
+// In the world, as the vertices of other meshes.
+Result<void> check_deformed(const std::string& name, const DeformingMesh& mesh, std::span<const glm::vec3> positions)
+{
+    for (size_t i = 0; i < positions.size(); ++i)
+    {
+        const glm::vec3 world(mesh.transform * glm::vec4(positions[i], 1));
+        if (!within(world, k_most_coordinate))
+            return Error{name + ": position " + std::to_string(i) + " is at " + text(world) + ", each must be " +
+                         text(-k_most_coordinate) + " to " + text(k_most_coordinate) + " m"};
+    }
+    return {};
+}
+
 } // namespace
 
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver)
@@ -107,6 +120,8 @@ Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::v
     for (size_t i = 0; i < positions.size(); ++i)
         if (!finite(positions[i]))
             return Error{name + ": position " + std::to_string(i) + " is not finite"};
+    if (auto range = check_deformed(name, mesh, positions); !range)
+        return range;
     Deformation& deformation = s.deformations[index.value()];
     deformation.positions.assign(positions.begin(), positions.end());
     deformation.source.reset();

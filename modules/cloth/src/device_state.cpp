@@ -247,8 +247,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
     constexpr uint32_t k_sets = 27;
-    constexpr uint32_t k_most_bindings = 22;
-    auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_bindings);
+    auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_storage_buffers);
     if (!pool)
         return pool.error();
     state.pool = std::move(pool.value());

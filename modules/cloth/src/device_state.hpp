@@ -87,7 +87,7 @@ struct DeviceState
     size_t deforming_vertices = 0;
     size_t deforming_count = 0; // meshes that deform, the first ones of the model
     uint32_t chunk_count = 0;
-    uint32_t rk4_chunks = 0; // the first ones
+    uint32_t rk4_chunks = 0;  // the first ones
     uint32_t cloth_count = 0; // of the model's, the first ones
     uint32_t collider_count = 0;
     uint32_t feature_count = 0;

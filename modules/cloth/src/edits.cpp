@@ -159,13 +159,13 @@ void Solver::State::update_passes()
     const std::span present = std::span(model.colliders).first(device->collider_count);
     const auto any_collider = [&](auto&& predicate) { return std::ranges::any_of(present, predicate); };
     passes.moving = any_collider(is_moving);
-    passes.convex = any_collider(
-        [](const auto& collider)
-        { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
+    passes.convex =
+        any_collider([](const auto& collider)
+                     { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
     passes.features = device->feature_count > 0;
-    passes.recover = options.recovery && any_collider([](const auto& collider) {
-        return (collider.flags & k_recovering_flags) == k_recovering_flags;
-    });
+    passes.recover =
+        options.recovery &&
+        any_collider([](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : std::span(model.records).first(device->cloth_count))
     {

@@ -10,8 +10,6 @@ namespace
 {
 
 constexpr uint32_t k_largest_side = 8192; // 67 million vertices: beyond what the buffers of any device hold
-constexpr float k_least_size = 1e-4f;     // m
-constexpr float k_largest_size = 1e5f;    // m
 
 Result<void> validate_shape(const Grid& grid)
 {
@@ -20,7 +18,7 @@ Result<void> validate_shape(const Grid& grid)
                        "a grid of " + std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
                            " vertices; each side needs 2 to " + std::to_string(k_largest_side));
     for (const float size : {grid.width, grid.depth})
-        if (!(size >= k_least_size && size <= k_largest_size))
+        if (!(size >= k_least_cloth_size && size <= k_most_cloth_size))
             return invalid("cloth", grid.name,
                            "its size is " + std::to_string(grid.width) + " x " + std::to_string(grid.depth) +
                                " m, must be finite and > 0: 1e-4 to 1e5 m a side");
@@ -61,6 +59,9 @@ Result<ClothId> Model::add(const Grid& grid)
         return valid.error();
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", grid.name, "more than 2 147 483 647 vertices in one solver");
+    const std::vector<glm::vec3> world = places(grid);
+    if (auto range = check_positions(subject("cloth", grid.name), world, "its transform takes vertex ", " to "); !range)
+        return range.error();
 
     ClothModel cloth;
     cloth.name = grid.name;
@@ -77,7 +78,7 @@ Result<ClothId> Model::add(const Grid& grid)
     const auto index = static_cast<uint32_t>(cloths.size());
     cloths.push_back(std::move(cloth));
     records.push_back(record);
-    append_state(*this, input, places(grid), index);
+    append_state(*this, input, world, index);
     return ClothId{index};
 }
 

@@ -22,8 +22,14 @@ Result<void> validate_hold(const Model& model, const Hold& hold)
         if (auto exists = check_anchor(model, *hold.anchor); !exists)
             return bad(exists.error().message);
     if (hold.place)
+    {
         if (auto valid = check(what, "place", *hold.place, k_most_coordinate, " m"); !valid)
             return valid;
+        const glm::mat4& anchor = model.anchors[hold.anchor ? hold.anchor->index : 0];
+        const glm::vec3 world(anchor * glm::vec4(*hold.place, 1));
+        if (auto valid = check(what, "place in the world", world, 2 * k_most_coordinate, " m"); !valid)
+            return valid;
+    }
     if (!is_pin(hold))
         if (auto valid = check(what, {"stiffness", hold.stiffness, 0, k_most_hold_stiffness, " N/m"}); !valid)
             return Error{valid.error().message + ", or infinite for a pin"};

@@ -19,15 +19,12 @@ struct Request
     gpu::KernelDescription description;
 };
 
-} // namespace
-
-gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options)
+std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
     constexpr std::array k_stage_names{"cloth rk4 stage 1", "cloth rk4 stage 2", "cloth rk4 stage 3",
                                        "cloth rk4 stage 4"};
     const uint32_t group = options.workgroup_size;
     const auto method = static_cast<uint32_t>(options.contact_method);
-    Kernels kernels;
     const auto layout = static_cast<uint32_t>(options.mesh_layout);
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
@@ -87,7 +84,26 @@ gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOpt
         requests.push_back(
             {&kernels.stages[stage],
              {k_stage_names[stage], shaders::k_integrate_comp, 16, k_stage_bytes, {group, stage + 1, layout}}});
-    for (const Request& request : requests)
+    return requests;
+}
+
+} // namespace
+
+gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
+{
+    Kernels none;
+    for (const Request& request : requests_of(none, options))
+        if (auto within = gpu::check_limits(limits, request.description); !within)
+            return within;
+    return {};
+}
+
+gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options)
+{
+    if (auto within = check_limits(context.limits, options); !within) // before any is compiled
+        return within.error();
+    Kernels kernels;
+    for (const Request& request : requests_of(kernels, options))
     {
         auto kernel = gpu::Kernel::create(context, request.description);
         if (!kernel)

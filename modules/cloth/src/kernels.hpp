@@ -12,6 +12,8 @@ namespace cloth
 
 struct SolverOptions;
 
+constexpr uint32_t k_most_storage_buffers = 22; // of a kernel: contact's
+
 struct Kernels
 {
     std::array<gpu::Kernel, 4> stages; // the four stages of RK4
@@ -37,6 +39,11 @@ struct Kernels
     gpu::Kernel statistics_reduce;
 };
 
+// Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what
+// they find (create_refit_kernels).
+gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options);
+
+// Errors: those of check_limits, a driver that refuses a shader.
 gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options);
 
 } // namespace cloth

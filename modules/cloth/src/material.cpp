@@ -14,9 +14,9 @@ namespace
 {
 
 constexpr float k_least_thickness = 1e-5f; // m
-constexpr float k_most_spring = 1e7f;  // N/m
-constexpr float k_most_damping = 1e6f; // N s/m
-constexpr float k_most_bending = 1e3f; // N m
+constexpr float k_most_spring = 1e7f;      // N/m
+constexpr float k_most_damping = 1e6f;     // N s/m
+constexpr float k_most_bending = 1e3f;     // N m
 constexpr float k_least_strain = 1e-3f;
 constexpr float k_most_strain = 10;
 

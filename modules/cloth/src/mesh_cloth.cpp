@@ -87,8 +87,11 @@ Result<ClothId> Model::add(const MeshCloth& description)
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", description.name, "more than 2 147 483 647 vertices in one solver");
     const std::vector<glm::dvec3> world = places(description);
-    if (!std::all_of(world.begin(), world.end(), [](const glm::dvec3& p) { return finite(glm::vec3(p)); }))
-        return invalid("cloth", description.name, "its transform takes a position out of range");
+    const std::vector<glm::vec3> rounded(world.begin(), world.end());
+    if (auto range =
+            check_positions(subject("cloth", description.name), rounded, "its transform takes vertex ", " to ");
+        !range)
+        return range.error();
 
     ClothModel cloth;
     cloth.name = description.name;

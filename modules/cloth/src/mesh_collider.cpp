@@ -60,6 +60,10 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
     // Before the hierarchy is built, which takes long.
     if (auto room = check_room(*this, "collider", collider.name, contents, bytes); !room)
         return room.error();
+    const uint64_t groups = count_mesh_chunks(mesh.value().positions.size(), workgroup_size);
+    if (collider.deforms)
+        if (auto dispatch = check_dispatch(*this, "collider", collider.name, "its vertices need", groups); !dispatch)
+            return dispatch.error();
     const size_t listed = collider.deforms ? padded_leaves.size() + 2 * mesh.value().triangles.size()
                                            : triangles.size() + mesh.value().triangles.size();
     if (listed > k_most_triangles)

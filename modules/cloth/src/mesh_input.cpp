@@ -17,8 +17,8 @@ Result<void> validate(const MeshCollider& collider)
     const auto bad = [&](const std::string& reason) { return invalid("collider", collider.name, reason); };
     if (collider.triangles.empty())
         return bad("the mesh has no triangles");
-    if (!finite(collider.transform))
-        return bad("its transform is not finite");
+    if (auto affine = check_affine(subject("collider", collider.name), collider.transform); !affine)
+        return affine;
     if (auto valid = validate_triangles("collider", collider.name, collider.positions, collider.triangles); !valid)
         return valid.error();
     return check_friction(collider.name, collider.friction);
@@ -63,8 +63,10 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
         return valid.error();
     MeshInput mesh;
     mesh.positions = to_world(collider);
-    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) { return finite(p); }))
-        return invalid("collider", collider.name, "its transform takes a position out of range");
+    if (auto range = check_positions(subject("collider", collider.name), mesh.positions,
+                                     "its transform takes position ", " to ");
+        !range)
+        return range.error();
     mesh.triangles.reserve(collider.triangles.size());
     std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
                  [&](const glm::uvec3& t) { return has_area(mesh.positions, t); });

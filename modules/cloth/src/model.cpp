@@ -12,6 +12,8 @@ namespace cloth
 {
 
 // What std430 makes of the shared structs, checked by spirv-val on its side.
+static_assert(k_most_coordinate == static_cast<float>(VOILE_MOST_COORDINATE));
+static_assert(k_most_speed == static_cast<float>(VOILE_MOST_SPEED));
 static_assert(sizeof(shared::SpringClass) == 16);
 static_assert(sizeof(shared::ClothRecord) == 96 + 16 * VOILE_SPRING_CLASSES);
 static_assert(offsetof(shared::ClothRecord, bending) == 80);
@@ -65,6 +67,17 @@ glm::dmat4 without_rounding(const glm::mat4& transform)
     glm::dmat4 result(m);
     result[3] = glm::dvec4(transform[3]);
     return result;
+}
+
+Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
+                            const std::string& contents, uint64_t workgroups)
+{
+    if (workgroups <= model.max_workgroups)
+        return {};
+    return invalid(what, name,
+                   contents + " " + std::to_string(workgroups) + " workgroups of " +
+                       std::to_string(model.workgroup_size) + ", the device dispatches at most " +
+                       std::to_string(model.max_workgroups) + "; a larger SolverOptions::workgroup_size needs fewer");
 }
 
 } // namespace cloth

@@ -73,6 +73,9 @@ struct Model
     uint32_t padded_boxes = 0;
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhTriangle> triangles;
+    uint64_t chunks = 0; // workgroups over all cloths, see make_chunks
+    uint32_t workgroup_size = 128;
+    uint32_t max_workgroups = std::numeric_limits<uint32_t>::max();   // of each dispatch
     uint64_t max_buffer_bytes = std::numeric_limits<uint64_t>::max(); // of each buffer: what the device binds
 
     // Append after validating; unchanged on error.
@@ -99,6 +102,10 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
 glm::dmat4 without_rounding(const glm::mat4& transform);
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
 shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction);
+
+// Errors: a dispatch of more workgroups than the device takes. `contents` need them.
+Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
+                            const std::string& contents, uint64_t workgroups);
 
 // What the validation of grids and meshes shares: transform, velocity, material, held vertices, inverse masses.
 struct ClothInput
@@ -153,6 +160,10 @@ struct Chunks
     uint32_t rk4 = 0; // how many
 };
 Chunks make_chunks(const Model& model, uint32_t workgroup_size);
+
+// How many of them a grid or a mesh has.
+uint64_t count_grid_chunks(uint32_t columns, uint32_t rows, uint32_t workgroup_size);
+uint64_t count_mesh_chunks(uint64_t vertices, uint32_t workgroup_size);
 
 // The lists of mesh vertices, those of a workgroup's vertices interleaved: their first entries side by side, then their
 // second ones, each list as long as the longest of the workgroup.

@@ -42,8 +42,8 @@ Result<void> check_friction(const std::string& what, float static_friction, floa
     if (auto result = check(what, {"kinetic_friction", kinetic_friction, 0, k_most_friction}); !result)
         return result;
     if (!(static_friction >= kinetic_friction))
-        return Error{what + ": static_friction is " + text(static_friction) +
-                     ", must be at least kinetic_friction, " + text(kinetic_friction)};
+        return Error{what + ": static_friction is " + text(static_friction) + ", must be at least kinetic_friction, " +
+                     text(kinetic_friction)};
     return check(what, {"static_friction", static_friction, 0, k_most_friction});
 }
 
@@ -75,16 +75,33 @@ Result<void> check_id(const char* what, uint32_t index, size_t count)
     return Error{std::string(what) + " " + std::to_string(index) + " does not exist"};
 }
 
-Result<void> check_affine(const std::string& what, const glm::mat4& transform, float most)
+Result<void> check_affine(const std::string& what, const glm::mat4& transform)
 {
     if (!finite(transform))
-        return Error{what + ": the transform is not finite"};
+        return Error{what + ": its transform is not finite"};
     if (transform[0].w != 0 || transform[1].w != 0 || transform[2].w != 0 || transform[3].w != 1)
-        return Error{what + ": the transform's last row is not 0 0 0 1"};
+        return Error{what + ": its transform's last row is not 0 0 0 1"};
+    return {};
+}
+
+Result<void> check_bounded(const std::string& what, const glm::mat4& transform, float most)
+{
+    if (auto affine = check_affine(what, transform); !affine)
+        return affine;
     for (int column = 0; column < 3; ++column)
-        if (auto axis = check(what, "an axis of the transform", glm::vec3(transform[column]), k_most_scale); !axis)
+        if (auto axis = check(what, "an axis of its transform", glm::vec3(transform[column]), k_most_scale); !axis)
             return axis;
-    return check(what, "the transform's translation", glm::vec3(transform[3]), most, " m");
+    return check(what, "its transform's translation", glm::vec3(transform[3]), most, " m");
+}
+
+Result<void> check_positions(const std::string& what, std::span<const glm::vec3> positions, const std::string& before,
+                             const std::string& after)
+{
+    for (size_t i = 0; i < positions.size(); ++i)
+        if (!within(positions[i], k_most_coordinate))
+            return Error{what + ": " + before + std::to_string(i) + after + text(positions[i]) + ", each must be " +
+                         text(-k_most_coordinate) + " to " + text(k_most_coordinate) + " m"};
+    return {};
 }
 
 } // namespace cloth

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 namespace cloth
@@ -47,8 +48,14 @@ bool finite(const glm::mat4& m);
 // Errors: an index that is not below `count`; `what` is "cloth", "collider" or "anchor".
 Result<void> check_id(const char* what, uint32_t index, size_t count);
 
-// A transform's entries: the linear part within k_most_scale, the translation within `most` m, the last row 0 0 0 1.
-// Errors name which of them it is.
-Result<void> check_affine(const std::string& what, const glm::mat4& transform, float most);
+// A transform is finite and its last row 0 0 0 1.
+Result<void> check_affine(const std::string& what, const glm::mat4& transform);
+
+// The same, and its axes are within k_most_scale, its translation within `most` m.
+Result<void> check_bounded(const std::string& what, const glm::mat4& transform, float most);
+
+// Each position is within k_most_coordinate. The error names the first that is not: BEFORE + its index + AFTER.
+Result<void> check_positions(const std::string& what, std::span<const glm::vec3> positions, const std::string& before,
+                             const std::string& after);
 
 } // namespace cloth

@@ -122,6 +122,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
         return valid;
     if (!state_->device || state_->device->chunk_count == 0)
         return {};
+    state_->lifetime.begin(recorder.cmd());
     begin_scope(recorder);
     state_->recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
@@ -130,6 +131,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     SubstepRecorder(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps)).record();
     record_normals(recorder, *state_);
     end_scope(recorder);
+    state_->lifetime.end(recorder.cmd());
     return {};
 }
 
@@ -144,6 +146,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
     const Kernels& kernels = state_->kernels;
     const uint32_t group = state_->options.workgroup_size;
     gpu::Recorder recorder(state_->context, cmd, timestamps);
+    state_->lifetime.begin(cmd);
     begin_scope(recorder);
     recorder.dispatch(kernels.statistics, device.statistics, device.chunk_count * group, group,
                       shared::StatisticsPush{device.collider_count});
@@ -151,6 +154,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
                       shared::StatisticsReducePush{device.chunk_count, slot});
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
                      VK_ACCESS_2_HOST_READ_BIT_KHR);
+    state_->lifetime.end(cmd);
     return {};
 }
 

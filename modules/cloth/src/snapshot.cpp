@@ -98,6 +98,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
+    state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;
     for (const Stream& stream : streams_of(*state_->device))
@@ -107,6 +108,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
         offset += region.size;
     }
     barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
     return {};
 }
 
@@ -115,6 +117,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
+    state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;
     for (const Stream& stream : streams_of(*state_->device))
@@ -124,6 +127,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         offset += region.size;
     }
     barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
     state_->recovery_due = true;
     return {};
 }

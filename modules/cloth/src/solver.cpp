@@ -21,7 +21,7 @@ uint32_t feature_threads(const gpu::Context& context, const SolverOptions& optio
     return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.workgroup_size);
 }
 
-// One record a slot, all 0.
+// One record per slot, all 0.
 Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
 {
     auto buffer = gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsRecord),
@@ -36,10 +36,21 @@ Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slot
 
 } // namespace
 
+bool checks_lifetime(const SolverOptions& options)
+{
+#ifdef NDEBUG
+    constexpr bool k_debug = false;
+#else
+    constexpr bool k_debug = true;
+#endif
+    return options.lifetime_checks.value_or(k_debug);
+}
+
 Requirements requirements()
 {
     Requirements result;
     result.device_extensions = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
+    result.storage_buffers = k_most_storage_buffers;
     return result;
 }
 
@@ -76,11 +87,20 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     state->options = options;
     state->options.feature_threads = feature_threads(state->context, options);
     state->model.max_buffer_bytes = state->context.max_buffer_bytes;
+    state->model.max_workgroups = state->context.limits.maxComputeWorkGroupCount[0];
+    state->model.workgroup_size = options.workgroup_size;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
     if (!statistics)
         return statistics.error();
     state->statistics = std::move(statistics.value());
+    if (checks_lifetime(options))
+    {
+        auto check = LifetimeCheck::create(state->context, "cloth::Solver");
+        if (!check)
+            return check.error();
+        state->lifetime = std::move(check.value());
+    }
     return Solver(std::move(state));
 }
 
@@ -92,9 +112,12 @@ Result<ClothId> Solver::add_cloth(const Grid& grid)
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
         !room)
         return room.error();
+    const uint64_t chunks = count_grid_chunks(grid.columns, grid.rows, state_->model.workgroup_size);
+    if (auto dispatch = state_->check_chunks(grid.name, chunks); !dispatch)
+        return dispatch.error();
     auto result = state_->model.add(grid);
     if (result)
-        state_->added();
+        state_->added(chunks);
     return result;
 }
 
@@ -107,9 +130,12 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
             check_room(state_->model, "cloth", mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
         !room)
         return room.error();
+    const uint64_t chunks = count_mesh_chunks(mesh.positions.size(), state_->model.workgroup_size);
+    if (auto dispatch = state_->check_chunks(mesh.name, chunks); !dispatch)
+        return dispatch.error();
     auto result = state_->model.add(mesh);
     if (result)
-        state_->added();
+        state_->added(chunks);
     return result;
 }
 

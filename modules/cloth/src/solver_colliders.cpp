@@ -88,6 +88,11 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     if (!is_rigid(motion))
         return Error{"collider " + std::to_string(collider.index) +
                      (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
+    const glm::vec3 center = center_of(s.model.colliders[collider.index]);
+    const glm::vec3 moved(motion * s.model.placements[collider.index] * glm::vec4(center, 1));
+    if (auto range = check("collider " + std::to_string(collider.index), "its center", moved, k_most_coordinate, " m");
+        !range)
+        return range;
     ColliderPose& pose = s.colliders[collider.index];
     pose.to = motion;
     if (pose.anchor)

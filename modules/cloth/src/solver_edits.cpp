@@ -26,10 +26,10 @@ Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
 
 Result<void> check_frame(const std::string& what, const glm::mat4& world_from_anchor)
 {
-    if (auto valid = check_affine(what, world_from_anchor, k_most_coordinate); !valid)
+    if (auto valid = check_bounded(what, world_from_anchor, k_most_coordinate); !valid)
         return valid;
     const float volume = std::abs(glm::determinant(glm::mat3(world_from_anchor)));
-    return check(what, {"the transform's determinant", volume, k_least_anchor_volume, std::pow(k_most_scale, 3.f)});
+    return check(what, {"its transform's determinant", volume, k_least_anchor_volume, std::pow(k_most_scale, 3.f)});
 }
 
 void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
@@ -149,7 +149,7 @@ Result<void> Solver::transform(ClothId cloth, const glm::mat4& transform)
 {
     if (auto exists = state_->check(cloth); !exists)
         return exists;
-    if (auto valid = check_affine(subject("cloth", name(cloth)), transform, 2 * k_most_coordinate); !valid)
+    if (auto valid = check_bounded(subject("cloth", name(cloth)), transform, 2 * k_most_coordinate); !valid)
         return valid;
     add_place(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
     return {};

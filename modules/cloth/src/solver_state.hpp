@@ -5,6 +5,7 @@
 
 #include "collider_motion.hpp"
 #include "device_state.hpp"
+#include "lifetime_check.hpp"
 
 #include <optional>
 
@@ -81,10 +82,14 @@ struct Solver::State
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
     bool dirty = false;
+    LifetimeCheck lifetime; // the last member: it looks before anything is destroyed
 
     [[nodiscard]] bool has(ClothId cloth) const { return cloth.index < model.cloths.size(); }
     [[nodiscard]] bool has(ColliderId collider) const { return collider.index < model.colliders.size(); }
-    [[nodiscard]] Result<void> check(ClothId cloth) const { return check_id("cloth", cloth.index, model.cloths.size()); }
+    [[nodiscard]] Result<void> check(ClothId cloth) const
+    {
+        return check_id("cloth", cloth.index, model.cloths.size());
+    }
     [[nodiscard]] Result<void> check(ColliderId collider) const
     {
         return check_id("collider", collider.index, model.colliders.size());
@@ -101,9 +106,15 @@ struct Solver::State
     // After holds, tethers or materials changed, or an upload: the passes over what is uploaded.
     void update_passes();
     void update_holds();
-    // After a cloth was added.
-    void added()
+    // Errors: a cloth of so many chunks makes dispatches too large.
+    [[nodiscard]] Result<void> check_chunks(const std::string& name, uint64_t chunks) const
     {
+        return check_dispatch(model, "cloth", name, "with it the solver has", model.chunks + chunks);
+    }
+    // After a cloth of so many chunks was added.
+    void added(uint64_t chunks)
+    {
+        model.chunks += chunks;
         dirty = true;
         update_holds();
     }
@@ -133,10 +144,14 @@ void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize off
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);
 
+// Whether solvers with these options look for commands that run when they are destroyed.
+bool checks_lifetime(const SolverOptions& options);
+
 struct Upload::Contents
 {
     std::vector<gpu::Buffer> staging;
     std::optional<DeviceState> replaced;
+    LifetimeCheck lifetime; // the last member, as the solver's
 };
 
 } // namespace cloth

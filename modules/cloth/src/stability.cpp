@@ -1,6 +1,8 @@
 // Stability bounds, and the substeps that follow from them.
 #include "stability.hpp"
 
+#include "cloth/ranges.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,6 @@ namespace
 // As in stability.glsl.
 constexpr double k_rk4_reach = 2.6;
 constexpr double k_margin = 0.95;
-constexpr uint32_t k_most_substeps = 1'000'000;
 
 bool uses_verlet(const shared::ClothRecord& record)
 {

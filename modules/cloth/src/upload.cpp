@@ -156,6 +156,15 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 
     Upload upload;
     upload.contents_ = std::make_unique<Upload::Contents>();
+    if (checks_lifetime(s.options))
+    {
+        auto check = LifetimeCheck::create(s.context, "cloth::Upload");
+        if (!check)
+            return check.error();
+        upload.contents_->lifetime = std::move(check.value());
+    }
+    s.lifetime.begin(cmd);
+    upload.contents_->lifetime.begin(cmd);
     upload.contents_->staging = uploader.record();
     gpu::Recorder recorder(s.context, cmd);
     forget_candidates(recorder, next);
@@ -163,6 +172,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     clear_dispatch(recorder, next.feature_dispatch);
     for (const gpu::Buffer& size : next.recover_dispatch)
         clear_dispatch(recorder, size);
+    upload.contents_->lifetime.end(cmd);
+    s.lifetime.end(cmd);
     if (s.edits.holds) // what is no longer held has its mass again
         for (uint32_t cloth = 0; s.device && cloth < s.device->cloth_count; ++cloth)
             s.edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, cloth});

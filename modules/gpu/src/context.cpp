@@ -2,6 +2,7 @@
 #include "gpu/context.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 namespace gpu
 {
@@ -47,8 +48,12 @@ Result<Context> create_context(const Handles& handles)
 
     Context context;
     context.handles = handles;
-    ensure_device_loader(handles);
-    volkLoadDeviceTable(&context.fn, handles.device);
+    {
+        static std::mutex loading; // volk's vkGetDeviceProcAddr is one for the process
+        const std::lock_guard lock(loading);
+        ensure_device_loader(handles);
+        volkLoadDeviceTable(&context.fn, handles.device);
+    }
     if (context.fn.vkCmdPipelineBarrier2KHR == nullptr)
         return Error{"the device was made without VK_KHR_synchronization2"};
 

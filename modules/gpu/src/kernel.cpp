@@ -1,6 +1,9 @@
 // Kernel and BindingPool: compute pipelines over storage buffers, and their descriptor sets.
 #include "gpu/kernel.hpp"
 
+#include "shared_memory.hpp"
+
+#include <algorithm>
 #include <utility>
 
 namespace gpu
@@ -12,23 +15,6 @@ namespace
 Error failed(const KernelDescription& description, const char* what, VkResult status)
 {
     return Error{std::string("kernel \"") + description.name + "\": " + what + ": " + to_string(status)};
-}
-
-Result<void> check_limits(const Context& context, const KernelDescription& description)
-{
-    const auto& limits = context.limits;
-    const std::string name = std::string("kernel \"") + description.name + "\" ";
-    if (description.push_bytes > limits.maxPushConstantsSize)
-        return Error{name + "has " + std::to_string(description.push_bytes) + " bytes of push constants, the device " +
-                     std::to_string(limits.maxPushConstantsSize)};
-    if (!description.specialization.empty())
-    {
-        const uint32_t group = description.specialization[0];
-        if (group == 0 || group > limits.maxComputeWorkGroupSize[0] || group > limits.maxComputeWorkGroupInvocations)
-            return Error{name + "has a workgroup of " + std::to_string(group) + ", the device allows 1 to " +
-                         std::to_string(limits.maxComputeWorkGroupInvocations)};
-    }
-    return {};
 }
 
 VkResult create_layouts(const Context& context, const KernelDescription& description, VkDescriptorSetLayout* set_layout,
@@ -88,6 +74,32 @@ VkResult create_pipeline(const Context& context, const KernelDescription& descri
 
 } // namespace
 
+Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description)
+{
+    const std::string name = std::string("kernel \"") + description.name + "\" ";
+    if (description.push_bytes > limits.maxPushConstantsSize)
+        return Error{name + "has " + std::to_string(description.push_bytes) +
+                     " bytes of push constants, the device has " + std::to_string(limits.maxPushConstantsSize)};
+    const uint32_t group = description.specialization.empty() ? 1 : description.specialization[0];
+    const uint32_t most_threads = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
+    if (group == 0 || group > most_threads)
+        return Error{name + "has a workgroup of " + std::to_string(group) + ", the device allows 1 to " +
+                     std::to_string(most_threads)};
+    const uint64_t shared = shared_memory_bytes(description.spirv, description.specialization);
+    if (shared > limits.maxComputeSharedMemorySize)
+        return Error{name + "takes " + std::to_string(shared) + " bytes of shared memory with a workgroup of " +
+                     std::to_string(group) + ", the device has " + std::to_string(limits.maxComputeSharedMemorySize)};
+    const std::string binds =
+        name + "binds " + std::to_string(description.buffers) + " storage buffers, the device allows ";
+    if (description.buffers > limits.maxPerStageDescriptorStorageBuffers)
+        return Error{binds + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " per stage"};
+    if (description.buffers > limits.maxDescriptorSetStorageBuffers)
+        return Error{binds + std::to_string(limits.maxDescriptorSetStorageBuffers) + " per set"};
+    if (description.buffers > limits.maxPerStageResources)
+        return Error{binds + std::to_string(limits.maxPerStageResources) + " resources per stage"};
+    return {};
+}
+
 Kernel::~Kernel()
 {
     release();
@@ -121,7 +133,7 @@ void Kernel::release()
 
 Result<Kernel> Kernel::create(const Context& context, const KernelDescription& description)
 {
-    if (auto limits = check_limits(context, description); !limits)
+    if (auto limits = check_limits(context.limits, description); !limits)
         return limits.error();
     Kernel kernel;
     kernel.context_ = context;

@@ -1,4 +1,6 @@
-// What can be added to a solver: cloths and colliders. Everything is copied and validated when it is added.
+// What can be added to a solver: cloths and colliders. Everything is copied and validated when it is added. Whatever a
+// description says of its transform, every position that it gives in the world must be within 1e6 m along each axis
+// (ranges.hpp).
 #pragma once
 
 #include "cloth/ids.hpp"
@@ -34,7 +36,7 @@ struct Grid
     float width = 1;            // m along x, 1e-4..1e5
     float depth = 1;            // m along z, 1e-4..1e5
     glm::mat4 transform{1.f};   // world from grid; affine. Rest lengths are the grid's, not the transformed ones
-    glm::vec3 velocity{0.f};    // m/s, of every vertex at the start
+    glm::vec3 velocity{0.f};    // m/s, -1e4..1e4 along each axis, of every vertex at the start
     ClothMaterial material{};
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};        // vertices that do not move (inverse mass 0)
@@ -61,7 +63,7 @@ struct MeshCloth
     std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the
                                                       // axis of its smallest extent
     glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
-    glm::vec3 velocity{0.f};                          // m/s, of every vertex at the start
+    glm::vec3 velocity{0.f};                          // m/s, -1e4..1e4 along each axis, of every vertex at the start
     ClothMaterial material{};
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};
@@ -84,8 +86,8 @@ struct MeshReport
 
 struct Friction
 {
-    float static_coefficient = 0;  // >= kinetic_coefficient
-    float kinetic_coefficient = 0; // >= 0
+    float static_coefficient = 0;  // kinetic_coefficient..100
+    float kinetic_coefficient = 0; // 0..100
 };
 
 // Friction of a pair is the geometric mean of the fabric's and the collider's; a collider without takes the fabric's.
@@ -137,7 +139,7 @@ struct PlaneCollider
 {
     std::string name = "plane";
     glm::vec3 normal{0, 1, 0}; // unit length
-    float offset = 0;          // m; normal . x = offset on the plane
+    float offset = 0;          // m, -1e6..1e6; normal . x = offset on the plane
     std::optional<Friction> friction{};
     uint32_t layers = 1;
 };
@@ -146,7 +148,7 @@ struct SphereCollider
 {
     std::string name = "sphere";
     glm::vec3 center{0.f}; // m
-    float radius = 1;      // m, > 0
+    float radius = 1;      // m, 1e-4..2e6
     std::optional<Friction> friction{};
     uint32_t layers = 1;
 };
@@ -157,7 +159,7 @@ struct CapsuleCollider
     std::string name = "capsule";
     glm::vec3 from{0.f}; // m
     glm::vec3 to{0, 1, 0};
-    float radius = 0.5f; // m, > 0
+    float radius = 0.5f; // m, 1e-4..2e6
     std::optional<Friction> friction{};
     uint32_t layers = 1;
 };
@@ -165,7 +167,7 @@ struct CapsuleCollider
 struct BoxCollider
 {
     std::string name = "box";
-    glm::vec3 min{-0.5f}; // m, in the box's space, each below max's
+    glm::vec3 min{-0.5f}; // m, in the box's space, -1e6..1e6; each at least 1e-4 below max's
     glm::vec3 max{0.5f};
     glm::mat4 transform{1.f}; // world from box; rigid
     std::optional<Friction> friction{};

@@ -1,6 +1,6 @@
-// Ids: what a solver gives for what was added to it. An id is valid in the solver that gave it, and in no other. A
-// default-constructed id is valid in none. Every function that takes an id says what it does with one that is not valid;
-// none reads or writes memory by it.
+// Ids: what a solver gives for what was added to it. A default-constructed id names nothing. An id that names nothing
+// gives an error, or an empty answer where a function returns no Result (solver.hpp). An id belongs to the solver that
+// gave it; another solver cannot tell it from its own.
 #pragma once
 
 #include <cstdint>

@@ -30,23 +30,25 @@
 //   near chunks,      uint,                  feature reach          feature contact
 //   dispatch sizes    3 words                feature reach,         indirect dispatches
 //                                              recovery
-//   partials, result  StatisticsRecord       statistics             the host (result)
+//   partials, result  StatisticsRecord       statistics             the host (result), kept through uploads
 //
 // Lifetime. The solver submits nothing and waits for nothing, so the host keeps things alive for the GPU:
 // - destroy a Solver, or assign another one to it, when no command buffer that it recorded into is pending;
 // - keep an Upload until the command buffer that record_upload recorded into has completed;
 // - keep a Snapshot until the command buffers that save it or restore from it have completed;
-// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots. Uploads and Snapshots may outlive
+// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots. Uploads and Snapshots may
+// outlive
 //   the Solver.
 // Where SolverOptions::lifetime_checks is on, destroying a Solver or an Upload while the GPU executes its commands ends
 // the program with a line on stderr. A Solver, an Upload or a Snapshot that was moved from may only be destroyed or
 // assigned to.
 //
 // Threads. One solver is used by one thread at a time: the host orders the calls, with a lock of its own where several
-// threads make them. Const functions of one solver may run at the same time as each other. Different solvers may be used
-// by different threads at the same time, also if they share a device, an allocator and a pipeline cache (VMA's allocator
-// and Vulkan's cache lock themselves unless the host made them externally synchronized). A command buffer, and the pool
-// that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit is for any thread.
+// threads make them. Const functions of one solver may run at the same time as each other. Different solvers may be
+// used by different threads at the same time, also if they share a device, an allocator and a pipeline cache (VMA's
+// allocator and Vulkan's cache lock themselves unless the host made them externally synchronized). A command buffer,
+// and the pool that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit is for
+// any thread.
 #pragma once
 
 #include "cloth/descriptions.hpp"
@@ -65,12 +67,14 @@
 namespace cloth
 {
 
-// What the host must switch on when it makes its device.
+// What the host must switch on when it makes its device, and what this must have. Everything else is within the limits
+// that Vulkan guarantees, with the default options.
 struct Requirements
 {
     uint32_t api_version = VK_API_VERSION_1_2;
     std::vector<const char*> device_extensions; // VK_KHR_synchronization2
     bool synchronization2 = true;               // VkPhysicalDeviceSynchronization2FeaturesKHR
+    uint32_t storage_buffers = 0;               // maxPerStageDescriptorStorageBuffers, at least
 };
 Requirements requirements();
 
@@ -89,7 +93,8 @@ enum class MeshLayout
 
 struct SolverOptions
 {
-    uint32_t workgroup_size = 128; // power of two, 1 to the device's limit
+    uint32_t workgroup_size = 128; // power of two, 1 to what the device's invocations and shared memory allow: 48 bytes
+                                   // per invocation. A dispatch has at most maxComputeWorkGroupCount of them
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
     bool feature_contact = true;  // corners and edges of colliders meet the triangles and edges of cloths. Where
@@ -104,15 +109,15 @@ struct SolverOptions
 // One call of record. Everything must be finite and in the range given; vectors, each component (cloth/ranges.hpp).
 struct Step
 {
-    float duration = 1.f / 60;       // s, 1e-6..10
-    uint32_t substeps = 0;           // 0..1000000; 0: as many as stability asks for, stable_substeps(duration)
-    uint32_t max_substeps = 2000;    // of those, 1..1000000; a cloth for which they are too few is softened, see stability
+    float duration = 1.f / 60;    // s, 1e-6..10
+    uint32_t substeps = 0;        // 0..1000000; 0: as many as stability asks for, stable_substeps(duration)
+    uint32_t max_substeps = 2000; // of those, 1..1000000; a cloth for which they are too few is softened, see stability
     glm::vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
     glm::vec3 wind{0.f};             // m/s, -1e3..1e3
     float gust = 0;                  // root mean square of the gusts as a share of the wind's speed, 0..10
-    float gust_length = 4;           // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
-    double time = 0;                 // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
-    float air_density = 1.225f;      // kg/m^3, 0..1e4
+    float gust_length = 4;      // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;            // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
+    float air_density = 1.225f; // kg/m^3, 0..1e5
 };
 
 // Errors: a member out of its range, with its name and value.
@@ -136,8 +141,8 @@ struct Stability
 };
 
 // Staging memory and the buffers that an upload replaced. Destroy it, or assign another one to it, once the command
-// buffer has completed; one that was never submitted may go at any time. It may outlive the solver. A default-constructed
-// one holds nothing.
+// buffer has completed; one that was never submitted may go at any time. It may outlive the solver. A
+// default-constructed one holds nothing.
 class Upload
 {
 public:
@@ -153,8 +158,8 @@ private:
 };
 
 // The state of all cloths at one time: positions, velocities, normals. Copied on the GPU by record_save and
-// record_restore, in memory that the host sees, so that it can be kept in a file. Destroy it once the command buffers that
-// use it have completed. It may outlive the solver.
+// record_restore, in memory that the host sees, so that it can be kept in a file. Destroy it once the command buffers
+// that use it have completed. It may outlive the solver.
 class Snapshot
 {
 public:
@@ -189,7 +194,8 @@ struct VertexStreams
 class Solver
 {
 public:
-    // Compiles the kernels. Errors: null handles, a device without what requirements() lists, options out of range.
+    // Compiles the kernels. Errors: null handles, a device without what requirements() lists, options out of range or
+    // beyond what the device allows, out of memory.
     static Result<Solver> create(const gpu::Handles& handles, const SolverOptions& options);
     ~Solver();
     Solver(Solver&&) noexcept;
@@ -197,14 +203,15 @@ public:
 
     // Copy and validate; nothing changes on the GPU before record_upload. Errors name the input and the value: a grid
     // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a held vertex that does not
-    // exist, a coordinate that is not finite, an index beyond the positions, more than the device's buffers hold.
+    // exist, a position or velocity out of range (cloth/ranges.hpp), an index beyond the positions, more than the
+    // device's buffers hold or its dispatches take.
     Result<ClothId> add_cloth(const Grid& grid);
     Result<ClothId> add_cloth(const MeshCloth& mesh);
     Result<ColliderId> add_collider(const Collider& collider);
 
-    // Every function below that takes an id and returns a Result has one more error: an id that is not valid. Those that
-    // answer without a Result say so with an empty answer: no holds, no boxes, no triangles, an empty name, a default
-    // material, null handles, zeros. References that they return hold until the solver changes.
+    // Every function below that takes an id and returns a Result has one more error: an id that is not valid. Those
+    // that answer without a Result say so with an empty answer: no holds, no boxes, no triangles, an empty name, a
+    // default material, null handles, zeros. References that they return hold until the solver changes.
 
     // Changes of what is there already. They take effect with the next record, without new buffers; those of a cloth, a
     // collider or an anchor that is not uploaded yet with the first record after that. Holds and tethers that are set
@@ -229,23 +236,25 @@ public:
     // before need an upload.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
 
-    // A frame for holds. Errors: a transform that is not finite or has no inverse.
+    // A frame for holds. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin beyond 1e6
+    // m, a volume below 1e-9 of the unit cube's.
     Result<AnchorId> add_anchor(const glm::mat4& world_from_anchor);
     // Where the anchor is at the end of the next step; its holds go there along straight lines.
     Result<void> move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor);
 
     // Where a collider is at the end of the next step: moved and turned by `motion` from where it was added. It goes
-    // there evenly, turning the shorter way; cloth feels its surface's velocity. Costs no refit. Errors: a collider
-    // that does not exist, a motion that is not finite or not rigid.
+    // there evenly, turning the shorter way; cloth feels its surface's velocity. Costs no refit. Errors: a motion that
+    // is not finite or not rigid, or takes its center beyond 1e6 m.
     Result<void> move_collider(ColliderId collider, const glm::mat4& motion);
 
     // Where the vertices of a deforming mesh are at the end of the next step, in the mesh's space; they go there
     // straight. The step refits the hierarchy, and cloth feels the surface's velocity. Errors: a collider that does not
-    // deform, another number of vertices than it was added with, a position that is not finite.
+    // deform, another number of vertices than it was added with, a position that is not finite or beyond 1e6 m in the
+    // world.
     Result<void> deform_collider(ColliderId collider, std::span<const glm::vec3> positions);
     // The same from a buffer that the GPU has written, as by the host's skinning: the next record copies from it, and
-    // waits for compute and transfer writes recorded before. A vertex that is not finite stays where it was. Errors: a
-    // collider that does not deform, no buffer, an offset or stride out of range.
+    // waits for compute and transfer writes recorded before. A vertex that is not finite or in range stays where it
+    // was. Errors: a collider that does not deform, no buffer, an offset or stride out of range.
     Result<void> deform_collider(ColliderId collider, const DeviceVertices& vertices);
 
     // The boxes of a mesh collider's hierarchy at a level, where it was added: 0 has one around the whole mesh, each
@@ -255,10 +264,11 @@ public:
 
     // Back to the start: places, velocities, masses. Holds stay as they are.
     Result<void> reset(ClothId cloth);
-    // Moves a cloth at once: places by the transform, velocities by its turning. Pins that have a place go back to it.
-    // Errors: a transform that is not finite.
+    // Moves a cloth at once: positions by the transform, velocities by its axes. Pins that have a place go back to it.
+    // What this takes beyond 1e6 m or 1e4 m/s along an axis stays there. Errors: a transform that is not affine, an
+    // axis with an entry beyond 1e3, a translation beyond 2e6 m.
     Result<void> transform(ClothId cloth, const glm::mat4& transform);
-    // m/s, of every vertex. Errors: not finite.
+    // m/s, of every vertex. Errors: beyond 1e4 along an axis.
     Result<void> set_velocity(ClothId cloth, const glm::vec3& velocity);
 
     // True if something was added since the last upload.
@@ -274,7 +284,8 @@ public:
     // too. Ends: writes are visible to vertex input, compute and transfer reads that follow. Nothing is recorded before
     // the first record_upload, or without cloths. While an upload is due, everything that is uploaded goes on: motions
     // of anchors and colliders, and changes, as above.
-    // Errors: a member of the step out of its range. Nothing is recorded then, and what waits for the next step waits on.
+    // Errors: a member of the step out of its range. Nothing is recorded then, and what waits for the next step waits
+    // on.
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
@@ -309,8 +320,8 @@ public:
     [[nodiscard]] MeshReport mesh_report(ClothId cloth) const;
 
     [[nodiscard]] const gpu::Context& context() const;
-    [[nodiscard]] uint32_t vertex_count() const;               // of all cloths
-    [[nodiscard]] uint32_t triangle_count() const;             // of all cloths
+    [[nodiscard]] uint32_t vertex_count() const;   // of all cloths
+    [[nodiscard]] uint32_t triangle_count() const; // of all cloths
     // That record makes, without edits; 0 for a step that it refuses.
     [[nodiscard]] uint32_t dispatches(const Step& step) const;
 

@@ -19,6 +19,9 @@ struct KernelDescription
     std::vector<uint32_t> specialization; // constant_id 0 is the workgroup size in x by convention
 };
 
+// Errors: more push-constant bytes, a larger workgroup, more shared memory or more storage buffers than `limits` allow.
+Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description);
+
 class Kernel
 {
 public:
@@ -27,7 +30,7 @@ public:
     Kernel(Kernel&& other) noexcept;
     Kernel& operator=(Kernel&& other) noexcept;
 
-    // Errors: more push-constant bytes or a larger workgroup than the device has, a driver that refuses the shader.
+    // Errors: those of check_limits, a driver that refuses the shader.
     static Result<Kernel> create(const Context& context, const KernelDescription& description);
 
     [[nodiscard]] const char* name() const { return name_; }
