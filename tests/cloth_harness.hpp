@@ -5,6 +5,7 @@
 
 #include "cloth/solver.hpp"
 
+#include <algorithm>
 #include <random>
 
 namespace tests
@@ -88,6 +89,30 @@ public:
     {
         const cloth::VertexStreams streams = solver.vertices(cloth);
         return read<glm::vec4>(streams.normals, streams.vertices, streams.offset);
+    }
+
+    // One value per vertex, in place of what the buffer holds.
+    void write(VkBuffer buffer, VkDeviceSize offset, const std::vector<glm::vec4>& values)
+    {
+        constexpr size_t k_most = 4096; // of vec4, that one update takes
+        run(
+            [&](VkCommandBuffer cmd)
+            {
+                for (size_t first = 0; first < values.size(); first += k_most)
+                    solver.context().fn.vkCmdUpdateBuffer(
+                        cmd, buffer, offset + first * sizeof(glm::vec4),
+                        std::min(k_most, values.size() - first) * sizeof(glm::vec4), values.data() + first);
+            });
+    }
+    void set_positions(cloth::ClothId cloth, const std::vector<glm::vec4>& values)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth);
+        write(streams.positions, streams.offset, values);
+    }
+    void set_velocities(cloth::ClothId cloth, const std::vector<glm::vec4>& values)
+    {
+        const cloth::VertexStreams streams = solver.vertices(cloth);
+        write(streams.velocities, streams.offset, values);
     }
 
     cloth::Solver solver;

@@ -10,7 +10,7 @@ voile_add_test(test_viewer_parts
     SOURCES test_scene_file.cpp test_scene_errors.cpp test_options.cpp test_exports.cpp test_statistics_file.cpp
             test_film.cpp test_progress.cpp test_frame_sequence.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
-voile_add_test(test_contact SOURCES test_contact.cpp test_candidates.cpp test_features.cpp test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_contact SOURCES test_contact.cpp test_swept_contact.cpp test_candidates.cpp test_features.cpp test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer
                SOURCES test_viewer.cpp test_viewer_solids.cpp test_viewer_frames.cpp test_viewer_inputs.cpp

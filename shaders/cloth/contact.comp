@@ -164,7 +164,7 @@ struct Meeting
     bool stays_out; // what has moved it leads through no surface
 };
 
-// Where the way of the vertex leads through a mesh after all.
+// Where the way of the vertex leads through a surface after all.
 void keep_out(inout Motion motion, Passage passage, Contact contact)
 {
     const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
@@ -202,7 +202,7 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
 }
 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
-// round: where the way from its last place leads through a mesh, the vertex stays at that last place, as the mesh carries it,
+// round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
 // so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
 Meeting meet_all(inout Motion motion, ClothContact cloth)
 {

@@ -244,40 +244,40 @@ Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float th
     return Contact(surface.distance < thickness && meets(collider), surface.direction, surface.distance, vec3(0));
 }
 
-// The nearest surface, or, where the way leads into the solid and would come out of another side of it, the plane on which
-// it went in.
-Contact convex_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
+// Where a path that starts outside enters a solid: the plane on which it does. A path shorter than the distances of its ends
+// from the solid does not.
+Contact convex_crossing(ColliderRecord collider, vec3 from, vec3 to, float start, float end)
 {
-    const ConvexSurface end = convex_surface(collider, to);
-    Contact contact = surface_contact(collider, end, thickness);
-    const float start = convex_surface(collider, from).distance;
-    if (start <= 0 || start + end.distance >= distance(from, to))
-        return contact;
-    vec3 entry;
-    ConvexSurface surface;
-    if (!find_entry(collider, from, to, thickness, entry, surface))
-        return contact;
-    const bool same_side = end.distance < thickness && dot(end.direction, surface.direction) > 0.5;
-    if (!same_side)
-    {
-        contact.found = meets(collider);
-        contact.direction = surface.direction;
-        contact.gap = surface.distance + dot(to - entry, surface.direction);
-    }
-    return contact;
+    if (start <= 0 || start + end >= distance(from, to))
+        return no_contact();
+    const Entry entry = convex_entry(collider, from, to);
+    const float gap = (1 - entry.time) * dot(to - from, entry.direction);
+    return Contact(entry.time <= 1 && meets(collider), entry.direction, gap, vec3(0));
 }
 
-// What a vertex that goes from `from` to `to` touches of collider c. VOILE_METHOD_PATH_ALONE: the side of a mesh through which
-// the way leads; the thickness is 0 then.
+// The nearest surface, or, where the path enters the solid and would come out of another side of it, the plane on which it
+// entered.
+Contact convex_contact(ColliderRecord collider, int method, vec3 from, vec3 to, float thickness)
+{
+    const ConvexSurface end = convex_surface(collider, to);
+    const Contact crossing = convex_crossing(collider, from, to, convex_surface(collider, from).distance, end.distance);
+    const bool same_side = end.distance < thickness && dot(end.direction, crossing.direction) > 0.5;
+    if (method == VOILE_METHOD_PATH_ALONE || (crossing.found && !same_side))
+        return crossing;
+    return surface_contact(collider, end, thickness);
+}
+
+// What a vertex that goes from `from` to `to` touches of collider c. VOILE_METHOD_PATH_ALONE: the side through which the path
+// enters a solid or crosses a mesh; the thickness is 0 then.
 Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
     if (collider.kind == VOILE_COLLIDER_MESH)
         return mesh_contact(c, collider, method, from, to, normal, thickness);
+    if (COLLIDERS_CONVEX != 0 && collider.kind != VOILE_COLLIDER_PLANE)
+        return convex_contact(collider, method, from, to, thickness);
     if (method == VOILE_METHOD_PATH_ALONE)
         return no_contact();
-    if (COLLIDERS_CONVEX == 0 || collider.kind == VOILE_COLLIDER_PLANE)
-        return surface_contact(collider, plane_surface(collider, to), thickness);
-    return convex_contact(collider, from, to, thickness);
+    return surface_contact(collider, plane_surface(collider, to), thickness);
 }
 
 #endif

@@ -53,27 +53,90 @@ ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
     return box_surface(collider.shape.xyz, collider.second.xyz, p);
 }
 
-// How many times the entry is approached, and how near counts as there, as a share of the thickness.
-#define VOILE_ENTRY_STEPS 24
-#define VOILE_ENTRY_NEAR 0.05
-
-// Where a vertex that goes from `from` to `to` meets the solid, if it starts outside. Nobody is nearer to the surface than the
-// distance says, so each approach goes on by that distance (Hart 1996, "Sphere tracing").
-bool find_entry(ColliderRecord collider, vec3 from, vec3 to, float thickness, out vec3 entry, out ConvexSurface surface)
+// Where a straight path first meets a solid.
+struct Entry
 {
-    const float way = distance(from, to);
-    float gone = 0;
-    entry = from;
-    surface = convex_surface(collider, from);
-    for (int i = 0; i < VOILE_ENTRY_STEPS && gone <= way; ++i)
+    float time;     // 0..1 of the path; 2: nowhere
+    vec3 direction; // unit, outwards
+};
+
+const Entry k_no_entry = Entry(2, vec3(0));
+
+// When a point that is at `offset` from the middle and goes by `span` meets a sphere or, with both across its axis, a cylinder;
+// 0 from inside, 2 never. By the nearest point of the line: the usual discriminant is a difference of large numbers where a fast
+// path meets a small sphere.
+float rounded_entry(vec3 offset, vec3 span, float radius)
+{
+    if (dot(offset, offset) <= radius * radius)
+        return 0;
+    const float length2 = max(dot(span, span), 1e-30);
+    const float nearest = -dot(offset, span) / length2;
+    const vec3 closest = offset + nearest * span;
+    const float chord2 = radius * radius - dot(closest, closest);
+    return nearest > 0 && chord2 > 0 ? max(nearest - sqrt(chord2 / length2), 0) : 2;
+}
+
+// Of paths that start outside.
+Entry sphere_entry(vec3 offset, vec3 span, float radius)
+{
+    const float time = rounded_entry(offset, span, radius);
+    return time <= 1 ? Entry(time, normalize(offset + time * span)) : k_no_entry;
+}
+
+Entry capsule_entry(vec3 a, vec3 b, float radius, vec3 from, vec3 span)
+{
+    const float size = distance(a, b);
+    const vec3 axis = (b - a) / max(size, 1e-30);
+    const vec3 offset = from - a;
+    const vec3 across = offset - dot(offset, axis) * axis;
+    const vec3 span_across = span - dot(span, axis) * axis;
+    const float time = rounded_entry(across, span_across, radius);
+    if (time > 1)
+        return k_no_entry;
+    // Nobody enters past an end but through that end's half sphere.
+    const float along = dot(offset + time * span, axis);
+    if (along < 0)
+        return sphere_entry(offset, span, radius);
+    if (along > size)
+        return sphere_entry(from - b, span, radius);
+    return Entry(time, normalize(across + time * span_across));
+}
+
+Entry box_entry(vec3 half_size, vec3 offset, vec3 span)
+{
+    float enters = -1;
+    float leaves = 1;
+    vec3 direction = vec3(0);
+    for (int axis = 0; axis < 3; ++axis)
     {
-        if (surface.distance < VOILE_ENTRY_NEAR * thickness)
-            return true;
-        gone += surface.distance;
-        entry = mix(from, to, gone / way);
-        surface = convex_surface(collider, entry);
+        const float speed = abs(span[axis]);
+        const float side = span[axis] > 0 ? -1 : 1; // of the face that is met first
+        const float before = side * offset[axis] - half_size[axis];
+        if (before > 0 && before >= speed)
+            return k_no_entry;
+        if (before > enters * speed && before > 0)
+        {
+            enters = before / speed;
+            direction = vec3(0);
+            direction[axis] = side;
+        }
+        const float behind = before + 2 * half_size[axis];
+        if (behind < 0)
+            return k_no_entry;
+        leaves = behind < leaves * speed ? behind / speed : leaves;
     }
-    return false;
+    return enters >= 0 && enters <= leaves ? Entry(enters, direction) : k_no_entry;
+}
+
+// Of the kinds that have another side, for paths that start outside.
+Entry convex_entry(ColliderRecord collider, vec3 from, vec3 to)
+{
+    const vec3 offset = from - collider.shape.xyz;
+    if (collider.kind == VOILE_COLLIDER_SPHERE)
+        return sphere_entry(offset, to - from, collider.shape.w);
+    if (collider.kind == VOILE_COLLIDER_CAPSULE)
+        return capsule_entry(collider.shape.xyz, collider.second.xyz, collider.shape.w, from, to - from);
+    return box_entry(collider.second.xyz, offset, to - from);
 }
 
 #endif
