@@ -64,5 +64,5 @@ voile_add_test(test_holds SOURCES test_holds.cpp LIBRARIES voile::cloth voile::e
 voile_add_test(test_edits SOURCES test_edits.cpp test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES test_moving_colliders.cpp test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES test_hard_contacts.cpp test_softened.cpp shots.cpp test_odd_colliders.cpp test_spinning_collider.cpp test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_recovery SOURCES test_recovery.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_lifetime SOURCES test_uploads.cpp test_ids.cpp test_limits.cpp test_ranges.cpp test_lifetime.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_recovery SOURCES test_recovery.cpp test_depenetration.cpp LIBRARIES voile::cloth voile::engine)

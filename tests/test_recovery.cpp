@@ -77,8 +77,8 @@ float fastest(const std::vector<glm::vec4>& velocities)
     return speed;
 }
 
-// m/s. The springs of the default fabric pull what lies half out at some 20 m/s; what blows up has hundreds.
-constexpr float k_calm = 60;
+// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of 1 m later, has this.
+constexpr float k_calm = 10;
 
 // Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside
 // then.
@@ -308,8 +308,8 @@ TEST_CASE("pins, other layers and what has two sides stay inside")
         const auto after = harness.positions(id);
         for (const uint32_t i : {0u, 14u, 15u, 35u})
             CHECK((glm::distance(before[i], after[i]) < (c.pinned ? 1e-30f : 1e-6f)) == c.stays);
-        if (!c.stays) // 2 cm from one vertex to the next: a centimetre in a step
-            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == doctest::Approx(0.01).epsilon(0.05));
+        if (!c.stays)
+            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == doctest::Approx(0.02).epsilon(0.05));
     }
 }
 
@@ -422,8 +422,8 @@ TEST_CASE("recovery is recorded only where a solid is, and is the same to the bi
             harness.step({}, 10);
             ends[run] = harness.positions(id);
         }
-    CHECK(dispatches[0] == dispatches[1]);
-    CHECK(dispatches[0] == dispatches[2]);
-    CHECK(dispatches[0] + 1 == dispatches[3]);
+    CHECK(dispatches[0] == dispatches[3]);
+    CHECK(dispatches[1] == dispatches[2]);
+    CHECK(dispatches[1] + 1 == dispatches[3]);
     CHECK(std::memcmp(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(glm::vec4)) == 0);
 }

@@ -112,7 +112,7 @@ struct Count
 constexpr double k_rounding = 2e-6;
 // The nearest surface counts where it is on the side that the path came in by: a cosine.
 constexpr double k_same_side = 0.49;
-constexpr double k_recovery_speed = 2; // m/s
+constexpr double k_recovery_speed = 0.75; // m/s
 // On a needle of 1 mm a rounding of the place turns the plane by 2e-4, and the path ends some 0.2 m farther.
 constexpr double k_direction = 0.98;
 

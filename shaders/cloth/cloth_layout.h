@@ -31,6 +31,12 @@
 #define VOILE_COLLIDER_CAPSULE 3
 #define VOILE_COLLIDER_BOX 4
 
+// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at twice
+// that speed.
+#define VOILE_RECOVERY_SPEED 0.75f
+// Where the votes of cloths begin in the buffer of the size of the recovery's dispatch (recover.comp), in words.
+#define VOILE_RECOVERY_VOTES 4
+
 // How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
 #define VOILE_CANDIDATES 23
 // the words of its list,
@@ -46,6 +52,7 @@
 #define VOILE_COLLIDER_ONE_SIDED 4u // a mesh pushes to the side its triangles face; else to where a vertex came from
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
 #define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
+#define VOILE_COLLIDER_HOLLOW 32u   // a mesh that was given two sides: it has no inside
 // The number of the substep in which a list of candidates was made, and their count: one word.
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
@@ -237,14 +244,20 @@ struct ContactPush
     uint first_substep; // of the step
     uint vertices;      // of all cloths
     uint features;      // 1: colliders have corners or edges that may have met vertices
+    uint recovers;      // 1: colliders have an inside, from which vertices are brought out
 };
 
-// Push constants of the pass that brings vertices out of closed meshes.
+// How a vertex comes out of a collider that it was inside of at the start of the step.
+struct Depenetration
+{
+    vec3 velocity; // m/s, world, relative to the collider
+    uint solid;    // the collider + 1; 0: it is inside of none
+};
+
+// Push constants of the pass that finds the way out of colliders.
 struct RecoverPush
 {
-    vec3 gravity; // m/s^2
-    float step;   // s, of the whole step
-    float reach;  // m, the farthest that a vertex is moved
+    float step; // s, of the whole step
     uint colliders;
 };
 
@@ -309,10 +322,10 @@ struct StatisticsRecord
     float max_stretch;         // max of l / L - 1 over structural and shear springs
     float stretch_sum;         // sum of l / L - 1 over the same springs
     float kinetic_energy;      // J
-    float deepest_penetration; // m under a collider's surface
+    float deepest_penetration; // m, of a vertex inside a collider from the nearest surface
     uint springs;              // how many stretch_sum adds up
     uint nan_vertices;         // vertices with a position or velocity that is not finite
-    uint penetrating_vertices; // vertices under the surface of a collider
+    uint penetrating_vertices; // vertices inside a collider
     uint contacts;             // vertices that touch a collider
     uint candidates;           // triangles in the lists of all vertices
     uint overflowing_vertices; // vertices near more triangles than a list holds: they traverse in every substep

@@ -6,7 +6,7 @@
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
-// own previous state, residuals of both.
+// own previous state, residuals of both, the way out of what the vertex is inside of.
 // Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -41,6 +41,7 @@ layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 
 layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorrection corrections[]; };
 layout(set = 0, binding = 20, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(set = 0, binding = 21, std430) buffer Residuals { uvec2 residuals[]; };
+layout(set = 0, binding = 22, std430) readonly buffer Depenetrations { Depenetration depenetrations[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -129,11 +130,19 @@ bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) !
 // it cost 5 us on an H200.)
 float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step; }
 
-// `n`: world, unit, away from the surface; `gap`: m along it; `way`: m, of the surface in this substep.
-void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, float static_friction,
+// m: by how much a contact moves the vertex. What has come nearer than the thickness goes back at once. What was too near
+// before comes away slowly, and what was inside no faster than that: neighbors that part faster would load the springs.
+float lift_of(Contact contact, float thickness)
+{
+    const float lift = min(thickness, contact.start + VOILE_RECOVERY_SPEED * push.step) - contact.gap;
+    return contact.start < 0 ? lift : max(lift, 0);
+}
+
+// `n`: world, unit, away from the surface; `lift`: m along it; `way`: m, of the surface in this substep.
+void respond(inout Motion motion, vec3 n, float lift, vec3 way, float thickness, float static_friction,
              float kinetic_friction)
 {
-    motion.displacement += max(thickness - gap, 0) * n;
+    motion.displacement += lift * n;
     const vec3 relative = motion.v - way / push.step;
     const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
@@ -147,8 +156,8 @@ void respond(inout Motion motion, vec3 n, float gap, vec3 way, float thickness, 
     {
         // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
         // To the bit: roundings that add up would stretch stiff cloth until it slips.
-        const float lift = dot(motion.displacement - way, n);
-        motion.displacement = way + (abs(lift) > contact_slop(motion.from, thickness) ? lift : 0) * n;
+        const float height = dot(motion.displacement - way, n);
+        motion.displacement = way + (abs(height) > contact_slop(motion.from, thickness) ? height : 0) * n;
         motion.v -= v_t;
         return;
     }
@@ -163,6 +172,30 @@ struct Meeting
     bool touches;
     bool stays_out; // what has moved it leads through no surface
 };
+
+// Inside a collider the velocity that forces give a vertex decays in this time, s, and stays below this speed, m/s: neighbors
+// whose ways out differ hold each other together. Of the velocity at which it goes out they take back this fraction at most, so
+// that none is held inside.
+#define VOILE_INSIDE_TIME 0.01
+#define VOILE_INSIDE_SPEED 0.6
+#define VOILE_INSIDE_BACK 0.5
+
+// A vertex inside a collider goes along with that, and out of it at a given speed. It gets no velocity from that.
+void leave(inout Motion motion, Depenetration depenetration)
+{
+    const uint c = depenetration.solid - 1;
+    const Passage passage = passage_of(c, colliders[c].flags, motion);
+    // A collider that jumps would throw what it leaves behind.
+    vec3 surface = surface_way(passage, passage.from, vec3(0)) / push.step;
+    surface *= min(1, VOILE_RECOVERY_SPEED / max(length(surface), 1e-30));
+    vec3 own = motion.v - surface;
+    own *= min(max(1 - push.step / VOILE_INSIDE_TIME, 0), VOILE_INSIDE_SPEED / max(length(own), 1e-30));
+    const float speed = length(depenetration.velocity);
+    const vec3 out_of_it = depenetration.velocity / max(speed, 1e-30);
+    own -= min(dot(own, out_of_it) + VOILE_INSIDE_BACK * speed, 0) * out_of_it;
+    motion.v = surface + own;
+    motion.displacement = push.step * (motion.v + depenetration.velocity);
+}
 
 // Where the way of the vertex leads through a surface after all.
 void keep_out(inout Motion motion, Passage passage, Contact contact)
@@ -195,8 +228,11 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
     const float farthest = cloth.thickness - contact.gap + distance(passage.from, passage.to);
     meeting.stays_out = !meeting.touches && farthest < contact.gap;
     meeting.touches = true;
-    respond(motion, world_direction(passage, contact.direction), contact.gap,
-            surface_way(passage, passage.to - contact.gap * contact.direction, contact.way), cloth.thickness,
+    const vec3 n = world_direction(passage, contact.direction);
+    const vec3 way = surface_way(passage, passage.to - contact.gap * contact.direction, contact.way);
+    if (contact.start < 0)
+        motion.v -= dot(motion.v - way / push.step, n) * n; // it comes out without a velocity of its own
+    respond(motion, n, lift_of(contact, cloth.thickness), way, cloth.thickness,
             pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
@@ -204,7 +240,8 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
 // round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
 // so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
-Meeting meet_all(inout Motion motion, ClothContact cloth)
+// `inside`: the collider, if any, that the vertex is brought out of.
+Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
 {
     Meeting meeting = Meeting(false, false);
     for (uint k = 0; k < 2 * push.colliders; ++k)
@@ -212,7 +249,9 @@ Meeting meet_all(inout Motion motion, ClothContact cloth)
         const bool last = k >= push.colliders;
         if (last && (!meeting.touches || meeting.stays_out))
             break;
-        meet(motion, last ? k - push.colliders : k, last, cloth, meeting);
+        const uint c = last ? k - push.colliders : k;
+        if (c != inside)
+            meet(motion, c, last, cloth, meeting);
     }
     return meeting;
 }
@@ -256,8 +295,13 @@ void main()
         contact.static_friction = cloths[cloth].static_friction;
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
+        Depenetration depenetration = Depenetration(vec3(0), 0);
+        if (push.recovers != 0)
+            depenetration = depenetrations[i];
+        if (depenetration.solid != 0)
+            leave(motion, depenetration);
         find_candidates(i, motion.from, position_of(motion), motion.v, contact.thickness);
-        touches = meet_all(motion, contact).touches;
+        touches = meet_all(motion, contact, depenetration.solid - 1).touches;
     }
     const FinePosition to = moved(from, motion.displacement);
     positions[i] = vec4(to.x, proposed.w);

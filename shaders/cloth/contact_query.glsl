@@ -30,6 +30,7 @@ struct Contact
     bool found;
     vec3 direction; // unit, from the surface to the side on which the vertex belongs
     float gap;      // m, distance of the vertex from the surface along `direction`; negative under the surface
+    float start;    // m, the same at the start of the substep
     vec3 way;       // m, by which the surface deforms there in the substep
 };
 
@@ -163,6 +164,12 @@ vec3 deformation_way(uint triangle, vec3 point)
     return way_of(moving_triangle(triangle, query.first_corner, query_progress), point);
 }
 
+// The gap that a contact had at the start of the substep, by its plane.
+float start_gap(Contact contact)
+{
+    return contact.gap - dot(query.to - query.from - contact.way, contact.direction);
+}
+
 Contact crossing_contact()
 {
     Contact contact;
@@ -170,6 +177,7 @@ Contact crossing_contact()
     contact.direction = query.crossing_face;
     contact.gap = dot(query.to - query.crossing_point, contact.direction);
     contact.way = deformation_way(query.crossing_triangle, query.crossing_point);
+    contact.start = max(start_gap(contact), 0); // it came from the right side
     return contact;
 }
 
@@ -195,10 +203,13 @@ Contact nearest_contact()
         const bool flip = !query.one_sided && dot(side, query.face) < 0;
         contact.direction = flip ? -query.face : query.face;
         contact.gap = inside_face ? (flip ? -query.height : query.height) : dot(offset, contact.direction);
-        return contact;
     }
-    contact.direction = (inside ? -1 : 1) * offset / query.distance;
-    contact.gap = inside ? -query.distance : query.distance;
+    else
+    {
+        contact.direction = (inside ? -1 : 1) * offset / query.distance;
+        contact.gap = inside ? -query.distance : query.distance;
+    }
+    contact.start = start_gap(contact);
     return contact;
 }
 
@@ -239,9 +250,10 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
     return nearest_contact();
 }
 
-Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float thickness)
+// `start`: m, how far the vertex was from the surface at the start of the substep.
+Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float start, float thickness)
 {
-    return Contact(surface.distance < thickness && meets(collider), surface.direction, surface.distance, vec3(0));
+    return Contact(surface.distance < thickness && meets(collider), surface.direction, surface.distance, start, vec3(0));
 }
 
 // Where a path that starts outside enters a solid: the plane on which it does. A path shorter than the distances of its ends
@@ -252,7 +264,7 @@ Contact convex_crossing(ColliderRecord collider, vec3 from, vec3 to, float start
         return no_contact();
     const Entry entry = convex_entry(collider, from, to);
     const float gap = (1 - entry.time) * dot(to - from, entry.direction);
-    return Contact(entry.time <= 1 && meets(collider), entry.direction, gap, vec3(0));
+    return Contact(entry.time <= 1 && meets(collider), entry.direction, gap, start, vec3(0));
 }
 
 // The nearest surface, or, where the path enters the solid and would come out of another side of it, the plane on which it
@@ -260,11 +272,17 @@ Contact convex_crossing(ColliderRecord collider, vec3 from, vec3 to, float start
 Contact convex_contact(ColliderRecord collider, int method, vec3 from, vec3 to, float thickness)
 {
     const ConvexSurface end = convex_surface(collider, to);
-    const Contact crossing = convex_crossing(collider, from, to, convex_surface(collider, from).distance, end.distance);
+    const float start = convex_surface(collider, from).distance;
+    const Contact crossing = convex_crossing(collider, from, to, start, end.distance);
     const bool same_side = end.distance < thickness && dot(end.direction, crossing.direction) > 0.5;
     if (method == VOILE_METHOD_PATH_ALONE || (crossing.found && !same_side))
         return crossing;
-    return surface_contact(collider, end, thickness);
+    return surface_contact(collider, end, start, thickness);
+}
+
+Contact plane_contact(ColliderRecord collider, vec3 from, vec3 to, float thickness)
+{
+    return surface_contact(collider, plane_surface(collider, to), plane_surface(collider, from).distance, thickness);
 }
 
 // What a vertex that goes from `from` to `to` touches of collider c. VOILE_METHOD_PATH_ALONE: the side through which the path
@@ -277,7 +295,7 @@ Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
         return convex_contact(collider, method, from, to, thickness);
     if (method == VOILE_METHOD_PATH_ALONE)
         return no_contact();
-    return surface_contact(collider, plane_surface(collider, to), thickness);
+    return plane_contact(collider, from, to, thickness);
 }
 
 #endif

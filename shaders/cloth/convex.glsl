@@ -128,6 +128,48 @@ Entry box_entry(vec3 half_size, vec3 offset, vec3 span)
     return enters >= 0 && enters <= leaves ? Entry(enters, direction) : k_no_entry;
 }
 
+// m: how far a line goes from `offset` in a unit direction until it is out of a sphere around the middle for good.
+float sphere_exit(vec3 offset, vec3 direction, float radius)
+{
+    const float nearest = -dot(offset, direction);
+    const vec3 closest = offset + nearest * direction;
+    return nearest + sqrt(max(radius * radius - dot(closest, closest), 0));
+}
+
+float capsule_exit(vec3 a, vec3 b, float radius, vec3 from, vec3 direction)
+{
+    const float size = distance(a, b);
+    const vec3 axis = (b - a) / max(size, 1e-30);
+    const vec3 offset = from - a;
+    const float along = dot(offset, axis);
+    const float slope = dot(direction, axis);
+    const vec3 across = direction - slope * axis;
+    const float speed = length(across);
+    const float side = sphere_exit(offset - along * axis, across / max(speed, 1e-30), radius) / max(speed, 1e-30);
+    const float end = along + side * slope;
+    if (end >= 0 && end <= size)
+        return side;
+    return sphere_exit(end < 0 ? offset : from - b, direction, radius);
+}
+
+float box_exit(vec3 half_size, vec3 offset, vec3 direction)
+{
+    const vec3 side = vec3(direction.x < 0 ? -1 : 1, direction.y < 0 ? -1 : 1, direction.z < 0 ? -1 : 1);
+    const vec3 ways = (half_size - side * offset) / max(abs(direction), vec3(1e-30));
+    return min(ways.x, min(ways.y, ways.z));
+}
+
+// m: how far it is from inside a solid to its surface in a unit direction.
+float convex_exit(ColliderRecord collider, vec3 from, vec3 direction)
+{
+    const vec3 offset = from - collider.shape.xyz;
+    if (collider.kind == VOILE_COLLIDER_SPHERE)
+        return sphere_exit(offset, direction, collider.shape.w);
+    if (collider.kind == VOILE_COLLIDER_CAPSULE)
+        return capsule_exit(collider.shape.xyz, collider.second.xyz, collider.shape.w, from, direction);
+    return box_exit(collider.second.xyz, offset, direction);
+}
+
 // Of the kinds that have another side, for paths that start outside.
 Entry convex_entry(ColliderRecord collider, vec3 from, vec3 to)
 {

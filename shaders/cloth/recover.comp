@@ -1,17 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Brings out what is inside a closed mesh, once a step before its first substep. One thread a vertex.
+// Finds the way out for vertices that are inside a collider, once a step before its first substep. One thread a vertex.
 //
-// What lies on the right side of a mesh, contact keeps there. This is for what begins inside: a cloth made that way or moved
-// there, a collider added over it, surfaces that closed upon it. Out of a mesh leads a field: the sum of the six directions
-// along the axes, each over the distance at which it leaves the mesh for good. Near a face it is the face's normal, in an
+// What lies on the right side of a surface, contact keeps there. This is for what begins inside: a cloth made that way or moved
+// there, a collider added over it, surfaces that closed upon it. Out of a solid leads a field: the sum of the six directions
+// along the axes, each over the distance at which it leaves the solid for good. Near a face it is the face's normal, in an
 // ellipsoid the normal of the smaller one around its centre that goes through the vertex; and it has no jump where the
 // nearest place of the surface has one. Of it, what is along the cloth's normal counts most: sheets go out in one piece,
-// and are not torn apart in the middle. A vertex goes push.reach in a step, and no more than half of the cloth's spacing, or
-// neighbours that go different ways would stretch the cloth into a tangle. It gets no velocity from that. Inside, it has the
-// surface's, and does not fall.
-// Reads: cloths, chunks, normals, colliders and their motions, hierarchies. Writes: state, of the vertices inside; if there are
-// any, the size of the next step's dispatch.
+// and are not torn apart in the middle. The contact pass takes the vertex along in each substep: in jumps of a whole step
+// neighbors would part so far that springs throw them.
+// Reads: cloths, chunks, positions, normals, colliders and their motions, hierarchies. Writes: depenetrations of all vertices;
+// if any is inside, the size of the next step's dispatch and the votes of cloths.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "padded_layout.h"
@@ -21,8 +20,8 @@ layout(constant_id = 1) const uint COLLIDERS_MOVE = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Depenetrations { Depenetration depenetrations[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(set = 0, binding = 6, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
@@ -32,7 +31,8 @@ layout(set = 0, binding = 9, std430) readonly buffer PaddedBoxes { PaddedBox pad
 layout(set = 0, binding = 10, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
-layout(set = 0, binding = 12, std430) buffer NextDispatch { uint next_dispatch[]; };
+layout(set = 0, binding = 12, std430) buffer NextDispatch { uint next_dispatch[]; }; // then a vote per cloth
+layout(set = 0, binding = 13, std430) readonly buffer LastDispatch { uint last_dispatch[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
 
@@ -41,39 +41,38 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #include "convex.glsl"
 #include "solid_query.glsl"
 
+// m/s, along the way out: with its own velocity (contact.comp) a vertex goes at 1.8 m/s at most.
+#define VOILE_OUT_SPEED 1.2
 // What counts of the field across the cloth's normal where the surface is far: cloth that is pulled out across its normal
 // only stretches.
 #define VOILE_ACROSS 0.05
-// By how much ways along the normal are preferred to those against it, as a share of all. In the middle of a solid the
-// field along the normal vanishes, and neighbours must agree.
-#define VOILE_BIAS 0.05
-// The farthest that a vertex goes, as a share of the cloth's spacing.
-#define VOILE_REACH 0.5
-// Out of something thin it goes at once, along the field and this many times as far: springs would pull it back from half of
-// the way.
-#define VOILE_LEAP 2.0
-
+// By how much one side of a cloth is preferred to the other, as a fraction of all. In the middle of a solid the field along the
+// normal vanishes, and neighbors must agree: they take the side to which more of the cloth's vertices went in the last step.
+#define VOILE_BIAS 0.3
+#define VOILE_FIRST_BIAS 0.02 // before there was a vote
+// Votes are integers, whose sum has no order.
+#define VOILE_VOTE 1024
 const uint k_solid_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
 
+bool is_convex(ColliderRecord collider)
+{
+    return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE;
+}
+
+// Contact alone brings vertices up out of a plane: there is one way only.
 bool is_solid(ColliderRecord collider)
 {
-    return collider.kind == VOILE_COLLIDER_MESH && (collider.flags & k_solid_flags) == k_solid_flags;
+    return is_convex(collider) || (collider.flags & k_solid_flags) == k_solid_flags;
 }
 
 // Where a point of the world is in a collider's space at the step's start, and back.
 vec3 into_collider(uint c, uint flags, vec3 x) { return is_moved(flags) ? to_collider(pose_at(c, 0), x) : x; }
 vec3 out_of_collider(uint c, uint flags, vec3 x) { return is_moved(flags) ? to_world(pose_at(c, 0), x) : x; }
 
-bool in_box(ColliderRecord collider, vec3 local)
-{
-    if (!is_deforming(collider.flags))
-        return boxes_overlap(local, local, collider.box_min, collider.box_max);
-    const PaddedBox root = padded_boxes[collider.first_node];
-    return boxes_overlap(local, local, root.min, root.max);
-}
-
 bool is_inside(uint c, ColliderRecord collider, vec3 local)
 {
+    if (is_convex(collider))
+        return convex_surface(collider, local).distance < 0;
     return is_solid(collider) && in_box(collider, local) && line_winding(c, collider, local, 1) > 0;
 }
 
@@ -84,8 +83,6 @@ bool obstructs(uint c, ColliderRecord collider, vec3 from, vec3 to)
     const vec3 end = into_collider(c, collider.flags, to);
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return plane_surface(collider, end).distance < 0;
-    if (collider.kind != VOILE_COLLIDER_MESH)
-        return convex_surface(collider, end).distance < 0;
     if (is_solid(collider))
         return is_inside(c, collider, end);
     return crosses(c, collider, into_collider(c, collider.flags, from), end, false);
@@ -105,90 +102,116 @@ struct Field
     float size; // 1/m, of all terms, whatever their directions
 };
 
-void add(inout Field field, vec3 direction, float distance)
-{
-    field.sum += direction / distance;
-    field.size += 1 / distance;
-}
-
-// Of the ways that lead out of all colliders, or, where none does, of all.
-Field field_at(uint c, ColliderRecord collider, vec3 x, vec3 local, float thickness, uint layers)
-{
-    Field all_ways = Field(vec3(0), 0);
-    Field free_ways = Field(vec3(0), 0);
-    for (int way = 0; way < 6; ++way)
-    {
-        const int axis = way / 2;
-        line_winding(c, collider, local, axis);
-        const float distance = max(solid.ends[way % 2], 1e-3 * thickness);
-        vec3 direction = vec3(0);
-        direction[axis] = way % 2 == 0 ? 1 : -1;
-        add(all_ways, direction, distance);
-        const vec3 end = local + (distance + 0.01 * thickness) * direction;
-        if (leads_out(x, out_of_collider(c, collider.flags, end), layers))
-            add(free_ways, direction, distance);
-    }
-    if (free_ways.size > 0)
-        return free_ways;
-    return all_ways;
-}
-
-vec3 direction_out(Field field, vec3 normal)
-{
-    const float along = dot(field.sum, normal);
-    const vec3 across = field.sum - along * normal;
-    const vec3 sum = (along + VOILE_BIAS * field.size) * normal + VOILE_ACROSS * across;
-    const float size = length(sum);
-    return size > 0 ? sum / size : vec3(0, 1, 0);
-}
-
-// m/s, of the collider's rigid motion at a place of its space; no faster than recovery is, or a collider that jumps would throw
-// what it leaves behind.
-vec3 surface_velocity(uint c, uint flags, vec3 place)
-{
-    if (!is_moved(flags))
-        return vec3(0);
-    const vec3 v = (to_world(pose_at(c, 1), place) - to_world(pose_at(c, 0), place)) / push.step;
-    const float limit = push.reach / push.step;
-    return v * min(1, limit / max(length(v), 1e-30));
-}
-
-// m, between neighbours; of a mesh the mean.
+// m, between neighbors; of a mesh the mean.
 float spacing(uint cloth)
 {
     const float a = cloths[cloth].springs[0].rest_length;
     return cloths[cloth].columns > 0 ? min(a, cloths[cloth].springs[1].rest_length) : a;
 }
 
-// Whether a way leads out of the mesh, and of all others; then to where: on the offset surface.
-bool leaves(uint c, ColliderRecord collider, vec3 x, vec3 local, vec3 way, float thickness, uint layers, out vec3 to)
+void add(inout Field field, vec3 direction, float distance)
 {
-    if (!crosses(c, collider, local, local + way, true))
-        return false;
-    const vec3 surface = local + solid.crossing * way;
-    to = surface + thickness * solid.normal;
-    return leads_out(x, out_of_collider(c, collider.flags, surface + 0.01 * thickness * solid.normal), layers);
+    field.sum += direction / distance;
+    field.size += 1 / distance;
 }
 
-void recover(uint i, uint cloth, uint c, ColliderRecord collider, vec3 local)
+// m: how far it is along an axis, and against it, until a line is out of the solid for good.
+vec2 line_exits(uint c, ColliderRecord collider, vec3 local, int axis)
+{
+    if (is_convex(collider))
+    {
+        vec3 direction = vec3(0);
+        direction[axis] = 1;
+        return vec2(convex_exit(collider, local, direction), convex_exit(collider, local, -direction));
+    }
+    line_winding(c, collider, local, axis);
+    return vec2(solid.ends[0], solid.ends[1]);
+}
+
+// Of the ways that lead out of all colliders, or, where none does, of all.
+// `width`: m, of the solid there, along the axis along which it is thinnest.
+Field field_at(uint c, ColliderRecord collider, vec3 x, vec3 local, float thickness, uint layers, out float width)
+{
+    width = 3e38;
+    Field all_ways = Field(vec3(0), 0);
+    Field free_ways = Field(vec3(0), 0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const vec2 exits = max(line_exits(c, collider, local, axis), vec2(1e-3 * thickness));
+        width = min(width, exits.x + exits.y);
+        for (int way = 0; way < 2; ++way)
+        {
+            vec3 direction = vec3(0);
+            direction[axis] = way == 0 ? 1 : -1;
+            add(all_ways, direction, exits[way]);
+            const vec3 end = local + (exits[way] + 0.01 * thickness) * direction;
+            if (leads_out(x, out_of_collider(c, collider.flags, end), layers))
+                add(free_ways, direction, exits[way]);
+        }
+    }
+    if (free_ways.size > 0)
+        return free_ways;
+    return all_ways;
+}
+
+vec3 direction_out(uint cloth, Field field, vec3 normal)
+{
+    const float along = dot(field.sum, normal);
+    const vec3 across = field.sum - along * normal;
+    const int vote = int(last_dispatch[VOILE_RECOVERY_VOTES + cloth]);
+    const float bias = vote == 0 ? VOILE_FIRST_BIAS : VOILE_BIAS * sign(vote);
+    const float side = along + bias * field.size;
+    atomicAdd(next_dispatch[VOILE_RECOVERY_VOTES + cloth], uint(int(VOILE_VOTE * side / field.size)));
+    const vec3 sum = side * normal + VOILE_ACROSS * across;
+    const float size = length(sum);
+    return size > 0 ? sum / size : vec3(0, 1, 0);
+}
+
+// m: how far it is in a unit direction to the offset surface; `reach` if it is at least that.
+float way_out(uint c, ColliderRecord collider, vec3 local, vec3 direction, float thickness, float reach)
+{
+    if (is_convex(collider))
+        return min(convex_exit(collider, local, direction) + thickness, reach);
+    if (!crosses(c, collider, local, local + reach * direction, true))
+        return reach;
+    return min(solid.crossing * reach + thickness, reach);
+}
+
+// What is left of the way at full speed is shared out evenly between the last two steps: whole ones would end beside the offset
+// surface.
+Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collider, vec3 local)
 {
     const float thickness = cloths[cloth].thickness;
     const uint layers = cloths[cloth].layers;
+    const bool moved = is_moved(collider.flags);
+    const vec3 normal = moved ? rotate_back(pose_at(c, 0).rotation, normals[i].xyz) : normals[i].xyz;
+    float width;
+    const Field field = field_at(c, collider, positions[i].xyz, local, thickness, layers, width);
+    const float size = length(field.sum);
+    // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
+    const bool alone = width < spacing(cloth) && size > 0;
+    const vec3 direction = alone ? field.sum / size : direction_out(cloth, field, normal);
+    const float most = VOILE_OUT_SPEED * push.step;
+    const float way = way_out(c, collider, local, direction, thickness, 2 * most);
+    const float reach = way < most ? way : way < 2 * most ? 0.5 * way : most;
+    const vec3 out_of_it = moved ? rotate(pose_at(c, 0).rotation, direction) : direction;
+    return Depenetration(reach / push.step * out_of_it, c + 1);
+}
+
+Depenetration find_depenetration(uint i, uint cloth)
+{
     const vec4 x = positions[i];
-    const vec3 normal = is_moved(collider.flags) ? rotate_back(pose_at(c, 0).rotation, normals[i].xyz) : normals[i].xyz;
-    const Field field = field_at(c, collider, x.xyz, local, thickness, layers);
-    const float reach = min(push.reach, VOILE_REACH * spacing(cloth));
-    const vec3 direction = direction_out(field, normal);
-    const vec3 leap = VOILE_LEAP * reach / max(length(field.sum), 1e-30) * field.sum;
-    const bool thin = crosses(c, collider, local, local - 2 * leap, true);
-    vec3 to;
-    if (!(thin && leaves(c, collider, x.xyz, local, leap, thickness, layers, to)) &&
-        !leaves(c, collider, x.xyz, local, reach * direction, thickness, layers, to))
-        to = local + reach * direction;
-    positions[i] = vec4(out_of_collider(c, collider.flags, to), x.w);
-    // What it falls in the step is taken back: fine cloth would fall faster than it is taken out.
-    const vec3 v = surface_velocity(c, collider.flags, local) - 0.5 * push.step * push.gravity;
-    velocities[i] = vec4(v, velocities[i].w);
+    const uint layers = cloths[cloth].layers;
+    for (uint c = 0; c < push.colliders && x.w > 0; ++c)
+    {
+        const ColliderRecord collider = colliders[c];
+        if (!is_solid(collider) || (collider.layers & layers) == 0)
+            continue;
+        const vec3 local = into_collider(c, collider.flags, x.xyz);
+        if (is_inside(c, collider, local))
+            return depenetration_of(i, cloth, c, collider, local);
+    }
+    return Depenetration(vec3(0), 0);
 }
 
 void main()
@@ -196,20 +219,8 @@ void main()
     const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
     if (!self.exists)
         return;
-    const vec4 x = positions[self.index];
-    if (x.w == 0)
-        return;
-    const uint layers = cloths[self.cloth].layers;
-    for (uint c = 0; c < push.colliders; ++c)
-    {
-        const ColliderRecord collider = colliders[c];
-        if (!is_solid(collider) || (collider.layers & layers) == 0)
-            continue;
-        const vec3 local = into_collider(c, collider.flags, x.xyz);
-        if (!is_inside(c, collider, local))
-            continue;
-        recover(self.index, self.cloth, c, collider, local);
+    const Depenetration depenetration = find_depenetration(self.index, self.cloth);
+    depenetrations[self.index] = depenetration;
+    if (depenetration.solid != 0)
         atomicMax(next_dispatch[0], gl_NumWorkGroups.x);
-        return;
-    }
 }

@@ -21,6 +21,7 @@ struct Contact
 {
     glm::dvec3 direction{0.0}; // unit, to the side on which the vertex belongs
     double gap = 0;            // m along it
+    double start = 0;          // m, the same at the start of the substep
 };
 
 struct TriangleMesh
@@ -52,12 +53,21 @@ inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const g
             continue;
         first = *hit;
         const glm::dvec3 side = glm::dot(from - to, n) >= 0 ? n : -n;
-        result = Contact{side, glm::dot(to - (from + first * (to - from)), side)};
+        const glm::dvec3 point = from + first * (to - from);
+        result = Contact{side, glm::dot(to - point, side), glm::dot(from - point, side)};
     }
     return result;
 }
 
-inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const glm::dvec3& to, double thickness)
+// By the plane of the contact.
+inline Contact with_start(Contact contact, const glm::dvec3& from, const glm::dvec3& to)
+{
+    contact.start = contact.gap - glm::dot(to - from, contact.direction);
+    return contact;
+}
+
+inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to,
+                                              double thickness)
 {
     double nearest = thickness;
     double best_alignment = 0;
@@ -85,11 +95,11 @@ inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const gl
     if (nearest < 0.01 * thickness) // too short for a direction in float: the face's normal stands in
     {
         const glm::dvec3 side = !mesh.closed && height < 0 ? -face : face;
-        return Contact{side, glm::dot(to - point, side)};
+        return with_start({side, glm::dot(to - point, side)}, from, to);
     }
     const bool inside = mesh.closed && height < 0;
     const double sign = inside ? -1 : 1;
-    return Contact{sign * glm::normalize(to - point), sign * nearest};
+    return with_start({sign * glm::normalize(to - point), sign * nearest}, from, to);
 }
 
 inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to,
@@ -109,17 +119,24 @@ inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::d
             glm::dvec3 n = face_normal(mesh, t);
             if (!mesh.closed && glm::dot(from - point, n) < 0)
                 n = -n;
-            result = Contact{n, glm::dot(to - point, n)};
+            result = with_start({n, glm::dot(to - point, n)}, from, to);
         }
     return result;
 }
 
-// Ends on the offset surface without approaching it; sticks within the cone of static friction, else slides.
+// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up.
+constexpr double k_recovery_speed = 0.75;
+
+// Ends on the offset surface without approaching it; what was too near before comes up slowly, what was inside no faster and
+// without a velocity of its own. Sticks within the cone of static friction, else slides.
 inline void respond(const Contact& contact, double thickness, double mu_s, double mu_k, double h,
                     const glm::dvec3& from, glm::dvec3& x, glm::dvec3& v)
 {
     const glm::dvec3 n = contact.direction;
-    x += (thickness - contact.gap) * n;
+    const double lift = std::min(thickness, contact.start + k_recovery_speed * h) - contact.gap;
+    x += (contact.start < 0 ? lift : std::max(lift, 0.0)) * n;
+    if (contact.start < 0)
+        v -= glm::dot(v, n) * n;
     const double normal_impulse = std::max(-glm::dot(v, n), 0.0);
     v += normal_impulse * n;
     if (normal_impulse == 0)

@@ -21,6 +21,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize recovery_bytes = (VOILE_RECOVERY_VOTES + model.records.size()) * sizeof(uint32_t);
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const VkDeviceSize per_residual = model.positions.size() * sizeof(glm::uvec2);
     const BufferRequest requests[] = {
@@ -44,8 +45,9 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
          data.features.features.empty() ? 0 : model.positions.size() * sizeof(shared::FeatureCorrection)},
         {&state.feature_chunks, "cloth feature chunks", chunk_count * sizeof(uint32_t)},
         {&state.feature_dispatch, "cloth feature dispatch", sizeof(VkDispatchIndirectCommand)},
-        {&state.recover_dispatch[0], "cloth recover dispatch a", sizeof(VkDispatchIndirectCommand)},
-        {&state.recover_dispatch[1], "cloth recover dispatch b", sizeof(VkDispatchIndirectCommand)},
+        {&state.recover_dispatch[0], "cloth recover dispatch a", recovery_bytes},
+        {&state.recover_dispatch[1], "cloth recover dispatch b", recovery_bytes},
+        {&state.depenetrations, "cloth depenetrations", model.positions.size() * sizeof(shared::Depenetration)},
         {&state.start, "cloth start", per_vertex},
         {&state.start_residuals, "cloth start residuals", per_residual},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
@@ -148,7 +150,8 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.deforming_positions.handle(),
                  s.feature_corrections.handle(),
                  s.stage_b.residuals.handle(),
-                 s.state.residuals.handle()});
+                 s.state.residuals.handle(),
+                 s.depenetrations.handle()});
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
@@ -207,10 +210,10 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     bind_contact(s, kernels, binder);
     for (size_t i = 0; i < 2; ++i)
         binder.bind(s.recover[i], kernels.recover,
-                    {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                    {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.depenetrations.handle(),
                      s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
                      s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                     s.deforming_positions.handle(), s.recover_dispatch[i].handle()});
+                     s.deforming_positions.handle(), s.recover_dispatch[i].handle(), s.recover_dispatch[1 - i].handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});

@@ -42,7 +42,8 @@ struct DeviceState
     gpu::Buffer feature_chunks;      // those that come near features
     gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
     std::array<gpu::Buffer, 2>
-        recover_dispatch; // workgroups that bring vertices out of meshes, of this step and the next
+        recover_dispatch; // workgroups that look for vertices inside of colliders, of this step and the next
+    gpu::Buffer depenetrations; // how these come out
     gpu::Buffer start;    // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;

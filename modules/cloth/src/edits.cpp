@@ -165,7 +165,9 @@ void Solver::State::update_passes()
     passes.features = device->feature_count > 0;
     passes.recover =
         options.recovery &&
-        any_collider([](const auto& collider) { return (collider.flags & k_recovering_flags) == k_recovering_flags; });
+        (passes.convex ||
+         any_collider([](const auto& collider)
+                      { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : std::span(model.records).first(device->cloth_count))
     {

@@ -12,7 +12,7 @@ namespace cloth
 
 struct SolverOptions;
 
-constexpr uint32_t k_most_storage_buffers = 22; // of a kernel: contact's
+constexpr uint32_t k_most_storage_buffers = 23; // of a kernel: contact's
 
 struct Kernels
 {

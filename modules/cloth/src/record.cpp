@@ -49,7 +49,7 @@ void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
                       std::span<const std::byte>{});
 }
 
-// Brings vertices out of closed meshes. Nothing is recorded where there are none.
+// Finds the way out for vertices inside of colliders. Nothing is recorded where none has an inside.
 //
 // Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
 // and every few steps for what rounding has; besides, as long as the step before has found one inside.
@@ -62,13 +62,12 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    const shared::RecoverPush push{step.gravity, step.duration, k_recovery_speed * step.duration,
-                                   device.collider_count};
+    const shared::RecoverPush push{step.duration, device.collider_count};
     const bool periodic = solver.recovery_step % k_recovery_period == 0;
     const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
     const size_t now = solver.recovery_step++ % 2;
     const size_t next = 1 - now;
-    clear_dispatch(recorder, device.recover_dispatch[next]);
+    clear_dispatch(recorder, device.recover_dispatch[next], 1, VOILE_RECOVERY_VOTES * sizeof(uint32_t));
     if (all)
         recorder.dispatch(kernel, device.recover[next], device.chunk_count * group, group, push);
     else
@@ -78,13 +77,15 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
 
 } // namespace
 
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each)
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each, VkDeviceSize counts)
 {
     const VkDispatchIndirectCommand none{0, groups_each, 1};
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), 0, sizeof(none), &none);
+    if (counts > 0)
+        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), size.handle(), counts, VK_WHOLE_SIZE, 0);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
@@ -106,6 +107,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
     fill(device.candidate_triangles, 0);
     fill(device.feature_corrections, VOILE_NO_SUBSTEP);
+    fill(device.depenetrations, 0);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
 }

@@ -38,7 +38,7 @@ struct Passes
     bool features = false;       // colliders with corners or edges that vertices alone do not feel
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
-    bool recover = false;        // closed meshes with one side, out of which vertices are brought
+    bool recover = false;        // colliders with an inside, out of which vertices are brought
 };
 
 struct Anchor
@@ -54,8 +54,6 @@ shared::AnchorRecord make_record(const Anchor& anchor);
 constexpr uint32_t k_strain_passes = 16;
 constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
 
-// How fast a vertex comes out of a closed mesh, m/s.
-constexpr float k_recovery_speed = 2;
 // Steps from one look at all vertices to the next, where none was inside.
 constexpr uint32_t k_recovery_period = 8;
 
@@ -127,9 +125,10 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
-// Sets the size of an indirect dispatch to nothing; what is added to x comes in so many workgroups each. Between
-// barriers of its own.
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each = 1);
+// Sets the size of an indirect dispatch to nothing; what is added to x comes in so many workgroups each. From the byte
+// `counts` on, if it is not 0, the buffer holds other counts, which become 0 too. Between barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each = 1,
+                    VkDeviceSize counts = 0);
 
 // Makes the size of an indirect dispatch visible that a dispatch has written.
 void publish_dispatch(gpu::Recorder& recorder);

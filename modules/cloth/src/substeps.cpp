@@ -163,6 +163,7 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.first_substep = first_substep_;
     push.vertices = device_.vertices;
     push.features = solver_.passes.features ? 1 : 0;
+    push.recovers = solver_.passes.recover ? 1 : 0;
     const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
                                 : solver_.passes.convex ? kernels_.contact_convex
                                                         : kernels_.contact;

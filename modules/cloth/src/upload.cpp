@@ -171,7 +171,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, next.feature_dispatch);
     for (const gpu::Buffer& size : next.recover_dispatch)
-        clear_dispatch(recorder, size);
+        clear_dispatch(recorder, size, 1, VOILE_RECOVERY_VOTES * sizeof(uint32_t));
     upload.contents_->lifetime.end(cmd);
     s.lifetime.end(cmd);
     if (s.edits.holds) // what is no longer held has its mass again

@@ -10,8 +10,9 @@
 // Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
 //   buffer            format                 written by             read by
 //   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, features, contact, normals,
-//                                            Verlet, recovery       statistics, recovery, drawing
+//                                            Verlet                 statistics, recovery, drawing
 //   velocities        vec4, w: touches       the same               stage 1, Verlet, feature reach, statistics
+//   depenetrations    Depenetration          recovery               contact
 //   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
 //                                            holds, strain limit
 //   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
@@ -101,7 +102,8 @@ struct SolverOptions
                                   // vertices alone do not feel one, a substep has a pass more
     uint32_t feature_threads = 0; // that share the triangles around a vertex there: a power of two up to
                                   // workgroup_size; 0: eight, on CPU devices one
-    bool recovery = true;         // what is inside a closed mesh at the start of a step is brought out
+    bool recovery = true; // what is inside a collider at the start of a step is brought out along a smooth field;
+                          // without, straight to the nearest surface, and out of meshes not at all
     MeshLayout mesh_layout = MeshLayout::interleaved;
     std::optional<bool> lifetime_checks{}; // see above. None: on where the module was compiled without NDEBUG
 };
