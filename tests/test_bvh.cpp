@@ -354,7 +354,7 @@ TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
     CHECK(bowl.winding_number({0, 0, 0}) == doctest::Approx(0.8).epsilon(0.1));
     CHECK(bowl.winding_number({0, -0.9, 0}) > 0.8);
     CHECK(bowl.winding_number({0.7, -0.9, 0}) < 0.1); // past the surface, within the box
-    CHECK(bowl.winding_number({0, 3, 0}) == 0);
+    CHECK(bowl.winding_number({0, 9, 0}) == doctest::Approx(0).epsilon(0.01)); // it is open there
 }
 
 TEST_CASE("triangles that cut each other are counted in pairs, neighbours are not")

@@ -3,8 +3,14 @@
 #include "cloth_harness.hpp"
 #include "reference/cloth_reference.hpp"
 
+#include "cloth/mesh_checks.hpp"
+#include "engine/assets/shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
 
 namespace
 {
@@ -39,6 +45,24 @@ Expected expected_statistics(const cloth::Grid& grid)
     for (const glm::dvec3& v : reference.state.v)
         result.kinetic_energy += 0.5 * static_cast<double>(tests::raw(grid).vertex_mass) * glm::dot(v, v);
     return result;
+}
+
+// The sum of the angles that triangles fill seen from a point (Van Oosterom and Strackee 1983), over all directions.
+double winding_number(const engine::Mesh& mesh, const glm::dvec3& point)
+{
+    double angles = 0;
+    for (const glm::uvec3& t : mesh.triangles)
+    {
+        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point;
+        const glm::dvec3 b = glm::dvec3(mesh.positions[t.y]) - point;
+        const glm::dvec3 c = glm::dvec3(mesh.positions[t.z]) - point;
+        const double la = glm::length(a);
+        const double lb = glm::length(b);
+        const double lc = glm::length(c);
+        angles += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                                 la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    }
+    return angles / (4 * std::numbers::pi);
 }
 
 } // namespace
@@ -93,6 +117,100 @@ TEST_CASE("vertices under a surface are counted, and the deepest is measured")
     const cloth::Statistics found = harness.statistics();
     CHECK(found.penetrating_vertices == inside);
     CHECK(static_cast<double>(found.deepest_penetration) == doctest::Approx(deepest).epsilon(1e-5));
+}
+
+TEST_CASE("inside a mesh is where it winds around a vertex, at any depth")
+{
+    // A ball whose top is pushed down through its bottom: what hangs out below is inside-out and solid nowhere.
+    engine::Mesh folded = engine::make_sphere({0, 0, 0}, 0.4f, 16);
+    for (glm::vec3& p : folded.positions)
+        p.y -= p.y > 0.2f ? 5 * (p.y - 0.2f) : 0;
+    const engine::Mesh ball = engine::make_sphere({0, 0, 0}, 0.4f, 16);
+    engine::Mesh parts = ball;
+    for (const glm::uvec3& t : engine::make_sphere({0.3f, 0, 0}, 0.3f, 12).triangles)
+        parts.triangles.push_back(t + static_cast<uint32_t>(ball.positions.size()));
+    for (const glm::vec3& p : engine::make_sphere({0.3f, 0, 0}, 0.3f, 12).positions)
+        parts.positions.push_back(p);
+    engine::Mesh bowl = ball;
+    std::erase_if(bowl.triangles, [&](const glm::uvec3& t) { return ball.positions[t.x].y > 0.1f; });
+    engine::Mesh turned_bowl = bowl;
+    for (glm::uvec3& t : turned_bowl.triangles)
+        std::swap(t.y, t.z);
+    struct Case
+    {
+        std::string name;
+        engine::Mesh mesh;
+        cloth::Sides sides;
+        bool deforms;
+        bool has_inside;
+        bool either_sign; // an open mesh with two sides: as its triangles face says nothing
+    };
+    const Case cases[] = {
+        {"ball", ball, cloth::Sides::automatic, false, true, false},
+        {"ball that may deform", ball, cloth::Sides::automatic, true, true, false},
+        {"ball with two sides", ball, cloth::Sides::two, false, false, false},
+        {"ball folded through itself", folded, cloth::Sides::automatic, false, true, false},
+        {"two parts in each other", parts, cloth::Sides::automatic, false, true, false},
+        {"bowl", bowl, cloth::Sides::automatic, false, true, true},
+        {"bowl that may deform", turned_bowl, cloth::Sides::automatic, true, true, true},
+        {"bowl with one side", bowl, cloth::Sides::one, false, true, false},
+        {"bowl turned, with one side", turned_bowl, cloth::Sides::one, false, true, false},
+        {"bowl with two sides", bowl, cloth::Sides::two, false, false, false},
+    };
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> within(-0.7f, 0.7f);
+    // All in one solver, each with a cloth on a layer of its own; another solver's kernels would take longer than the rest.
+    ClothHarness harness;
+    std::vector<cloth::ClothId> sheets;
+    uint32_t layer = 1;
+    for (const Case& c : cases)
+    {
+        (void)engine::take(harness.solver.add_collider(cloth::MeshCollider{.positions = c.mesh.positions,
+                                                                           .triangles = c.mesh.triangles,
+                                                                           .sides = c.sides,
+                                                                           .deforms = c.deforms,
+                                                                           .layers = layer}));
+        cloth::Grid grid = tests::stretched_sheet(20, 20);
+        grid.layers = layer;
+        sheets.push_back(engine::take(harness.solver.add_cloth(grid)));
+        layer <<= 1;
+    }
+    harness.upload();
+    harness.step({.duration = 1e-6f, .substeps = 1}); // refits what may deform
+    const std::vector<glm::vec4> away(400, glm::vec4(5, 0, 0, 1));
+    for (const cloth::ClothId sheet : sheets)
+        harness.set_positions(sheet, away);
+    for (size_t i = 0; i < std::size(cases); ++i)
+    {
+        const Case& c = cases[i];
+        CAPTURE(c.name);
+        const auto exact = engine::take(
+            cloth::MeshDistance::create({.positions = c.mesh.positions, .triangles = c.mesh.triangles}));
+        std::vector<glm::vec4> points = away;
+        uint32_t inside = 0;
+        double deepest = 0;
+        for (glm::vec4& p : points)
+        {
+            double distance = 0;
+            do
+            {
+                p = {within(random), within(random), within(random), p.w};
+                distance = std::abs(exact.nearest(glm::dvec3(p)).signed_distance);
+            } while (distance < 1e-5);
+            const double winding = winding_number(c.mesh, glm::dvec3(p));
+            CHECK(std::abs(exact.winding_number(glm::dvec3(p)) - winding) < 1e-9);
+            if (!c.has_inside || (c.either_sign ? std::abs(winding) : winding) < 0.5)
+                continue;
+            ++inside;
+            deepest = std::max(deepest, distance);
+        }
+        harness.set_positions(sheets[i], points);
+        const cloth::Statistics found = harness.statistics();
+        CHECK(found.penetrating_vertices == inside);
+        CHECK(static_cast<double>(found.deepest_penetration) == doctest::Approx(deepest).epsilon(1e-5));
+        CHECK((inside > 5) == (c.has_inside && c.name != "bowl turned, with one side"));
+        harness.set_positions(sheets[i], away);
+    }
 }
 
 TEST_CASE("values that are not finite are counted, and do not spoil the other sums")

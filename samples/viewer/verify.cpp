@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace viewer
 {
@@ -46,18 +47,27 @@ double formula_depth(const Solid& solid, const glm::dvec3& p)
     return box_depth(std::get<BoxShape>(solid.shape), p);
 }
 
-// A mesh whose inside is where it winds around a point.
-Depth winding_depth(const Distance& distance)
+// Where an open mesh with two sides winds around a point, whichever way its triangles face; else where they face outwards.
+bool is_inside(const cloth::MeshDistance& distance, bool two_sided, const glm::dvec3& p)
 {
-    return [distance](const glm::dvec3& p, const glm::dvec3&)
+    const double winding = distance.winding_number(p);
+    return (two_sided && !distance.closed() ? std::abs(winding) : winding) > 0.5;
+}
+
+// Inside a mesh; if it was given two sides, where a vertex did not start.
+Depth winding_depth(const Distance& distance, const Distance& at_start, std::optional<MeshSides> sides)
+{
+    return [=](const glm::dvec3& p, const glm::dvec3& start)
     {
-        const bool inside = std::abs(distance->winding_number(p)) > 0.5;
-        return inside ? std::abs(distance->nearest(p).signed_distance) : 0;
+        const bool two_sided = sides != MeshSides::one;
+        const bool solid = sides != MeshSides::two || !is_inside(*at_start, two_sided, start);
+        const bool inside = is_inside(*distance, two_sided, p);
+        return inside == solid ? std::abs(distance->nearest(p).signed_distance) : 0;
     };
 }
 
-// A mesh with two sides, of which the one where its triangles face is free, or the one where a vertex started as the
-// mesh was `at_start`, which may be null.
+// An open mesh whose triangles face one way: the side where they face is free, or the one where a vertex started as the mesh
+// was `at_start`, which may be null.
 Depth side_depth(const Distance& distance, const Distance& at_start)
 {
     return [distance, at_start](const glm::dvec3& p, const glm::dvec3& start)
@@ -90,9 +100,9 @@ gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* 
         return now.error();
     const Distance& start = first.value();
     const Distance& distance = now.value();
-    if (distance->closed() || solid.sides == MeshSides::one)
-        return side_depth(distance, solid.sides == MeshSides::two ? start : nullptr);
-    return distance->has_sides() && start->has_sides() ? side_depth(distance, start) : winding_depth(distance);
+    if (!distance->closed() && distance->has_sides() && start->has_sides())
+        return side_depth(distance, solid.sides == MeshSides::one ? nullptr : start);
+    return winding_depth(distance, start, solid.sides);
 }
 
 gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)

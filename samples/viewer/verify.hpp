@@ -14,11 +14,11 @@ struct Verification
     uint64_t self_intersections = 0;   // pairs of a cloth's triangles that cut each other
 };
 
-// Solids are where the stage has moved them to, as it has deformed them; a cloth is held against those of its layers. A
-// closed mesh is solid inside, a plane below; a mesh with one side behind its triangles, one with two where a vertex
-// did not start. An open mesh whose triangles face one way (a ground) is solid on the side where a cloth's vertices did
-// not start; past its border it says nothing. In any other open mesh, inside is where it winds around a point by more
-// than a half; a vertex may have come there through an opening.
+// Solids are where the stage has moved them to, as it has deformed them; a cloth is held against those of its layers. What
+// is inside a solid is what cloth::Statistics says, and where that has no inside, where a vertex started decides: of a
+// closed mesh with two sides, the other side of it is solid; of an open mesh whose triangles all face one way (a ground),
+// the other side, or with one side the back; past its border that says nothing. A vertex may have come into an open mesh
+// through the opening, and counts.
 gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
                                  const std::vector<FinalCloth>& state);
 

@@ -11,7 +11,6 @@
 
 layout(local_size_x_id = 0) in;
 const uint COLLIDERS_MOVE = 1;
-const uint COLLIDERS_CONVEX = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
@@ -34,27 +33,9 @@ layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
-#include "contact_query.glsl"
+#include "convex.glsl"
 #include "fine_position.glsl"
-
-void take_leaf(uint first, uint count)
-{
-    for (uint t = first; t < first + count; ++t)
-        visit_triangle(t);
-}
-#include "bvh.glsl"
-#include "padded.glsl"
-
-void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
-{
-    if (is_deforming(collider.flags))
-    {
-        visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
-        return;
-    }
-    visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
-}
-
+#include "solid_query.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
 #include "statistics_merge.glsl"
@@ -101,17 +82,38 @@ void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
     }
 }
 
-void measure_penetration(vec3 x, float thickness, inout StatisticsRecord record)
+// Whether the generalized winding number says that a point is inside a mesh: of a closed one it is the signed crossings of a line,
+// and counts where the mesh pushes outwards; an open one with two sides may face either way. Outside of the box no mesh fills half
+// of all directions.
+bool is_in_mesh(uint c, ColliderRecord collider, vec3 place)
 {
+    if ((collider.flags & VOILE_COLLIDER_HOLLOW) != 0 || !in_box(collider, place))
+        return false;
+    if ((collider.flags & VOILE_COLLIDER_CLOSED) != 0)
+        return line_winding(c, collider, place, 1) > 0;
+    const float winding = generalized_winding(c, collider, place);
+    return ((collider.flags & VOILE_COLLIDER_ONE_SIDED) != 0 ? winding : abs(winding)) > 0.5;
+}
+
+// m: how deep a point is in a collider; 0 or less: it is not inside.
+float depth_in(uint c, ColliderRecord collider, vec3 place)
+{
+    if (collider.kind == VOILE_COLLIDER_PLANE)
+        return -plane_surface(collider, place).distance;
+    if (collider.kind != VOILE_COLLIDER_MESH)
+        return -convex_surface(collider, place).distance;
+    return is_in_mesh(c, collider, place) ? nearest_distance(c, collider, place, 3e38) : 0;
+}
+
+void measure_penetration(vec3 x, uint layers, inout StatisticsRecord record)
+{
+    solid_at_end = true;
     float depth = 0;
     for (uint c = 0; c < push.colliders; ++c)
     {
         const ColliderRecord collider = colliders[c];
-        const vec3 place = is_moved(collider.flags) ? to_collider(pose_at(c, 1), x) : x;
-        const Contact contact =
-            find_contact(c, collider, VOILE_METHOD_NEAREST_POINT, place, place, vec3(0), thickness);
-        if (contact.found)
-            depth = max(depth, -contact.gap);
+        if ((collider.layers & layers) != 0)
+            depth = max(depth, depth_in(c, collider, is_moved(collider.flags) ? to_collider(pose_at(c, 1), x) : x));
     }
     record.deepest_penetration = depth;
     record.penetrating_vertices = depth > 0 ? 1 : 0;
@@ -143,8 +145,7 @@ void main()
                 measure_grid_springs(self, record);
             else
                 measure_mesh_springs(cloth, self.local, record);
-            query_layers = cloths[cloth].layers;
-            measure_penetration(x.xyz, cloths[cloth].thickness, record);
+            measure_penetration(x.xyz, cloths[cloth].layers, record);
             if (push.colliders > 0)
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;

@@ -178,4 +178,49 @@ std::optional<NearestPoint> nearest_point(const Bvh& bvh, const glm::dvec3& p, d
     return best;
 }
 
+namespace
+{
+
+// How the edge from a to b counts for the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards.
+int edge_winding(const glm::dvec2& a, const glm::dvec2& b)
+{
+    const double left = a.x * b.y;
+    const double right = b.x * a.y;
+    if (a.y <= 0 && b.y > 0 && left > right)
+        return 1;
+    return a.y > 0 && b.y <= 0 && left < right ? -1 : 0;
+}
+
+// Of the part of a triangle above the origin (Sunday 2001, "Inclusion of a point in a polygon").
+int winding_above(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+    const glm::dvec2 pa(a.z, a.x);
+    const glm::dvec2 pb(b.z, b.x);
+    const glm::dvec2 pc(c.z, c.x);
+    const int winding = edge_winding(pa, pb) + edge_winding(pb, pc) + edge_winding(pc, pa);
+    if (winding == 0)
+        return 0;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const auto [lowest, highest] = std::minmax({a.y, b.y, c.y});
+    const double height = normal.y == 0 ? lowest : std::clamp(glm::dot(a, normal) / normal.y, lowest, highest);
+    return height > 0 ? winding : 0;
+}
+
+} // namespace
+
+int line_winding(const Bvh& bvh, const glm::dvec3& p)
+{
+    const auto entry = [&](const glm::dvec3& min, const glm::dvec3& max)
+    {
+        const bool reached = min.x <= p.x && p.x <= max.x && min.z <= p.z && p.z <= max.z && p.y <= max.y;
+        return reached ? 0 : k_miss;
+    };
+    int winding = 0;
+    traverse(
+        bvh, entry, [] { return 0; },
+        [&](const shared::BvhTriangle& t)
+        { winding += winding_above(glm::dvec3(t.a) - p, glm::dvec3(t.b) - p, glm::dvec3(t.c) - p); });
+    return winding;
+}
+
 } // namespace cloth

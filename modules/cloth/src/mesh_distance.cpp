@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <unordered_map>
 
@@ -166,15 +167,12 @@ MeshDistance::Nearest MeshDistance::nearest(const glm::dvec3& point) const
 
 double MeshDistance::winding_number(const glm::dvec3& point) const
 {
-    const shared::BvhNode& root = state_->bvh.nodes[0];
-    const glm::dvec3 min = glm::min(root.left_min, root.right_min);
-    const glm::dvec3 max = glm::max(root.left_max, root.right_max);
-    if (!glm::all(glm::greaterThanEqual(point, min)) || !glm::all(glm::lessThanEqual(point, max)))
-        return 0;
+    if (state_->mesh.closed)
+        return line_winding(state_->bvh, point);
     double angles = 0;
     for (const shared::BvhTriangle& t : state_->bvh.triangles)
         angles += solid_angle(glm::dvec3(t.a) - point, glm::dvec3(t.b) - point, glm::dvec3(t.c) - point);
-    return angles / (4 * 3.14159265358979);
+    return angles / (4 * std::numbers::pi);
 }
 
 std::optional<double> MeshDistance::crossing(const glm::dvec3& from, const glm::dvec3& to) const

@@ -34,13 +34,15 @@ public:
         bool on_boundary = false;   // nearest to an edge that only one triangle has: the sign means little there
     };
     // The nearest point of the mesh, its sign from the angle-weighted normal of the feature that the point lies on
-    // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal").
+    // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal"). Of a mesh that
+    // cuts itself, or has parts in each other, the sign says on which side of that triangle the point is; what is
+    // inside, winding_number says.
     [[nodiscard]] Nearest nearest(const glm::dvec3& point) const;
 
     // How often the mesh winds around the point: 1 inside a closed mesh, 0 outside, near these inside and outside of
-    // one with small holes, negative where it is inside out (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust
-    // inside-outside segmentation using generalized winding numbers"). Looks at every triangle; 0 outside the mesh's
-    // box.
+    // one with small holes, negative where it is inside-out (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust
+    // inside-outside segmentation using generalized winding numbers"). Of a closed mesh a whole number, also where it
+    // cuts itself, and found by the hierarchy; an open one takes a look at every triangle.
     [[nodiscard]] double winding_number(const glm::dvec3& point) const;
 
     // Where the segment first crosses the mesh, as a fraction of its length.
