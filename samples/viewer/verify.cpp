@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 
 namespace viewer
 {
@@ -47,22 +46,14 @@ double formula_depth(const Solid& solid, const glm::dvec3& p)
     return box_depth(std::get<BoxShape>(solid.shape), p);
 }
 
-// Where an open mesh with two sides winds around a point, whichever way its triangles face; else where they face outwards.
-bool is_inside(const cloth::MeshDistance& distance, bool two_sided, const glm::dvec3& p)
-{
-    const double winding = distance.winding_number(p);
-    return (two_sided && !distance.closed() ? std::abs(winding) : winding) > 0.5;
-}
-
-// Inside a mesh; if it was given two sides, where a vertex did not start.
-Depth winding_depth(const Distance& distance, const Distance& at_start, std::optional<MeshSides> sides)
+// Inside a mesh; with two sides, where a vertex did not start, as the mesh was `at_start`.
+Depth winding_depth(const Distance& distance, const Distance& at_start, bool two_sided)
 {
     return [=](const glm::dvec3& p, const glm::dvec3& start)
     {
-        const bool two_sided = sides != MeshSides::one;
-        const bool solid = sides != MeshSides::two || !is_inside(*at_start, two_sided, start);
-        const bool inside = is_inside(*distance, two_sided, p);
-        return inside == solid ? std::abs(distance->nearest(p).signed_distance) : 0;
+        const bool free = two_sided && at_start->winding_number(start) > 0.5;
+        const bool inside = distance->winding_number(p) > 0.5;
+        return inside != free ? std::abs(distance->nearest(p).signed_distance) : 0;
     };
 }
 
@@ -102,7 +93,9 @@ gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* 
     const Distance& distance = now.value();
     if (!distance->closed() && distance->has_sides() && start->has_sides())
         return side_depth(distance, solid.sides == MeshSides::one ? nullptr : start);
-    return winding_depth(distance, start, solid.sides);
+    if (!distance->closed() && solid.sides != MeshSides::one) // a bowl may hold cloth
+        return Depth([](const glm::dvec3&, const glm::dvec3&) { return 0.0; });
+    return winding_depth(distance, start, solid.sides == MeshSides::two);
 }
 
 gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)

@@ -37,6 +37,18 @@
 // Where the votes of cloths begin in the buffer of the size of the recovery's dispatch (recover.comp), in words.
 #define VOILE_RECOVERY_VOTES 4
 
+// The colliders near a chunk (collider_reach.comp), in words: the box in which the list holds, where its bits begin and end that
+// are not 0, in words of them, and then the bits, one per collider.
+#define VOILE_NEAR_MIN 0
+#define VOILE_NEAR_FIRST 3
+#define VOILE_NEAR_MAX 4
+#define VOILE_NEAR_END 7
+#define VOILE_NEAR_WORDS 8
+// How many substeps lie between two looks at which colliders are near,
+#define VOILE_NEAR_PERIOD 16
+// and how many colliders there are at most without.
+#define VOILE_NEAR_FEW 8
+
 // How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
 #define VOILE_CANDIDATES 23
 // the words of its list,
@@ -52,7 +64,6 @@
 #define VOILE_COLLIDER_ONE_SIDED 4u // a mesh pushes to the side its triangles face; else to where a vertex came from
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
 #define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
-#define VOILE_COLLIDER_HOLLOW 32u   // a mesh that was given two sides: it has no inside
 // The number of the substep in which a list of candidates was made, and their count: one word.
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
@@ -245,6 +256,18 @@ struct ContactPush
     uint vertices;      // of all cloths
     uint features;      // 1: colliders have corners or edges that may have met vertices
     uint recovers;      // 1: colliders have an inside, from which vertices are brought out
+    uint near_stride;   // words per chunk of near colliders; 0: there are no lists
+};
+
+// Push constants of the look at which colliders are near.
+struct ColliderReachPush
+{
+    float time;   // s, to the next look
+    float sudden; // m/s, that a vertex at rest may come to have until then
+    float progress_per_substep;
+    uint colliders;
+    uint features; // 1: colliders have corners or edges that may meet the cloth
+    uint near_stride;
 };
 
 // How a vertex comes out of a collider that it was inside of at the start of the step.
@@ -259,6 +282,7 @@ struct RecoverPush
 {
     float step; // s, of the whole step
     uint colliders;
+    uint near_stride;
 };
 
 // Push constants of the passes over pins, holds and tethers.
@@ -308,6 +332,7 @@ struct StrainPush
 struct StatisticsPush
 {
     uint colliders;
+    uint near_stride;
 };
 
 struct StatisticsReducePush

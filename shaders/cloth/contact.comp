@@ -6,7 +6,7 @@
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
-// own previous state, residuals of both, the way out of what the vertex is inside of.
+// own previous state, residuals of both, the way out of what the vertex is inside of, the colliders near a chunk.
 // Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -42,6 +42,7 @@ layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorre
 layout(set = 0, binding = 20, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(set = 0, binding = 21, std430) buffer Residuals { uvec2 residuals[]; };
 layout(set = 0, binding = 22, std430) readonly buffer Depenetrations { Depenetration depenetrations[]; };
+layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -62,6 +63,7 @@ float contact_slop(vec3 x, float thickness)
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "vertex_normal.glsl"
 #include "collider_pose.glsl"
+#include "near_colliders.glsl"
 #include "contact_query.glsl"
 #include "contact_candidates.glsl"
 #include "fine_position.glsl"
@@ -237,6 +239,11 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
 
+ColliderWalk walk_path(Motion motion)
+{
+    return walk_colliders(gl_WorkGroupID.x, min(motion.from, motion.x), max(motion.from, motion.x));
+}
+
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
 // round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
 // so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
@@ -244,14 +251,24 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
 Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
 {
     Meeting meeting = Meeting(false, false);
-    for (uint k = 0; k < 2 * push.colliders; ++k)
+    bool last = false;
+    ColliderWalk walk = walk_path(motion);
+    while (true)
     {
-        const bool last = k >= push.colliders;
-        if (last && (!meeting.touches || meeting.stays_out))
-            break;
-        const uint c = last ? k - push.colliders : k;
-        if (c != inside)
-            meet(motion, c, last, cloth, meeting);
+        uint c;
+        if (!next_collider(walk, c))
+        {
+            if (last || !meeting.touches || meeting.stays_out)
+                break;
+            last = true;
+            walk = walk_path(motion);
+            continue;
+        }
+        if (c == inside)
+            continue;
+        meet(motion, c, last, cloth, meeting);
+        if (meeting.touches)
+            keep_walking(walk, c, motion.x);
     }
     return meeting;
 }

@@ -8,8 +8,8 @@
 //   - where more are near than the list holds with no margin at all, every substep traverses, and renewals try again.
 // A moving collider has the list of the place where the vertex was, in the collider's space, when the list was made; it holds
 // within the step in which that was. So does the list of a deforming one, whose boxes cover all of the step.
-// The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl and
-// collider_pose.glsl before.
+// The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl,
+// collider_pose.glsl and near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
@@ -211,7 +211,9 @@ bool serves_moving(vec3 from, vec3 to, float reach, inout float way)
     if (COLLIDERS_MOVE == 0)
         return true;
     bool serves = true;
-    for (uint c = 0; c < push.colliders; ++c)
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from, to), max(from, to));
+    uint c;
+    while (next_collider(walk, c))
     {
         const uint flags = colliders[c].flags;
         if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH)
@@ -240,7 +242,10 @@ void collect_triangles()
 {
     candidates.count = 0;
     candidates.collect = true;
-    for (uint c = 0; c < push.colliders; ++c)
+    ColliderWalk walk =
+        walk_colliders(gl_WorkGroupID.x, candidates.place - candidates.cover, candidates.place + candidates.cover);
+    uint c;
+    while (next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if (collider.kind != VOILE_COLLIDER_MESH)

@@ -33,12 +33,14 @@ layout(set = 0, binding = 11, std430) readonly buffer FeatureSets { FeatureSet f
 layout(set = 0, binding = 12, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
 layout(set = 0, binding = 13, std430) readonly buffer Features { Feature features[]; };
 layout(set = 0, binding = 14, std430) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
+layout(set = 0, binding = 15, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
 #include "friction.glsl"
+#include "near_colliders.glsl"
 #include "mesh.glsl"
 #include "feature_pieces.glsl"
 #include "feature_meeting.glsl"
@@ -107,7 +109,10 @@ void visit_colliders(uint part, uint parts)
     if (self.place.w == 0)
         return;
     const vec2 fabric_friction = vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
-    for (uint c = 0; c < push.colliders; ++c)
+    ColliderWalk walk = walk_colliders(near_chunks[gl_WorkGroupID.x], min(self.earlier, self.place.xyz),
+                                       max(self.earlier, self.place.xyz));
+    uint c;
+    while (next_collider(walk, c))
         visit_collider(c, fabric_friction, part, parts);
 }
 

@@ -56,6 +56,7 @@ struct FeatureReachPush
     float progress_from; // 0..1, of the step at its start
     float progress_to;   // and at its end
     uint colliders;
+    uint near_stride;
 };
 
 // Push constants of the pass over features.
@@ -66,6 +67,7 @@ struct FeaturePush
     float progress_to;   // and at its end
     uint colliders;
     uint substep; // counted through all steps
+    uint near_stride;
 };
 
 VOILE_SHARED_END

@@ -22,11 +22,13 @@ layout(set = 0, binding = 6, std430) readonly buffer FeatureSets { FeatureSet fe
 layout(set = 0, binding = 7, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
 layout(set = 0, binding = 8, std430) buffer Dispatch { uint dispatch_size[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer NearChunks { uint near_chunks[]; };
+layout(set = 0, binding = 10, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { FeatureReachPush push; };
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
+#include "near_colliders.glsl"
 
 shared uint near_vertices;
 bool is_near = false;
@@ -77,7 +79,9 @@ void main()
     if (place.w > 0)
     {
         const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
-        for (uint c = 0; c < push.colliders; ++c)
+        ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, place.xyz - margin, place.xyz + margin);
+        uint c;
+        while (next_collider(walk, c))
             if (feature_sets[c].features > 0)
                 look(c, self.cloth, place.xyz, margin);
     }

@@ -33,12 +33,14 @@ layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 
 
 layout(set = 0, binding = 12, std430) buffer NextDispatch { uint next_dispatch[]; }; // then a vote per cloth
 layout(set = 0, binding = 13, std430) readonly buffer LastDispatch { uint last_dispatch[]; };
+layout(set = 0, binding = 14, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
 #include "convex.glsl"
+#include "near_colliders.glsl"
 #include "solid_query.glsl"
 
 // m/s, along the way out: with its own velocity (contact.comp) a vertex goes at 1.8 m/s at most.
@@ -90,7 +92,9 @@ bool obstructs(uint c, ColliderRecord collider, vec3 from, vec3 to)
 
 bool leads_out(vec3 from, vec3 to, uint layers)
 {
-    for (uint c = 0; c < push.colliders; ++c)
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from, to), max(from, to));
+    uint c;
+    while (next_collider(walk, c))
         if ((colliders[c].layers & layers) != 0 && obstructs(c, colliders[c], from, to))
             return false;
     return true;
@@ -202,7 +206,9 @@ Depenetration find_depenetration(uint i, uint cloth)
 {
     const vec4 x = positions[i];
     const uint layers = cloths[cloth].layers;
-    for (uint c = 0; c < push.colliders && x.w > 0; ++c)
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x.xyz, x.xyz);
+    uint c;
+    while (x.w > 0 && next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if (!is_solid(collider) || (collider.layers & layers) == 0)

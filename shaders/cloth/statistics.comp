@@ -28,6 +28,7 @@ layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox pa
 layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
+layout(set = 0, binding = 16, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
@@ -35,6 +36,7 @@ layout(push_constant, std430) uniform Push { StatisticsPush push; };
 #include "collider_pose.glsl"
 #include "convex.glsl"
 #include "fine_position.glsl"
+#include "near_colliders.glsl"
 #include "solid_query.glsl"
 #include "grid.glsl"
 #include "mesh.glsl"
@@ -82,17 +84,15 @@ void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
     }
 }
 
-// Whether the generalized winding number says that a point is inside a mesh: of a closed one it is the signed crossings of a line,
-// and counts where the mesh pushes outwards; an open one with two sides may face either way. Outside of the box no mesh fills half
-// of all directions.
+// Whether the generalized winding number says that a point is inside a mesh with one side; one with two has no inside. Of a closed
+// mesh it is the signed crossings of a line. Outside of its box no mesh fills half of all directions.
 bool is_in_mesh(uint c, ColliderRecord collider, vec3 place)
 {
-    if ((collider.flags & VOILE_COLLIDER_HOLLOW) != 0 || !in_box(collider, place))
+    if ((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(collider, place))
         return false;
     if ((collider.flags & VOILE_COLLIDER_CLOSED) != 0)
         return line_winding(c, collider, place, 1) > 0;
-    const float winding = generalized_winding(c, collider, place);
-    return ((collider.flags & VOILE_COLLIDER_ONE_SIDED) != 0 ? winding : abs(winding)) > 0.5;
+    return generalized_winding(c, collider, place) > 0.5;
 }
 
 // m: how deep a point is in a collider; 0 or less: it is not inside.
@@ -109,7 +109,9 @@ void measure_penetration(vec3 x, uint layers, inout StatisticsRecord record)
 {
     solid_at_end = true;
     float depth = 0;
-    for (uint c = 0; c < push.colliders; ++c)
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x, x);
+    uint c;
+    while (next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if ((collider.layers & layers) != 0)

@@ -48,6 +48,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.recover_dispatch[0], "cloth recover dispatch a", recovery_bytes},
         {&state.recover_dispatch[1], "cloth recover dispatch b", recovery_bytes},
         {&state.depenetrations, "cloth depenetrations", model.positions.size() * sizeof(shared::Depenetration)},
+        {&state.near_colliders, "cloth near colliders", chunk_count * state.near_stride * sizeof(uint32_t)},
         {&state.start, "cloth start", per_vertex},
         {&state.start_residuals, "cloth start residuals", per_residual},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
@@ -78,6 +79,14 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         *request.buffer = std::move(buffer.value());
     }
     return {};
+}
+
+// Words per chunk of the lists of near colliders; none for a few colliders, nor where the lists would be too large.
+uint32_t near_stride(uint32_t colliders, uint32_t chunks, uint64_t max_bytes)
+{
+    const uint32_t stride = VOILE_NEAR_WORDS + (colliders + 31) / 32;
+    const bool fits = uint64_t{chunks} * stride * sizeof(uint32_t) <= max_bytes;
+    return colliders > VOILE_NEAR_FEW && fits ? stride : 0;
 }
 
 // Binds `buffers` to `kernel` and stores the set; keeps the first error.
@@ -151,16 +160,22 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.feature_corrections.handle(),
                  s.stage_b.residuals.handle(),
                  s.state.residuals.handle(),
-                 s.depenetrations.handle()});
+                 s.depenetrations.handle(),
+                 s.near_colliders.handle()});
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
-                 s.feature_dispatch.handle(), s.feature_chunks.handle()});
+                 s.feature_dispatch.handle(), s.feature_chunks.handle(), s.near_colliders.handle()});
     binder.bind(s.feature_contact, kernels.feature_contact,
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
                  s.feature_corrections.handle(), s.feature_chunks.handle(), s.sums.velocities.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(), s.collider_motions.handle(),
-                 s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle()});
+                 s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle(),
+                 s.near_colliders.handle()});
+    binder.bind(s.collider_reach, kernels.collider_reach,
+                {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                 s.colliders.handle(), s.collider_motions.handle(), s.padded_boxes.handle(), s.feature_sets.handle(),
+                 s.near_colliders.handle()});
 }
 
 gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::Buffer& statistics)
@@ -213,7 +228,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                     {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.depenetrations.handle(),
                      s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
                      s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                     s.deforming_positions.handle(), s.recover_dispatch[i].handle(), s.recover_dispatch[1 - i].handle()});
+                     s.deforming_positions.handle(), s.recover_dispatch[i].handle(), s.recover_dispatch[1 - i].handle(),
+                     s.near_colliders.handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});
@@ -225,7 +241,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                  s.colliders.handle(), s.nodes.handle(), s.triangles.handle(), s.partials.handle(),
                  s.mesh_vertices.handle(), s.mesh_springs.handle(), s.collider_motions.handle(),
                  s.candidate_triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                 s.deforming_positions.handle(), s.state.residuals.handle()});
+                 s.deforming_positions.handle(), s.state.residuals.handle(), s.near_colliders.handle()});
     binder.bind(s.statistics_reduce, kernels.statistics_reduce, {s.partials.handle(), statistics.handle()});
     return binder.status;
 }
@@ -247,9 +263,10 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.feature_count = static_cast<uint32_t>(data.features.features.size());
     state.cloth_count = static_cast<uint32_t>(model.cloths.size());
     state.collider_count = static_cast<uint32_t>(model.colliders.size());
+    state.near_stride = near_stride(state.collider_count, state.chunk_count, model.max_buffer_bytes);
     if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 27;
+    constexpr uint32_t k_sets = 28;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_storage_buffers);
     if (!pool)
         return pool.error();

@@ -44,6 +44,7 @@ struct DeviceState
     std::array<gpu::Buffer, 2>
         recover_dispatch; // workgroups that look for vertices inside of colliders, of this step and the next
     gpu::Buffer depenetrations; // how these come out
+    gpu::Buffer near_colliders; // of each chunk, if there are many
     gpu::Buffer start;    // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
@@ -75,6 +76,7 @@ struct DeviceState
     VkDescriptorSet strain_forth{}; // stage A to stage B
     VkDescriptorSet edit{};
     VkDescriptorSet contact{}; // from stage B
+    VkDescriptorSet collider_reach{};
     VkDescriptorSet feature_reach{};
     VkDescriptorSet feature_contact{};        // corrections of stage B
     std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
@@ -91,6 +93,7 @@ struct DeviceState
     uint32_t rk4_chunks = 0;  // the first ones
     uint32_t cloth_count = 0; // of the model's, the first ones
     uint32_t collider_count = 0;
+    uint32_t near_stride = 0; // words per chunk of near_colliders; 0: there are few colliders, and no lists
     uint32_t feature_count = 0;
     uint32_t anchor_capacity = 0;
     uint32_t hold_capacity = 0;

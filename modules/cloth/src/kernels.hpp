@@ -12,7 +12,7 @@ namespace cloth
 
 struct SolverOptions;
 
-constexpr uint32_t k_most_storage_buffers = 23; // of a kernel: contact's
+constexpr uint32_t k_most_storage_buffers = 24; // of a kernel: contact's
 
 struct Kernels
 {
@@ -26,6 +26,7 @@ struct Kernels
     gpu::Kernel contact;        // with meshes and planes
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
+    gpu::Kernel collider_reach;
     gpu::Kernel feature_reach;
     gpu::Kernel feature_reach_moving;
     gpu::Kernel feature_contact;

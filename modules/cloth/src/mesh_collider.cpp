@@ -75,8 +75,6 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
         record.flags |= VOILE_COLLIDER_CLOSED;
     if (collider.sides == Sides::one || (collider.sides == Sides::automatic && mesh.value().closed))
         record.flags |= VOILE_COLLIDER_ONE_SIDED;
-    if (collider.sides == Sides::two)
-        record.flags |= VOILE_COLLIDER_HOLLOW;
     if (collider.deforms)
         return append_deforming(record, mesh.value(), collider.transform);
     const auto hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles);

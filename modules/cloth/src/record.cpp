@@ -62,7 +62,7 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    const shared::RecoverPush push{step.duration, device.collider_count};
+    const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride};
     const bool periodic = solver.recovery_step % k_recovery_period == 0;
     const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
     const size_t now = solver.recovery_step++ % 2;
@@ -108,6 +108,8 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     fill(device.candidate_triangles, 0);
     fill(device.feature_corrections, VOILE_NO_SUBSTEP);
     fill(device.depenetrations, 0);
+    constexpr uint32_t k_not_a_number = 0xffffffff; // no place is in a box of these
+    fill(device.near_colliders, k_not_a_number);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
 }
@@ -128,9 +130,11 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     begin_scope(recorder);
     state_->recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
-    record_recovery(recorder, *state_, step);
     const uint32_t substeps = State::substeps(*this, step);
-    SubstepRecorder(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps)).record();
+    SubstepRecorder passes(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps));
+    passes.record_collider_reach(0);
+    record_recovery(recorder, *state_, step);
+    passes.record();
     record_normals(recorder, *state_);
     end_scope(recorder);
     state_->lifetime.end(recorder.cmd());
@@ -151,7 +155,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
     state_->lifetime.begin(cmd);
     begin_scope(recorder);
     recorder.dispatch(kernels.statistics, device.statistics, device.chunk_count * group, group,
-                      shared::StatisticsPush{device.collider_count});
+                      shared::StatisticsPush{device.collider_count, device.near_stride});
     recorder.dispatch(kernels.statistics_reduce, device.statistics_reduce, group, group,
                       shared::StatisticsReducePush{device.chunk_count, slot});
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
@@ -177,7 +181,9 @@ uint32_t Solver::dispatches(const Step& step) const
         strain = 1 + ((levels * (k_strain_passes + 1) - 1) | 1u);
     }
     const uint32_t substeps = State::substeps(*this, step);
-    const uint32_t looks = passes.features ? (substeps + VOILE_FEATURE_PERIOD - 1) / VOILE_FEATURE_PERIOD : 0;
+    const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
+    const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +
+                           (device.near_stride > 0 ? looks_every(VOILE_NEAR_PERIOD) : 0);
     return substeps * a_substep + (verlet ? 1 : 0) + looks + strain + (passes.recover ? 1 : 0) + 1;
 }
 

@@ -45,6 +45,8 @@ void SubstepRecorder::record()
 {
     for (uint32_t substep = 0; substep < substeps_; ++substep)
     {
+        if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
+            record_collider_reach(substep);
         if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
             record_feature_reach(substep);
         const shared::StagePush push = make_push(substep);
@@ -127,15 +129,33 @@ float SubstepRecorder::progress(uint32_t substeps_done) const
     return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
 }
 
+// What something hits or drags becomes no faster than what moves, or than this.
+float SubstepRecorder::sudden_speed() const
+{
+    constexpr float k_sudden = 10; // m/s
+    return std::max(k_sudden, solver_.farthest_motion / step_.duration);
+}
+
+void SubstepRecorder::record_collider_reach(uint32_t substep)
+{
+    if (device_.near_stride == 0)
+        return;
+    const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
+    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep),
+                                         sudden_speed(),
+                                         1 / static_cast<float>(substeps_),
+                                         device_.collider_count,
+                                         solver_.passes.features ? 1u : 0u,
+                                         device_.near_stride};
+    recorder_.dispatch(kernels_.collider_reach, device_.collider_reach, device_.chunk_count * group_, group_, push);
+}
+
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
     clear_dispatch(recorder_, device_.feature_dispatch, solver_.options.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    // What something hits or drags becomes no faster than that, or than this without.
-    constexpr float k_sudden = 10; // m/s
-    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
-                                        std::max(k_sudden, solver_.farthest_motion / step_.duration), progress(substep),
-                                        progress(next), device_.collider_count};
+    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(), progress(substep),
+                                        progress(next), device_.collider_count, device_.near_stride};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
                        device_.feature_reach, device_.chunk_count * group_, group_, push);
     publish_dispatch(recorder_);
@@ -144,7 +164,7 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
 void SubstepRecorder::record_features(uint32_t substep)
 {
     const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count,
-                                   first_substep_ + substep};
+                                   first_substep_ + substep, device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
                                 device_.feature_contact, device_.feature_dispatch.handle(), push);
 }
@@ -164,6 +184,7 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.vertices = device_.vertices;
     push.features = solver_.passes.features ? 1 : 0;
     push.recovers = solver_.passes.recover ? 1 : 0;
+    push.near_stride = device_.near_stride;
     const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
                                 : solver_.passes.convex ? kernels_.contact_convex
                                                         : kernels_.contact;

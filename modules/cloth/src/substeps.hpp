@@ -12,6 +12,9 @@ public:
     SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps,
                     uint32_t first_substep);
 
+    // Which colliders come near which chunks, until the next such look. Nothing where there are few. The first one comes
+    // before whatever else looks for colliders in the step.
+    void record_collider_reach(uint32_t substep);
     // Integration, holds, tethers and contact of each substep, and the strain limit at the end.
     void record();
 
@@ -24,6 +27,7 @@ private:
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Which chunks come near corners and edges of colliders, until the next such look.
     void record_feature_reach(uint32_t substep);
+    [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
     void record_contact(uint32_t substep);
     void record_strain_limit();
