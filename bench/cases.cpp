@@ -212,6 +212,18 @@ constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart
 constexpr uint32_t k_sphere_frames = 90; // 1.5 s
 
 constexpr auto k_nearest = cloth::ContactMethod::nearest_point;
+// Capsules at rest 20 m and more away from a sheet.
+template <uint32_t count>
+Cloths add_far_capsules(cloth::Solver& solver)
+{
+    for (uint32_t i = 0; i < count; ++i)
+    {
+        const glm::vec3 from(20, 0, static_cast<float>(i));
+        (void)engine::take(solver.add_collider(cloth::CapsuleCollider{.from = from, .to = from + glm::vec3(1, 1, 0)}));
+    }
+    return add_drape_sheet<128>(solver);
+}
+
 constexpr auto k_interleaved = cloth::MeshLayout::interleaved;
 constexpr auto k_ray = cloth::ContactMethod::normal_ray;
 
@@ -257,6 +269,9 @@ constexpr Case k_cases[] = {
      add_rough_sphere, k_nearest, k_sphere_frames, true},
     {"thick-sheet", "30 mm thick on a sphere of 1,310,720 triangles of 4 mm", add_thick_sheet, k_nearest,
      k_sphere_frames, true},
+    {"capsules-1", "the drape scene's sheet falls freely, 20 m from a capsule", add_far_capsules<1>},
+    {"capsules-100", "from 100", add_far_capsules<100>},
+    {"capsules-1000", "from 1000", add_far_capsules<1000>},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };

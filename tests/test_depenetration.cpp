@@ -154,7 +154,8 @@ std::vector<Solid> solids()
     return {{"box", cloth::BoxCollider{.min = -k_half, .max = k_half},
              [](const glm::dvec3& p) { return reference::box_distance(-glm::dvec3(k_half), glm::dvec3(k_half), p); }},
             {"sphere", cloth::SphereCollider{.radius = k_radius},
-             [](const glm::dvec3& p) { return reference::sphere_distance({0, 0, 0}, static_cast<double>(k_radius), p); }},
+             [](const glm::dvec3& p)
+             { return reference::sphere_distance({0, 0, 0}, static_cast<double>(k_radius), p); }},
             {"capsule", k_capsule,
              [](const glm::dvec3& p)
              {

@@ -77,7 +77,8 @@ float fastest(const std::vector<glm::vec4>& velocities)
     return speed;
 }
 
-// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of 1 m later, has this.
+// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of 1 m later, has
+// this.
 constexpr float k_calm = 10;
 
 // Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside

@@ -158,7 +158,8 @@ TEST_CASE("inside a mesh is where it winds around a vertex, at any depth")
     };
     std::mt19937 random(9);
     std::uniform_real_distribution<float> within(-0.7f, 0.7f);
-    // All in one solver, each with a cloth on a layer of its own; another solver's kernels would take longer than the rest.
+    // All in one solver, each with a cloth on a layer of its own; another solver's kernels would take longer than the
+    // rest.
     ClothHarness harness;
     std::vector<cloth::ClothId> sheets;
     uint32_t layer = 1;

@@ -1,5 +1,5 @@
-// Paths of vertices against spheres, capsules and boxes: nothing crosses one, at any speed and angle, however thin it is,
-// and nothing is stopped that misses it. What double precision says of each path decides.
+// Paths of vertices against spheres, capsules and boxes: nothing crosses one, at any speed and angle, however thin it
+// is, and nothing is stopped that misses it. What double precision says of each path decides.
 #include "cloth_harness.hpp"
 #include "reference/swept_reference.hpp"
 
@@ -64,8 +64,8 @@ Solid sphere(const std::string& name, float radius)
     return {name, cloth::SphereCollider{.radius = radius}, glm::vec3(0), glm::vec3(0), glm::vec3(radius)};
 }
 
-// A path through the place, at the angle to one of the planes along two axes, as far before it as the speed goes in a part
-// of the substep.
+// A path through the place, at the angle to one of the planes along two axes, as far before it as the speed goes in a
+// part of the substep.
 struct Shot
 {
     glm::vec3 from;

@@ -57,8 +57,8 @@ Depth winding_depth(const Distance& distance, const Distance& at_start, bool two
     };
 }
 
-// An open mesh whose triangles face one way: the side where they face is free, or the one where a vertex started as the mesh
-// was `at_start`, which may be null.
+// An open mesh whose triangles face one way: the side where they face is free, or the one where a vertex started as the
+// mesh was `at_start`, which may be null.
 Depth side_depth(const Distance& distance, const Distance& at_start)
 {
     return [distance, at_start](const glm::dvec3& p, const glm::dvec3& start)

@@ -1,7 +1,8 @@
 // Whether a point lies inside a mesh, how deep, where lines through it leave the mesh, and what a segment crosses.
 //
-// All of this is in the collider's space, at the step's start, or at its end if `solid_at_end`. The including kernel declares `bvh_nodes[]`,
-// `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]`, `deforming_positions[]` and includes collider_pose.glsl before.
+// All of this is in the collider's space, at the step's start, or at its end if `solid_at_end`. The including kernel declares
+// `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]`, `deforming_positions[]` and includes
+// collider_pose.glsl before.
 #ifndef VOILE_SOLID_QUERY_GLSL
 #define VOILE_SOLID_QUERY_GLSL
 

@@ -127,8 +127,8 @@ inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::d
 // m/s: how fast what is under a surface, or nearer to it than the thickness, comes up.
 constexpr double k_recovery_speed = 0.75;
 
-// Ends on the offset surface without approaching it; what was too near before comes up slowly, what was inside no faster and
-// without a velocity of its own. Sticks within the cone of static friction, else slides.
+// Ends on the offset surface without approaching it; what was too near before comes up slowly, what was inside no
+// faster and without a velocity of its own. Sticks within the cone of static friction, else slides.
 inline void respond(const Contact& contact, double thickness, double mu_s, double mu_k, double h,
                     const glm::dvec3& from, glm::dvec3& x, glm::dvec3& v)
 {

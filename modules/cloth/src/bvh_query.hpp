@@ -51,8 +51,8 @@ std::optional<NearestPoint> nearest_point(const Bvh& bvh, const glm::dvec3& p, d
 // The same for one triangle (Ericson 2004, Real-Time Collision Detection, 5.1.5).
 NearestPoint nearest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
-// How often a closed mesh winds around a point: the signed crossings of the line along +y. Both triangles of an edge decide
-// about it to the bit alike.
+// How often a closed mesh winds around a point: the signed crossings of the line along +y. Both triangles of an edge
+// decide about it to the bit alike.
 int line_winding(const Bvh& bvh, const glm::dvec3& p);
 
 } // namespace cloth

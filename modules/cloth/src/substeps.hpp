@@ -12,8 +12,8 @@ public:
     SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps,
                     uint32_t first_substep);
 
-    // Which colliders come near which chunks, until the next such look. Nothing where there are few. The first one comes
-    // before whatever else looks for colliders in the step.
+    // Which colliders come near which chunks, until the next such look. Nothing where there are few. The first one
+    // comes before whatever else looks for colliders in the step.
     void record_collider_reach(uint32_t substep);
     // Integration, holds, tethers and contact of each substep, and the strain limit at the end.
     void record();

@@ -100,13 +100,22 @@ enum class Sides
     two,       // to the side that a vertex comes from: a box that holds cloth in
 };
 
-// Vertices of cloth that are inside a collider at the start of a step come out of it at 1.2 m/s, relative to its surface,
-// as long as they are inside; pins stay. Inside is a sphere, a capsule, a box, or a closed mesh which pushes outwards,
-// where its winding number is above 0. A sheet goes out to one side, along its normals, and leaves at less than 2 m/s.
-// Meanwhile its own motion is slowed down to 0.6 m/s, and a collider carries it along at 0.75 m/s at most. What is under
-// a plane, or nearer to any surface than the thickness at the start of a substep, comes up at 0.75 m/s. Whether any is
-// inside is found out after uploads, edits and snapshots, where colliders move, as long as any is, and every eighth
-// step. A collider that moves onto cloth pushes it at any speed.
+// Vertices of cloth that are inside a collider at the start of a step come out of it at 1.2 m/s, relative to its
+// surface, as long as they are inside; pins stay. Inside is a sphere, a capsule, a box, or a closed mesh which pushes
+// outwards, where its winding number is above 0. A sheet goes out to one side, along its normals, and leaves at less
+// than 2 m/s. Meanwhile its own motion is slowed down to 0.6 m/s, and a collider carries it along at 0.75 m/s at most.
+// What is under a plane, or nearer to any surface than the thickness at the start of a substep, comes up at 0.75 m/s.
+// Whether any is inside is found out after uploads, edits and snapshots, where colliders move, as long as any is, and
+// every eighth step. A collider that moves onto cloth pushes it at any speed.
+
+// Corners and edges of colliders that stand between the vertices of a cloth meet its triangles and edges
+// (SolverOptions::feature_contact). That holds below some 5 m/s. Faster, no vertex goes through a surface, but edges
+// of the cloth may stay through a collider: with 1 mm of thickness and 32 mm between vertices up to 4 on a box of
+// triangles and 10 on a BoxCollider, and at 60 m/s a needle stays through the sheet. Meshes that deform have no corners
+// and edges; only vertices feel them.
+
+// Colliders cost where cloth is near them: with more than 8, it is looked up every 16 substeps which are near which
+// part of a cloth. Planes are near everywhere.
 
 // A triangle mesh. It is closed if every edge is shared by two triangles that agree on it. One open part makes all of
 // it open, and nothing of it is turned. Of a closed one, each part that hangs together by vertices is turned if it is

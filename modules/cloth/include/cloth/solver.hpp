@@ -13,6 +13,7 @@
 //                                            Verlet                 statistics, recovery, drawing
 //   velocities        vec4, w: touches       the same               stage 1, Verlet, feature reach, statistics
 //   depenetrations    Depenetration          recovery               contact
+//   near colliders    words, per chunk       collider reach         all that looks for colliders
 //   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
 //                                            holds, strain limit
 //   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
@@ -98,8 +99,9 @@ struct SolverOptions
                                    // per invocation. A dispatch has at most maxComputeWorkGroupCount of them
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
     ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
-    bool feature_contact = true;  // corners and edges of colliders meet the triangles and edges of cloths. Where
-                                  // vertices alone do not feel one, a substep has a pass more
+    bool feature_contact = true;  // corners and edges of colliders meet the triangles and edges of cloths, at moderate
+                                  // speed (see descriptions.hpp). Where vertices alone do not feel one, a substep has a
+                                  // pass more
     uint32_t feature_threads = 0; // that share the triangles around a vertex there: a power of two up to
                                   // workgroup_size; 0: eight, on CPU devices one
     bool recovery = true; // what is inside a collider at the start of a step is brought out along a smooth field;

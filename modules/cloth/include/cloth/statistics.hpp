@@ -6,14 +6,14 @@
 namespace cloth
 {
 
-// A vertex is inside a sphere, a capsule, a box or the half space below a plane, or inside a mesh with one side (a closed
-// one pushes outwards unless it is told otherwise) where its generalized winding number is above 1/2 (Jacobson et al.
-// 2013). A mesh with two sides has no inside: an open one, unless it is told otherwise, may be a bowl that holds cloth.
-// Depth is the distance to the nearest surface; of a mesh that cuts itself, or whose parts lie in each other, that may be
-// a surface within the solid.
+// A vertex is inside a sphere, a capsule, a box or the half space below a plane, or inside a mesh with one side (a
+// closed one pushes outwards unless it is told otherwise) where its generalized winding number is above 1/2 (Jacobson
+// et al. 2013). A mesh with two sides has no inside: an open one, unless it is told otherwise, may be a bowl that holds
+// cloth. Depth is the distance to the nearest surface; of a mesh that cuts itself, or whose parts lie in each other,
+// that may be a surface within the solid.
 //
-// A closed mesh costs one line through its hierarchy for each vertex in its box, and a search for the nearest triangle for
-// each one inside. An open mesh with one side costs a look at every triangle for each vertex in its box.
+// A closed mesh costs one line through its hierarchy for each vertex in its box, and a search for the nearest triangle
+// for each one inside. An open mesh with one side costs a look at every triangle for each vertex in its box.
 struct Statistics
 {
     float max_stretch = 0;             // max of l / L - 1 over the structural and shear springs, or a mesh's edges
