@@ -190,6 +190,27 @@ TEST_CASE("a substep with planes and spheres equals their formulas")
     }
 }
 
+TEST_CASE("what comes round an edge of a mesh is neither drawn into it nor stopped")
+{
+    const engine::Mesh box = engine::make_box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
+    ClothHarness harness({.feature_contact = false});
+    cloth::Grid grid{.columns = 2, .rows = 2};
+    cloth::Material material; // no springs: each vertex on its own
+    material.thickness = 5e-3f;
+    grid.material = material;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+    (void)engine::take(harness.solver.add_collider(collider(box)));
+    harness.upload();
+    constexpr float k_short_step = 1.f / 600;
+    const glm::vec3 from(0.499f, 0.505f, 0.1f); // over the top; the end is beside it
+    const glm::vec3 way(0.004f, -0.007f, 0);
+    harness.set_positions(id, std::vector(4, glm::vec4(from, 1)));
+    harness.set_velocities(id, std::vector(4, glm::vec4(way / k_short_step, 0)));
+    harness.step({.duration = k_short_step, .substeps = 1, .gravity = glm::vec3(0), .air_density = 0});
+    CHECK(harness.velocities(id)[0].w == 1); // it touches
+    CHECK(glm::distance(glm::vec3(harness.positions(id)[0]), from + way) < 1e-6f);
+}
+
 TEST_CASE("a sheet that drapes over a mesh never enters it")
 {
     const engine::Mesh sphere = engine::make_sphere({0, 0.5f, 0}, 0.5f, 24);

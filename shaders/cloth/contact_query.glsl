@@ -209,7 +209,8 @@ Contact nearest_contact()
         contact.direction = (inside ? -1 : 1) * offset / query.distance;
         contact.gap = inside ? -query.distance : query.distance;
     }
-    contact.start = start_gap(contact);
+    // What is outside now and was under this plane came round an edge.
+    contact.start = contact.gap < 0 ? start_gap(contact) : max(start_gap(contact), 0);
     return contact;
 }
 

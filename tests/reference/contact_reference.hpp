@@ -59,10 +59,12 @@ inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const g
     return result;
 }
 
-// By the plane of the contact.
+// By the plane of the contact; what is outside now and was under that plane came round an edge.
 inline Contact with_start(Contact contact, const glm::dvec3& from, const glm::dvec3& to)
 {
     contact.start = contact.gap - glm::dot(to - from, contact.direction);
+    if (contact.gap >= 0)
+        contact.start = std::max(contact.start, 0.0);
     return contact;
 }
 
