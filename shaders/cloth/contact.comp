@@ -241,7 +241,8 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
 
 ColliderWalk walk_path(Motion motion)
 {
-    return walk_colliders(gl_WorkGroupID.x, min(motion.from, motion.x), max(motion.from, motion.x));
+    const vec3 to = position_of(motion);
+    return walk_colliders(gl_WorkGroupID.x, min(motion.from, to), max(motion.from, to));
 }
 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
@@ -268,7 +269,7 @@ Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
             continue;
         meet(motion, c, last, cloth, meeting);
         if (meeting.touches)
-            keep_walking(walk, c, motion.x);
+            keep_walking(walk, c, position_of(motion));
     }
     return meeting;
 }
@@ -279,7 +280,7 @@ Motion propose(uint i, uint cloth, FinePosition from, vec3 x, out vec4 velocity)
     velocity = proposed_velocities[i];
     Motion motion;
     motion.from = from.x;
-    motion.displacement = displacement(from, FinePosition(x, unpack_residual(x, proposed_residuals[i])));
+    motion.displacement = displacement(from, FinePosition(x, unpack_residual(proposed_residuals[i])));
     motion.cloth = cloth;
     if (push.features != 0 && corrections[i].substep == push.substep)
     {
@@ -299,7 +300,7 @@ void main()
     const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
     const vec3 before = positions[i].xyz;
-    const FinePosition from = FinePosition(before, unpack_residual(before, residuals[i]));
+    const FinePosition from = FinePosition(before, unpack_residual(residuals[i]));
     vec4 proposed_velocity;
     Motion motion = propose(i, cloth, from, proposed.xyz, proposed_velocity);
     bool touches = false;

@@ -49,7 +49,7 @@ void main()
     else if (push.kind == VOILE_EDIT_TRANSFORM)
     {
         const vec3 x = positions[i].xyz;
-        const vec3 residual = unpack_residual(x, residuals[i]);
+        const vec3 residual = unpack_residual(residuals[i]);
         FinePosition next = moved_by(push.transform, FinePosition(x, residual));
         // Scales multiply from call to call: what they make stays within the ranges of the input.
         next.x = clamp(next.x, vec3(-VOILE_MOST_COORDINATE), vec3(VOILE_MOST_COORDINATE));

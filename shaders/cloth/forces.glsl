@@ -92,7 +92,7 @@ bool bends_isometrically(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH
 vec3 delta_to(Gather g, uint other)
 {
     const vec3 x = stage_positions[other].xyz;
-    return displacement(g.x, FinePosition(x, unpack_residual(x, stage_residuals[other])));
+    return displacement(g.x, FinePosition(x, unpack_residual(stage_residuals[other])));
 }
 
 // A neighbour on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring

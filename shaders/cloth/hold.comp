@@ -46,7 +46,7 @@ void main()
     const vec3 to = (anchor.to * vec4(hold.place, 1)).xyz;
     const vec3 place = mix(from, to, push.progress);
     const float h = push.step;
-    const FinePosition here = FinePosition(position.xyz, unpack_residual(position.xyz, residuals[hold.vertex]));
+    const FinePosition here = FinePosition(position.xyz, unpack_residual(residuals[hold.vertex]));
     const vec3 to_vertex = (position.xyz - place) + here.residual;
     vec3 shift = vec3(0); // m, of the vertex
     const vec4 velocity = velocities[hold.vertex];

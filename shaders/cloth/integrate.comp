@@ -36,7 +36,7 @@ const bool VERLET = false;
 FinePosition base_position(uint i)
 {
     const vec3 x = base_positions[i].xyz;
-    return FinePosition(x, unpack_residual(x, base_residuals[i]));
+    return FinePosition(x, unpack_residual(base_residuals[i]));
 }
 
 void write_position(uint i, FinePosition x, float inverse_mass)
@@ -55,7 +55,7 @@ void main()
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
     const vec3 velocity_sum = STAGE == 1 ? vec3(0) : velocity_sums[i].xyz;
-    const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_x.xyz, stage_residuals[i]));
+    const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.

@@ -195,11 +195,11 @@ void main()
         correction.x *= relaxation;
         correction.v *= relaxation;
     }
-    const FinePosition here = FinePosition(x.xyz, unpack_residual(x.xyz, residuals[i]));
+    const FinePosition here = FinePosition(x.xyz, unpack_residual(residuals[i]));
     if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
     {
         const vec3 last = next_positions[i].xyz;
-        correction.x = mix(displacement(here, FinePosition(last, unpack_residual(last, next_residuals[i]))), correction.x,
+        correction.x = mix(displacement(here, FinePosition(last, unpack_residual(next_residuals[i]))), correction.x,
                            push.acceleration);
     }
     const FinePosition next = moved(here, correction.x);

@@ -47,7 +47,7 @@ bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
 FinePosition position_of(uint i)
 {
     const vec3 x = positions[i].xyz;
-    return FinePosition(x, unpack_residual(x, residuals[i]));
+    return FinePosition(x, unpack_residual(residuals[i]));
 }
 
 void measure_spring(uint self, uint other, float rest_length, inout StatisticsRecord record)

@@ -38,7 +38,7 @@ void main()
         return;
     const uint i = self.index;
     const vec4 stage_x = stage_positions[i];
-    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_x.xyz, stage_residuals[i]));
+    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = stage_x.w > 0 ? acceleration(self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
     // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into

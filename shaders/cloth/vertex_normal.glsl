@@ -11,8 +11,8 @@ vec3 vertex_delta(uint from, uint to)
 {
     const vec3 a = VOILE_NORMAL_POSITIONS[from].xyz;
     const vec3 b = VOILE_NORMAL_POSITIONS[to].xyz;
-    return displacement(FinePosition(a, unpack_residual(a, VOILE_NORMAL_RESIDUALS[from])),
-                        FinePosition(b, unpack_residual(b, VOILE_NORMAL_RESIDUALS[to])));
+    return displacement(FinePosition(a, unpack_residual(VOILE_NORMAL_RESIDUALS[from])),
+                        FinePosition(b, unpack_residual(VOILE_NORMAL_RESIDUALS[to])));
 }
 
 vec3 neighbour_delta(ChunkVertex self, ivec2 offset, uint columns, uint rows)

@@ -287,10 +287,10 @@ glm::uvec2 residual_of(const glm::dvec3& place)
 {
     const glm::vec3 x(place);
     const float largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    const double unit = std::ldexp(1.0, std::max(std::ilogb(largest), -101) - 24);
-    const glm::ivec3 fraction(glm::round((place - glm::dvec3(x)) / unit * 32767.0));
-    return {static_cast<uint32_t>(fraction.x & 0xffff) | static_cast<uint32_t>(fraction.y) << 16,
-            static_cast<uint32_t>(fraction.z)};
+    const float step = std::ldexp(1.0F, std::max(std::ilogb(largest), -87) - 39);
+    const glm::dvec3 steps = glm::min(glm::round((place - glm::dvec3(x)) / double{step}), 32767.0);
+    const glm::uvec3 fraction(steps + 32768.0);
+    return {fraction.x | fraction.y << 16, fraction.z | std::bit_cast<uint32_t>(step)};
 }
 
 // What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex

@@ -59,8 +59,8 @@ Result<ClothId> Model::add(const Grid& grid)
         return valid.error();
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", grid.name, "more than 2 147 483 647 vertices in one solver");
-    const std::vector<glm::vec3> world = places(grid);
-    if (auto range = check_positions(subject("cloth", grid.name), world, "its transform takes vertex ", " to "); !range)
+    const std::vector<glm::dvec3> world = places(grid);
+    if (auto range = check_places(grid.name, world); !range)
         return range.error();
 
     ClothModel cloth;

@@ -42,7 +42,6 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
          {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 0, 1}}},
         {&kernels.contact_moving,
          {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 1, 1}}},
-         {"cloth contact", shaders::k_contact_comp, 22, sizeof(shared::ContactPush), {group, method, layout, 0, 0}}},
         {&kernels.collider_reach,
          {"cloth collider reach", shaders::k_collider_reach_comp, 9, sizeof(shared::ColliderReachPush), {group}}},
         {&kernels.feature_reach,

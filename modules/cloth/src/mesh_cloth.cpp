@@ -87,10 +87,7 @@ Result<ClothId> Model::add(const MeshCloth& description)
     if (first + count > UINT32_MAX / 2)
         return invalid("cloth", description.name, "more than 2 147 483 647 vertices in one solver");
     const std::vector<glm::dvec3> world = places(description);
-    const std::vector<glm::vec3> rounded(world.begin(), world.end());
-    if (auto range =
-            check_positions(subject("cloth", description.name), rounded, "its transform takes vertex ", " to ");
-        !range)
+    if (auto range = check_places(description.name, world); !range)
         return range.error();
 
     ClothModel cloth;

@@ -51,6 +51,12 @@ Result<void> check_room(const Model& model, const std::string& what, const std::
                        std::to_string(model.max_buffer_bytes >> 20) + " MiB");
 }
 
+Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world)
+{
+    const std::vector<glm::vec3> rounded(world.begin(), world.end());
+    return check_positions(subject("cloth", cloth), rounded, "its transform takes vertex ", " to ");
+}
+
 glm::dmat4 without_rounding(const glm::mat4& transform)
 {
     constexpr double k_rounding = 1e-6;

@@ -97,6 +97,8 @@ Error invalid(const std::string& what, const std::string& name, const std::strin
 // Errors: `contents` need a buffer of more bytes than the device binds.
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
                         const std::string& contents, uint64_t bytes);
+// Errors: the transform of the cloth takes one of them out of range.
+Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world);
 // A rotation in floats stretches by some 1e-7, which stiff springs feel. What is that near to a rigid transform is made
 // one exactly.
 glm::dmat4 without_rounding(const glm::mat4& transform);
