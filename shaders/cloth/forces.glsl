@@ -23,7 +23,7 @@ struct Gather
     vec3 wind;      // m/s, at x
     vec3 air;       // N
     float air_rate; // N s/m, force over relative velocity
-    bool fast;      // it has springs that viscosity slows down
+    Viscosity viscosity; // of fast springs
 };
 
 // Verlet has no damping of its own, and springs that change much within a substep heat it up: its resonances with modes near
@@ -34,7 +34,6 @@ struct Gather
 // opposite. bench/NOTES.md has the measurements behind the numbers.
 const float k_viscous_strain = 0.02;
 const float k_viscous_shear = 0.2;
-const float k_viscous_shear_slope = 0.4;
 
 void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
 {
@@ -45,31 +44,22 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float excess =
         fma(delta.x, delta.x, fma(delta.y, delta.y, fma(delta.z, delta.z, -rest_length * rest_length)));
     const float stretch = excess / (length_squared * inverse_length + rest_length);
-    g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
+    const float rate = dot(relative_velocity, direction);
+    float viscosity = 0;
     if (VERLET)
     {
-        const float slow = k_viscous_strain / push.step * rest_length; // m/s
-        g.fast = g.fast || dot(relative_velocity, relative_velocity) > slow * slow;
+        // Without branches: of the vertices that are computed together, some nearly always have a fast spring.
+        const float per_length = push.step / max(rest_length, 1e-9); // 0 where there is no such spring
+        const float change_squared = dot(relative_velocity, relative_velocity) * (per_length * per_length);
+        const float along = clamp(abs(rate) * per_length - k_viscous_strain, 0, g.viscosity.most);
+        const float across = clamp(change_squared - k_viscous_shear * k_viscous_shear, 0, g.viscosity.most);
+        // A stretched spring resists in all directions and leaves less of the reach.
+        const float share = min(rest_length * inverse_length, 1);
+        const float scale = share * share * g.viscosity.scale * stiffness;
+        viscosity = scale * along;
+        g.force += scale * across * relative_velocity;
     }
-}
-
-// The viscous force of a spring. Few vertices have fast springs: they look at all of them once more.
-void add_viscosity(inout Gather g, Viscosity viscosity, float stiffness, float rest_length, vec3 delta,
-                   vec3 relative_velocity)
-{
-    const float per_length = push.step / rest_length;
-    const float change = length(relative_velocity) * per_length; // per substep, of the rest length
-    if (change < k_viscous_strain)
-        return;
-    const float inverse_length = inversesqrt(max(dot(delta, delta), 1e-20));
-    const vec3 direction = delta * inverse_length;
-    const float rate = dot(relative_velocity, direction);
-    const float along = min(max(abs(rate) * per_length - k_viscous_strain, 0), viscosity.most);
-    const float across = min(k_viscous_shear_slope * max(change - k_viscous_shear, 0), viscosity.most);
-    // A stretched spring resists in all directions and leaves less of the reach.
-    const float share = min(rest_length * inverse_length, 1);
-    const float scale = share * share * viscosity.scale * stiffness * push.step;
-    g.force += scale * (along * rate * direction + across * relative_velocity);
+    g.force += (stiffness * stretch + (damping + viscosity) * rate) * direction;
 }
 
 // Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
@@ -222,31 +212,23 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales s
     }
 }
 
-SpringClass mesh_spring_class(uint cloth, MeshSpring entry)
-{
-    const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
-    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
-    const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
-    SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
-    spring.stiffness *= weight;
-    spring.damping *= weight;
-    return spring;
-}
-
 // A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it.
 void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
+    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
     for (uint s = 0; s < vertex.springs; ++s)
     {
         const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
-        const SpringClass spring = mesh_spring_class(cloth, entry);
+        const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
+        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
+        const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
         const vec3 delta = delta_to(g, other);
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-        const float stiffness = scales.stiffness * spring.stiffness;
-        const float damping = scales.damping * spring.damping;
+        const float stiffness = scales.stiffness * weight * spring.stiffness;
+        const float damping = scales.damping * weight * spring.damping;
         if (stiffness + damping > 0)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
         g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
@@ -262,36 +244,6 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     }
 }
 
-// Once more all springs of a vertex, for their viscosity.
-void slow_down(inout Gather g, uint cloth, ChunkVertex self, StabilityScales scales)
-{
-    const Viscosity viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
-                                             cloths[cloth].decay, push.step);
-    if (cloths[cloth].columns > 0)
-    {
-        const vec2 shares = border_shares(cloth, self);
-        for (int i = 0; i < 2 * VOILE_SPRING_CLASSES; ++i)
-        {
-            const SpringClass spring = grid_springs(cloth, i / 2, shares, scales);
-            const Neighbour n = grid_neighbour(g, cloth, self, (1 - 2 * (i % 2)) * k_spring_offsets[i / 2]);
-            if (spring.stiffness > 0)
-                add_viscosity(g, viscosity, spring.stiffness, spring.rest_length, n.delta, n.velocity);
-        }
-        return;
-    }
-    const uint first_vertex = cloths[cloth].first_vertex;
-    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + self.local];
-    for (uint s = 0; s < vertex.springs; ++s)
-    {
-        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
-        const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
-        const float stiffness = scales.stiffness * mesh_spring_class(cloth, entry).stiffness;
-        if (stiffness > 0)
-            add_viscosity(g, viscosity, stiffness, entry.rest_length, delta_to(g, other),
-                          stage_velocities[other].xyz - g.v);
-    }
-}
-
 // The acceleration of a vertex, m/s^2.
 vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
 {
@@ -303,15 +255,15 @@ vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
     g.air_rate = 0;
     g.wind = wind_at(x.x);
     const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
-    g.fast = false;
+    if (VERLET)
+        g.viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
+                                   cloths[cloth].decay, push.step);
     g.bending_stiffness = scales.stiffness;
     g.bending_damping = scales.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
         gather_grid(g, cloth, self, scales);
     else
         gather_mesh(g, cloth, self.local, scales);
-    if (g.fast)
-        slow_down(g, cloth, self, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(inverse_mass * g.air_rate, push.step);
     return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
