@@ -34,8 +34,9 @@
 // m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at twice
 // that speed.
 #define VOILE_RECOVERY_SPEED 0.75f
-// Where the votes of cloths begin in the buffer of the size of the recovery's dispatch (recover.comp), in words.
-#define VOILE_RECOVERY_VOTES 4
+// The buffer of depenetrations begins with the sizes of two dispatches of the recovery, one of which the step writes, of so many
+// words each.
+#define VOILE_DISPATCH_WORDS 4
 
 // The colliders near a chunk (collider_reach.comp), in words: the box in which the list holds, where its bits begin and end that
 // are not 0, in words of them, and then the bits, one per collider.
@@ -257,6 +258,8 @@ struct ContactPush
     uint features;      // 1: colliders have corners or edges that may have met vertices
     uint recovers;      // 1: colliders have an inside, from which vertices are brought out
     uint near_stride;   // words per chunk of near colliders; 0: there are no lists
+    uint recovery;      // the word of the dispatch's size that tells whether any vertex is inside
+    uint in_place;      // 1: what contact changes it writes into the proposed state; 0: all goes into the earlier one
 };
 
 // Push constants of the look at which colliders are near.
@@ -283,6 +286,7 @@ struct RecoverPush
     float step; // s, of the whole step
     uint colliders;
     uint near_stride;
+    uint recovery; // the word of the size that is written
 };
 
 // Push constants of the passes over pins, holds and tethers.

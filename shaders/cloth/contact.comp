@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Contact of all cloths with all colliders: detection and response, one thread a vertex.
 //
-// Reads the state that integration proposes and the state before the substep, writes the substep's result. The vertex ends
+// Reads the state that integration proposes and the state before the substep, writes the substep's result: what it changes of
+// the proposed state, or all of it into the state before. The vertex ends
 // on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
 // tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
 // own previous state, residuals of both, the way out of what the vertex is inside of, the colliders near a chunk.
-// Writes: state (velocity.w: 1 = touches), predicted velocities, candidates.
+// Writes: the one or the other state (velocity.w: 1 = touches), predicted velocities, candidates.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "feature_layout.h"
@@ -17,11 +18,12 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const int METHOD = 1;
 layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
 layout(constant_id = 4) const uint COLLIDERS_CONVEX = 1;
+layout(constant_id = 5) const uint NEAR_LISTS = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
-layout(set = 0, binding = 2, std430) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(set = 0, binding = 2, std430) buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(set = 0, binding = 3, std430) buffer ProposedVelocities { vec4 proposed_velocities[]; };
 layout(set = 0, binding = 4, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
@@ -29,7 +31,7 @@ layout(set = 0, binding = 7, std430) readonly buffer BvhNodes { BvhNode bvh_node
 layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
 layout(set = 0, binding = 9, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 11, std430) readonly buffer ProposedPredicted { vec4 proposed_predicted[]; };
+layout(set = 0, binding = 11, std430) buffer ProposedPredicted { vec4 proposed_predicted[]; };
 layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 
 layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
@@ -39,9 +41,13 @@ layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox pa
 layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorrection corrections[]; };
-layout(set = 0, binding = 20, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(set = 0, binding = 20, std430) buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(set = 0, binding = 21, std430) buffer Residuals { uvec2 residuals[]; };
-layout(set = 0, binding = 22, std430) readonly buffer Depenetrations { Depenetration depenetrations[]; };
+layout(set = 0, binding = 22, std430) readonly buffer Depenetrations
+{
+    uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
+    Depenetration depenetrations[];
+};
 layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
@@ -63,6 +69,7 @@ float contact_slop(vec3 x, float thickness)
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "vertex_normal.glsl"
 #include "collider_pose.glsl"
+#define VOILE_NEAR_LISTS (NEAR_LISTS != 0)
 #include "near_colliders.glsl"
 #include "contact_query.glsl"
 #include "contact_candidates.glsl"
@@ -275,9 +282,8 @@ Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
 }
 
 // What integration proposes, corrected by features where they have met the vertex in this substep.
-Motion propose(uint i, uint cloth, FinePosition from, vec3 x, out vec4 velocity)
+Motion propose(uint i, uint cloth, FinePosition from, vec3 x, inout vec4 velocity)
 {
-    velocity = proposed_velocities[i];
     Motion motion;
     motion.from = from.x;
     motion.displacement = displacement(from, FinePosition(x, unpack_residual(proposed_residuals[i])));
@@ -291,6 +297,39 @@ Motion propose(uint i, uint cloth, FinePosition from, vec3 x, out vec4 velocity)
     return motion;
 }
 
+// How the vertex comes out of what it is inside of. All load this only where any is inside.
+Depenetration depenetration_of(uint i)
+{
+    if (push.recovers == 0 || recovery_sizes[push.recovery] == 0)
+        return Depenetration(vec3(0), 0);
+    return depenetrations[i];
+}
+
+// `flags` of the velocity, VOILE_VERTEX_...; `change` of the predicted velocity, if anything has `changed`.
+void commit(uint i, Motion motion, FinePosition from, float inverse_mass, uint flags, vec3 change, bool changed)
+{
+    const FinePosition to = moved(from, motion.displacement);
+    const vec4 position = vec4(to.x, inverse_mass);
+    const vec4 velocity = vec4(motion.v, flags);
+    const bool verlet = is_verlet(motion.cloth);
+    if (push.in_place == 0)
+    {
+        positions[i] = position;
+        residuals[i] = pack_residual(to);
+        velocities[i] = velocity;
+        if (verlet)
+            predicted[i] = proposed_predicted[i] + vec4(change, 0);
+    }
+    else if (changed)
+    {
+        proposed_positions[i] = position;
+        proposed_residuals[i] = pack_residual(to);
+        proposed_velocities[i] = velocity;
+        if (verlet)
+            proposed_predicted[i] += vec4(change, 0);
+    }
+}
+
 void main()
 {
     const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
@@ -299,11 +338,12 @@ void main()
     const uint i = self.index;
     const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
-    const vec3 before = positions[i].xyz;
-    const FinePosition from = FinePosition(before, unpack_residual(residuals[i]));
-    vec4 proposed_velocity;
-    Motion motion = propose(i, cloth, from, proposed.xyz, proposed_velocity);
-    bool touches = false;
+    const vec4 proposed_velocity = proposed_velocities[i];
+    const FinePosition from = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    vec4 velocity = proposed_velocity;
+    Motion motion = propose(i, cloth, from, proposed.xyz, velocity);
+    uint flags = uint(velocity.w);
+    bool changed = flags != 0;
     if (proposed.w > 0)
     {
         query_progress = vec2(push.progress_from, push.progress_to);
@@ -313,18 +353,13 @@ void main()
         contact.static_friction = cloths[cloth].static_friction;
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
-        Depenetration depenetration = Depenetration(vec3(0), 0);
-        if (push.recovers != 0)
-            depenetration = depenetrations[i];
+        const Depenetration depenetration = depenetration_of(i);
         if (depenetration.solid != 0)
             leave(motion, depenetration);
         find_candidates(i, motion.from, position_of(motion), motion.v, contact.thickness);
-        touches = meet_all(motion, contact, depenetration.solid - 1).touches;
+        if (meet_all(motion, contact, depenetration.solid - 1).touches)
+            flags |= VOILE_VERTEX_TOUCHES;
+        changed = flags != 0 || depenetration.solid != 0;
     }
-    const FinePosition to = moved(from, motion.displacement);
-    positions[i] = vec4(to.x, proposed.w);
-    residuals[i] = pack_residual(to);
-    velocities[i] = vec4(motion.v, (touches ? VOILE_VERTEX_TOUCHES : 0) + proposed_velocity.w);
-    if (is_verlet(cloth))
-        predicted[i] = proposed_predicted[i] + vec4(motion.v - proposed_velocity.xyz, 0);
+    commit(i, motion, from, proposed.w, flags, motion.v - proposed_velocity.xyz, changed);
 }

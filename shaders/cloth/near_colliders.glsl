@@ -3,9 +3,14 @@
 // A list holds for what stays in the chunk's box: whoever leaves that walks over all colliders, so that none is ever missed. Both
 // ways give the same results to the bit, as a collider that is not reached changes nothing.
 //
-// The including kernel declares near_colliders[], push.colliders and push.near_stride.
+// The including kernel declares near_colliders[], push.colliders and push.near_stride. Where it defines VOILE_NEAR_LISTS as
+// false there are no lists.
 #ifndef VOILE_NEAR_COLLIDERS_GLSL
 #define VOILE_NEAR_COLLIDERS_GLSL
+
+#ifndef VOILE_NEAR_LISTS
+#define VOILE_NEAR_LISTS true
+#endif
 
 #define VOILE_ALL_COLLIDERS 0xffffffffu
 
@@ -13,7 +18,7 @@ struct ColliderWalk
 {
     uint chunk;
     uint first; // word of the chunk's bits, or VOILE_ALL_COLLIDERS
-    uint next;  // word of the bits
+    uint next;  // word of the bits; without lists: the next collider
     uint end;
     uint bits;  // of the word before `next`, those to come
 };
@@ -27,7 +32,7 @@ vec3 near_corner(uint word)
 // Whether the list of a chunk holds for what is in the box.
 bool has_near_list(uint chunk, vec3 box_min, vec3 box_max)
 {
-    if (push.near_stride == 0)
+    if (!VOILE_NEAR_LISTS || push.near_stride == 0)
         return false;
     const uint header = chunk * push.near_stride;
     return all(greaterThanEqual(box_min, near_corner(header + VOILE_NEAR_MIN))) &&
@@ -56,6 +61,11 @@ ColliderWalk walk_colliders(uint chunk, vec3 box_min, vec3 box_max)
 
 bool next_collider(inout ColliderWalk walk, out uint c)
 {
+    if (!VOILE_NEAR_LISTS)
+    {
+        c = walk.next++;
+        return c < push.colliders;
+    }
     c = 0;
     while (walk.bits == 0)
     {

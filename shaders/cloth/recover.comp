@@ -21,7 +21,11 @@ layout(constant_id = 1) const uint COLLIDERS_MOVE = 1;
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer Depenetrations { Depenetration depenetrations[]; };
+layout(set = 0, binding = 3, std430) buffer Depenetrations
+{
+    uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
+    Depenetration depenetrations[];
+};
 layout(set = 0, binding = 4, std430) readonly buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(set = 0, binding = 6, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
@@ -31,8 +35,8 @@ layout(set = 0, binding = 9, std430) readonly buffer PaddedBoxes { PaddedBox pad
 layout(set = 0, binding = 10, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
-layout(set = 0, binding = 12, std430) buffer NextDispatch { uint next_dispatch[]; }; // then a vote per cloth
-layout(set = 0, binding = 13, std430) readonly buffer LastDispatch { uint last_dispatch[]; };
+layout(set = 0, binding = 12, std430) buffer NextVotes { uint next_votes[]; }; // one per cloth
+layout(set = 0, binding = 13, std430) readonly buffer LastVotes { uint last_votes[]; };
 layout(set = 0, binding = 14, std430) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
@@ -162,10 +166,10 @@ vec3 direction_out(uint cloth, Field field, vec3 normal)
 {
     const float along = dot(field.sum, normal);
     const vec3 across = field.sum - along * normal;
-    const int vote = int(last_dispatch[VOILE_RECOVERY_VOTES + cloth]);
+    const int vote = int(last_votes[cloth]);
     const float bias = vote == 0 ? VOILE_FIRST_BIAS : VOILE_BIAS * sign(vote);
     const float side = along + bias * field.size;
-    atomicAdd(next_dispatch[VOILE_RECOVERY_VOTES + cloth], uint(int(VOILE_VOTE * side / field.size)));
+    atomicAdd(next_votes[cloth], uint(int(VOILE_VOTE * side / field.size)));
     const vec3 sum = side * normal + VOILE_ACROSS * across;
     const float size = length(sum);
     return size > 0 ? sum / size : vec3(0, 1, 0);
@@ -228,5 +232,5 @@ void main()
     const Depenetration depenetration = find_depenetration(self.index, self.cloth);
     depenetrations[self.index] = depenetration;
     if (depenetration.solid != 0)
-        atomicMax(next_dispatch[0], gl_NumWorkGroups.x);
+        atomicMax(recovery_sizes[push.recovery], gl_NumWorkGroups.x);
 }

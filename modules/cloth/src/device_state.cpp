@@ -21,7 +21,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkDeviceSize recovery_bytes = (VOILE_RECOVERY_VOTES + model.records.size()) * sizeof(uint32_t);
+    const VkDeviceSize votes_bytes = model.records.size() * sizeof(uint32_t);
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const VkDeviceSize per_residual = model.positions.size() * sizeof(glm::uvec2);
     const BufferRequest requests[] = {
@@ -45,9 +45,10 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
          data.features.features.empty() ? 0 : model.positions.size() * sizeof(shared::FeatureCorrection)},
         {&state.feature_chunks, "cloth feature chunks", chunk_count * sizeof(uint32_t)},
         {&state.feature_dispatch, "cloth feature dispatch", sizeof(VkDispatchIndirectCommand)},
-        {&state.recover_dispatch[0], "cloth recover dispatch a", recovery_bytes},
-        {&state.recover_dispatch[1], "cloth recover dispatch b", recovery_bytes},
-        {&state.depenetrations, "cloth depenetrations", model.positions.size() * sizeof(shared::Depenetration)},
+        {&state.recovery_votes[0], "cloth recovery votes a", votes_bytes},
+        {&state.recovery_votes[1], "cloth recovery votes b", votes_bytes},
+        {&state.depenetrations, "cloth depenetrations",
+         2 * VOILE_DISPATCH_WORDS * sizeof(uint32_t) + model.positions.size() * sizeof(shared::Depenetration)},
         {&state.near_colliders, "cloth near colliders", chunk_count * state.near_stride * sizeof(uint32_t)},
         {&state.start, "cloth start", per_vertex},
         {&state.start_residuals, "cloth start residuals", per_residual},
@@ -106,20 +107,38 @@ struct Binder
     }
 };
 
+// Where a substep that begins in the state, or one that begins in stage B, leaves what it proposes.
+struct Proposal
+{
+    const StateBuffers& earlier;
+    const StateBuffers& state;
+    const gpu::Buffer& earlier_predicted; // Verlet's
+    const gpu::Buffer& predicted;
+};
+
+Proposal proposal(const DeviceState& s, size_t parity)
+{
+    if (parity == 0)
+        return {s.state, s.stage_b, s.stage_a.velocities, s.stage_c.velocities};
+    return {s.stage_b, s.state, s.stage_c.velocities, s.stage_a.velocities};
+}
+
 // What acts on the state a substep proposes, and what acts on the state between steps.
 void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
 {
-    const VkBuffer positions = s.stage_b.positions.handle();
-    const VkBuffer velocities = s.stage_b.velocities.handle();
-    const VkBuffer predicted = s.stage_c.velocities.handle();
-    const VkBuffer residuals = s.stage_b.residuals.handle();
     binder.bind(s.pins, kernels.pins,
                 {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.state.residuals.handle()});
-    binder.bind(s.proposed_holds, kernels.holds,
-                {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
-    binder.bind(s.proposed_tethers, kernels.tethers,
-                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
+    for (size_t i = 0; i < 2; ++i)
+    {
+        const Proposal p = proposal(s, i);
+        binder.bind(s.proposed_holds[i], kernels.holds,
+                    {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), p.state.positions.handle(),
+                     p.state.velocities.handle(), p.predicted.handle(), p.state.residuals.handle()});
+        binder.bind(s.proposed_tethers[i], kernels.tethers,
+                    {s.tethers.handle(), s.cloths.handle(), p.state.positions.handle(), p.state.velocities.handle(),
+                     p.predicted.handle(), p.state.residuals.handle()});
+    }
     binder.bind(s.edit, kernels.edit,
                 {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.start_residuals.handle(), s.state.residuals.handle()});
@@ -138,41 +157,45 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
 
 void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
 {
-    binder.bind(s.contact, kernels.contact,
-                {s.cloths.handle(),
-                 s.chunks.handle(),
-                 s.stage_b.positions.handle(),
-                 s.stage_b.velocities.handle(),
-                 s.state.positions.handle(),
-                 s.state.velocities.handle(),
-                 s.colliders.handle(),
-                 s.nodes.handle(),
-                 s.triangles.handle(),
-                 s.mesh_vertices.handle(),
-                 s.mesh_corners.handle(),
-                 s.stage_c.velocities.handle(),
-                 s.stage_a.velocities.handle(),
-                 s.candidate_places.handle(),
-                 s.candidate_triangles.handle(),
-                 s.collider_motions.handle(),
-                 s.padded_boxes.handle(),
-                 s.padded_leaves.handle(),
-                 s.deforming_positions.handle(),
-                 s.feature_corrections.handle(),
-                 s.stage_b.residuals.handle(),
-                 s.state.residuals.handle(),
-                 s.depenetrations.handle(),
-                 s.near_colliders.handle()});
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const Proposal p = proposal(s, parity);
+        binder.bind(s.contact[parity], kernels.contact,
+                    {s.cloths.handle(),
+                     s.chunks.handle(),
+                     p.state.positions.handle(),
+                     p.state.velocities.handle(),
+                     p.earlier.positions.handle(),
+                     p.earlier.velocities.handle(),
+                     s.colliders.handle(),
+                     s.nodes.handle(),
+                     s.triangles.handle(),
+                     s.mesh_vertices.handle(),
+                     s.mesh_corners.handle(),
+                     p.predicted.handle(),
+                     p.earlier_predicted.handle(),
+                     s.candidate_places.handle(),
+                     s.candidate_triangles.handle(),
+                     s.collider_motions.handle(),
+                     s.padded_boxes.handle(),
+                     s.padded_leaves.handle(),
+                     s.deforming_positions.handle(),
+                     s.feature_corrections.handle(),
+                     p.state.residuals.handle(),
+                     p.earlier.residuals.handle(),
+                     s.depenetrations.handle(),
+                     s.near_colliders.handle()});
+        binder.bind(s.feature_contact[parity], kernels.feature_contact,
+                    {s.cloths.handle(), s.chunks.handle(), p.state.positions.handle(), p.state.velocities.handle(),
+                     s.feature_corrections.handle(), s.feature_chunks.handle(), p.predicted.handle(),
+                     s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(),
+                     s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
+                     s.features.handle(), p.earlier.positions.handle(), s.near_colliders.handle()});
+    }
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
                  s.feature_dispatch.handle(), s.feature_chunks.handle(), s.near_colliders.handle()});
-    binder.bind(s.feature_contact, kernels.feature_contact,
-                {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
-                 s.feature_corrections.handle(), s.feature_chunks.handle(), s.stage_c.velocities.handle(),
-                 s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(), s.collider_motions.handle(),
-                 s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle(),
-                 s.near_colliders.handle()});
     binder.bind(s.collider_reach, kernels.collider_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.colliders.handle(), s.collider_motions.handle(), s.padded_boxes.handle(), s.feature_sets.handle(),
@@ -182,21 +205,26 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
 gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::Buffer& statistics)
 {
     Binder binder{s.pool};
-    const auto bind_stage =
-        [&](VkDescriptorSet& set, size_t stage, const StateBuffers& input, const StateBuffers& output)
+    const auto bind_stage = [&](VkDescriptorSet& set, size_t stage, const StateBuffers& base, const StateBuffers& third,
+                                const StateBuffers& input, const StateBuffers& output)
     {
         binder.bind(set, kernels.stages[stage],
-                    {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                    {s.cloths.handle(), s.chunks.handle(), base.positions.handle(), base.velocities.handle(),
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
-                     output.velocities.handle(), s.stage_a.velocities.handle(), s.stage_b.velocities.handle(),
+                     output.velocities.handle(), s.stage_a.velocities.handle(), third.velocities.handle(),
                      s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle(),
-                     s.state.residuals.handle(), input.residuals.handle(), output.residuals.handle()});
+                     base.residuals.handle(), input.residuals.handle(), output.residuals.handle()});
     };
-    bind_stage(s.stages[0], 0, s.state, s.stage_a);
-    bind_stage(s.stages[1], 1, s.stage_a, s.stage_b);
-    bind_stage(s.stages[2], 2, s.stage_b, s.stage_c);
-    bind_stage(s.stages[3], 3, s.stage_c, s.stage_b);
-    bind_stage(s.last_stage_alone, 3, s.stage_c, s.state);
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const StateBuffers& base = proposal(s, parity).earlier;
+        const StateBuffers& other = proposal(s, parity).state;
+        bind_stage(s.stages[parity][0], 0, base, other, base, s.stage_a);
+        bind_stage(s.stages[parity][1], 1, base, other, s.stage_a, other);
+        bind_stage(s.stages[parity][2], 2, base, other, other, s.stage_c);
+        bind_stage(s.stages[parity][3], 3, base, other, s.stage_c, other);
+    }
+    bind_stage(s.last_stage_alone, 3, s.state, s.stage_b, s.stage_c, s.state);
     // Of a Verlet cloth: positions, velocities at their time or predicted for it, velocities half a substep before.
     struct Motion
     {
@@ -220,7 +248,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     bind_verlet(s.verlet_forth, here, there);
     bind_verlet(s.verlet_back, there, here);
     // The last kick leaves positions alone; what it would write of them goes where nobody looks.
-    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.state.velocities});
+    bind_verlet(s.verlet_last, here,
+                {s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
     bind_contact(s, kernels, binder);
@@ -229,7 +258,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                     {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.depenetrations.handle(),
                      s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
                      s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
-                     s.deforming_positions.handle(), s.recover_dispatch[i].handle(), s.recover_dispatch[1 - i].handle(),
+                     s.deforming_positions.handle(), s.recovery_votes[i].handle(), s.recovery_votes[1 - i].handle(),
                      s.near_colliders.handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
@@ -267,7 +296,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.near_stride = near_stride(state.collider_count, state.chunk_count, model.max_buffer_bytes);
     if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 28;
+    constexpr uint32_t k_sets = 36;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_storage_buffers);
     if (!pool)
         return pool.error();

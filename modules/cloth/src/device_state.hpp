@@ -41,9 +41,8 @@ struct DeviceState
     gpu::Buffer feature_corrections; // what they change of vertices
     gpu::Buffer feature_chunks;      // those that come near features
     gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
-    std::array<gpu::Buffer, 2>
-        recover_dispatch; // workgroups that look for vertices inside of colliders, of this step and the next
-    gpu::Buffer depenetrations; // how these come out
+    std::array<gpu::Buffer, 2> recovery_votes; // of each cloth, of this step and the next
+    gpu::Buffer depenetrations; // how vertices inside of colliders come out, after two sizes of the pass over them
     gpu::Buffer near_colliders; // of each chunk, if there are many
     gpu::Buffer start;    // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
@@ -60,25 +59,26 @@ struct DeviceState
     gpu::Buffer partials; // statistics, one record a chunk
 
     gpu::BindingPool pool;
-    std::array<VkDescriptorSet, 4> stages{};
+    // What goes on from the state, and from stage B where contact leaves there what it changes.
+    std::array<std::array<VkDescriptorSet, 4>, 2> stages{};
     VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
     // Velocity Verlet goes from the state to stage B, with predictions in the velocities of stages A and C.
     VkDescriptorSet verlet_first{};     // state to stage B: the velocities are those of the positions' time
     VkDescriptorSet verlet_forth{};     // state to stage B
-    VkDescriptorSet verlet_back{};      // stage B to state, where no contact pass does that
+    VkDescriptorSet verlet_back{};      // stage B to state
     VkDescriptorSet verlet_last{};      // velocities of the state alone
     VkDescriptorSet verlet_last_back{}; // stage B to state
     VkDescriptorSet pins{};
-    VkDescriptorSet proposed_holds{};
-    VkDescriptorSet proposed_tethers{};
+    std::array<VkDescriptorSet, 2> proposed_holds{}; // of stage B, of the state
+    std::array<VkDescriptorSet, 2> proposed_tethers{};
     VkDescriptorSet strain_first{}; // state to stage B
     VkDescriptorSet strain_back{};  // stage B to stage A
     VkDescriptorSet strain_forth{}; // stage A to stage B
     VkDescriptorSet edit{};
-    VkDescriptorSet contact{}; // from stage B
+    std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
     VkDescriptorSet collider_reach{};
     VkDescriptorSet feature_reach{};
-    VkDescriptorSet feature_contact{};        // corrections of stage B
+    std::array<VkDescriptorSet, 2> feature_contact{}; // corrections of stage B, of the state
     std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};

@@ -26,6 +26,7 @@ struct Kernels
     gpu::Kernel contact;        // with meshes and planes
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
+    gpu::Kernel contact_many;   // where chunks have lists of the colliders near them
     gpu::Kernel collider_reach;
     gpu::Kernel feature_reach;
     gpu::Kernel feature_reach_moving;

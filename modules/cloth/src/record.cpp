@@ -62,30 +62,33 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride};
     const bool periodic = solver.recovery_step % k_recovery_period == 0;
     const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
     const size_t now = solver.recovery_step++ % 2;
-    const size_t next = 1 - now;
-    clear_dispatch(recorder, device.recover_dispatch[next], 1, VOILE_RECOVERY_VOTES * sizeof(uint32_t));
+    const size_t next = solver.recovery_step % 2;
+    const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride, recovery_word(next)};
+    clear_dispatch(recorder, device.depenetrations, recovery_word(next), 1, &device.recovery_votes[next]);
     if (all)
         recorder.dispatch(kernel, device.recover[next], device.chunk_count * group, group, push);
     else
-        recorder.dispatch_indirect(kernel, device.recover[next], device.recover_dispatch[now].handle(), push);
+        recorder.dispatch_indirect(kernel, device.recover[next], device.depenetrations.handle(),
+                                   recovery_word(now) * sizeof(uint32_t), push);
     publish_dispatch(recorder);
 }
 
 } // namespace
 
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each, VkDeviceSize counts)
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word, uint32_t groups_each,
+                    const gpu::Buffer* counts)
 {
     const VkDispatchIndirectCommand none{0, groups_each, 1};
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), 0, sizeof(none), &none);
-    if (counts > 0)
-        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), size.handle(), counts, VK_WHOLE_SIZE, 0);
+    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), word * sizeof(uint32_t), sizeof(none),
+                                            &none);
+    if (counts)
+        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), counts->handle(), 0, VK_WHOLE_SIZE, 0);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);

@@ -125,10 +125,16 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
-// Sets the size of an indirect dispatch to nothing; what is added to x comes in so many workgroups each. From the byte
-// `counts` on, if it is not 0, the buffer holds other counts, which become 0 too. Between barriers of its own.
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t groups_each = 1,
-                    VkDeviceSize counts = 0);
+// Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many workgroups
+// each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word = 0, uint32_t groups_each = 1,
+                    const gpu::Buffer* counts = nullptr);
+
+// Where the size of the recovery's dispatch stands in the buffer of depenetrations, of even and of odd steps.
+constexpr uint32_t recovery_word(size_t step)
+{
+    return static_cast<uint32_t>(step % 2) * VOILE_DISPATCH_WORDS;
+}
 
 // Makes the size of an indirect dispatch visible that a dispatch has written.
 void publish_dispatch(gpu::Recorder& recorder);

@@ -8,6 +8,9 @@
 namespace cloth
 {
 
+// Looks at what is near find the state in its own buffers.
+static_assert(VOILE_NEAR_PERIOD % 2 == 0 && VOILE_FEATURE_PERIOD % 2 == 0);
+
 namespace
 {
 
@@ -37,7 +40,9 @@ SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& s
                                  uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
       group_(solver.options.workgroup_size), substeps_(substeps), first_substep_(first_substep),
-      h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit)
+      h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
+      // Rays along normals look at what neighbors propose, which must not change meanwhile.
+      swaps_(commits_ && solver.options.contact_method == ContactMethod::nearest_point)
 {
 }
 
@@ -50,7 +55,7 @@ void SubstepRecorder::record()
         if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
             record_feature_reach(substep);
         const shared::StagePush push = make_push(substep);
-        record_rk4(push);
+        record_rk4(push, substep);
         record_verlet(push, substep);
         record_holds(substep);
         if (solver_.passes.features)
@@ -79,13 +84,13 @@ shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
     return push;
 }
 
-void SubstepRecorder::record_rk4(const shared::StagePush& push)
+void SubstepRecorder::record_rk4(const shared::StagePush& push, uint32_t substep)
 {
     const uint32_t threads = device_.rk4_chunks * group_;
+    const auto& sets = device_.stages[commits_ && in_stage_b(substep) ? 1 : 0];
     for (size_t stage = 0; stage < 3; ++stage)
-        recorder_.dispatch(kernels_.stages[stage], device_.stages[stage], threads, group_, push);
-    recorder_.dispatch(kernels_.stages[3], commits_ ? device_.stages[3] : device_.last_stage_alone, threads, group_,
-                       push);
+        recorder_.dispatch(kernels_.stages[stage], sets[stage], threads, group_, push);
+    recorder_.dispatch(kernels_.stages[3], commits_ ? sets[3] : device_.last_stage_alone, threads, group_, push);
 }
 
 uint32_t SubstepRecorder::verlet_threads() const
@@ -117,10 +122,11 @@ void SubstepRecorder::record_holds(uint32_t substep)
     const auto a_substep = 1 / static_cast<float>(substeps_);
     shared::HoldPush push{solver_.passes.pins, solver_.passes.holds, h_, static_cast<float>(substep + 1) * a_substep,
                           a_substep};
-    recorder_.dispatch(kernels_.holds, device_.proposed_holds, push.count, group_, push);
+    recorder_.dispatch(kernels_.holds, device_.proposed_holds[in_stage_b(substep) ? 1 : 0], push.count, group_, push);
     push.first = 0;
     push.count = solver_.passes.tethers;
-    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers, push.count, group_, push);
+    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers[in_stage_b(substep) ? 1 : 0], push.count, group_,
+                       push);
 }
 
 // What comes after the last substep, for the strain limit, sees all colliders at their end.
@@ -141,21 +147,22 @@ void SubstepRecorder::record_collider_reach(uint32_t substep)
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
-    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep),
-                                         sudden_speed(),
-                                         1 / static_cast<float>(substeps_),
-                                         device_.collider_count,
-                                         solver_.passes.features ? 1u : 0u,
-                                         device_.near_stride};
+    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
+                                         1 / static_cast<float>(substeps_),       device_.collider_count,
+                                         solver_.passes.features ? 1u : 0u,       device_.near_stride};
     recorder_.dispatch(kernels_.collider_reach, device_.collider_reach, device_.chunk_count * group_, group_, push);
 }
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    clear_dispatch(recorder_, device_.feature_dispatch, solver_.options.feature_threads);
+    clear_dispatch(recorder_, device_.feature_dispatch, 0, solver_.options.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(), progress(substep),
-                                        progress(next), device_.collider_count, device_.near_stride};
+    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
+                                        sudden_speed(),
+                                        progress(substep),
+                                        progress(next),
+                                        device_.collider_count,
+                                        device_.near_stride};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
                        device_.feature_reach, device_.chunk_count * group_, group_, push);
     publish_dispatch(recorder_);
@@ -163,10 +170,15 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
 
 void SubstepRecorder::record_features(uint32_t substep)
 {
-    const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count,
-                                   first_substep_ + substep, device_.near_stride};
+    const shared::FeaturePush push{h_,
+                                   progress(substep),
+                                   progress(substep + 1),
+                                   device_.collider_count,
+                                   first_substep_ + substep,
+                                   device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-                                device_.feature_contact, device_.feature_dispatch.handle(), push);
+                                device_.feature_contact[in_stage_b(substep) ? 1 : 0], device_.feature_dispatch.handle(),
+                                0, push);
 }
 
 void SubstepRecorder::record_contact(uint32_t substep)
@@ -185,10 +197,19 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.features = solver_.passes.features ? 1 : 0;
     push.recovers = solver_.passes.recover ? 1 : 0;
     push.near_stride = device_.near_stride;
-    const gpu::Kernel& kernel = solver_.passes.moving   ? kernels_.contact_moving
-                                : solver_.passes.convex ? kernels_.contact_convex
-                                                        : kernels_.contact;
-    recorder_.dispatch(kernel, device_.contact, device_.chunk_count * group_, group_, push);
+    push.recovery = recovery_word(solver_.recovery_step);
+    push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
+    recorder_.dispatch(contact_kernel(), device_.contact[in_stage_b(substep) ? 1 : 0], device_.chunk_count * group_,
+                       group_, push);
+}
+
+const gpu::Kernel& SubstepRecorder::contact_kernel() const
+{
+    if (device_.near_stride > 0)
+        return kernels_.contact_many;
+    if (solver_.passes.moving)
+        return kernels_.contact_moving;
+    return solver_.passes.convex ? kernels_.contact_convex : kernels_.contact;
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.

@@ -20,7 +20,7 @@ public:
 
 private:
     [[nodiscard]] shared::StagePush make_push(uint32_t substep) const;
-    void record_rk4(const shared::StagePush& push);
+    void record_rk4(const shared::StagePush& push, uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
     void record_holds(uint32_t substep);
@@ -30,9 +30,14 @@ private:
     [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
     void record_contact(uint32_t substep);
+    [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     void record_strain_limit();
-    // Where nothing commits what a substep proposes, Verlet goes back and forth between the state and stage B.
-    [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !commits_ && substep % 2 == 1; }
+    // Whether a substep begins in stage B: the state goes back and forth between there and its own buffers. Where contact is
+    // to commit it ends in these, since the last one copies if their number is odd. Without contact that is Verlet's alone.
+    [[nodiscard]] bool in_stage_b(uint32_t substep) const
+    {
+        return substep % 2 == 1 && (commits_ ? swaps_ && substep < substeps_ : true);
+    }
     [[nodiscard]] uint32_t verlet_threads() const;
 
     gpu::Recorder& recorder_;
@@ -44,7 +49,8 @@ private:
     uint32_t substeps_;
     uint32_t first_substep_; // counted through all steps
     float h_;                // s
-    bool commits_;           // the contact pass runs, which takes what is proposed in stage B into the state
+    bool commits_;           // the contact pass runs on what is proposed
+    bool swaps_;             // and changes it in place; else it takes all of it from stage B into the state
 };
 
 } // namespace cloth

@@ -170,8 +170,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     forget_candidates(recorder, next);
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, next.feature_dispatch);
-    for (const gpu::Buffer& size : next.recover_dispatch)
-        clear_dispatch(recorder, size, 1, VOILE_RECOVERY_VOTES * sizeof(uint32_t));
+    for (size_t i = 0; i < 2; ++i)
+        clear_dispatch(recorder, next.depenetrations, recovery_word(i), 1, &next.recovery_votes[i]);
     upload.contents_->lifetime.end(cmd);
     s.lifetime.end(cmd);
     if (s.edits.holds) // what is no longer held has its mass again

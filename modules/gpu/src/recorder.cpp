@@ -69,13 +69,13 @@ void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t thre
     finish_dispatch();
 }
 
-void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes,
+void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
                                  std::span<const std::byte> push)
 {
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
-        context_.fn.vkCmdDispatchIndirect(cmd_, sizes, 0);
+        context_.fn.vkCmdDispatchIndirect(cmd_, sizes, offset);
         compute_barrier();
     }
     finish_dispatch();

@@ -62,14 +62,16 @@ public:
         dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
     }
 
-    // The same with the workgroups that `sizes` holds at its start, three words; an earlier dispatch may have written
-    // them, if a barrier has made them visible to indirect commands.
-    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, std::span<const std::byte> push);
+    // The same with the workgroups that `sizes` holds at `offset` (bytes), three words; an earlier dispatch may have
+    // written them, if a barrier has made them visible to indirect commands.
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
+                           std::span<const std::byte> push);
 
     template <typename Push>
-    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, const Push& push)
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
+                           const Push& push)
     {
-        dispatch_indirect(kernel, set, sizes, std::as_bytes(std::span(&push, 1)));
+        dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
     }
 
     // A global memory barrier between two scopes.
