@@ -76,12 +76,15 @@ float contact_slop(vec3 x, float thickness)
 #include "fine_position.glsl"
 #include "friction.glsl"
 
+// As floats tell it. What residuals add is loaded where the vertex is written: kept through the queries, they cost 4 us on an
+// H200.
 struct Motion
 {
     vec3 from;         // m, before the substep
     vec3 displacement; // m, since then
     vec3 v;            // m/s
     uint cloth;
+    bool given; // contact says where the vertex is, from where it was; else it has moved it by some way
 };
 
 vec3 position_of(Motion motion) { return motion.from + motion.displacement; }
@@ -167,6 +170,7 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float thickness,
         // To the bit: roundings that add up would stretch stiff cloth until it slips.
         const float height = dot(motion.displacement - way, n);
         motion.displacement = way + (abs(height) > contact_slop(motion.from, thickness) ? height : 0) * n;
+        motion.given = true;
         motion.v -= v_t;
         return;
     }
@@ -204,6 +208,7 @@ void leave(inout Motion motion, Depenetration depenetration)
     own -= min(dot(own, out_of_it) + VOILE_INSIDE_BACK * speed, 0) * out_of_it;
     motion.v = surface + own;
     motion.displacement = push.step * (motion.v + depenetration.velocity);
+    motion.given = true;
 }
 
 // Where the way of the vertex leads through a surface after all.
@@ -212,6 +217,7 @@ void keep_out(inout Motion motion, Passage passage, Contact contact)
     const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
     const vec3 n = world_direction(passage, contact.direction);
     motion.displacement = way;
+    motion.given = true;
     motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
 }
 
@@ -281,19 +287,23 @@ Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
     return meeting;
 }
 
-// What integration proposes, corrected by features where they have met the vertex in this substep.
-Motion propose(uint i, uint cloth, FinePosition from, vec3 x, inout vec4 velocity)
+// What integration proposes, corrected by features where they have met the vertex in this substep; `flags` of the velocity.
+Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
 {
+    const vec4 velocity = proposed_velocities[i];
     Motion motion;
-    motion.from = from.x;
-    motion.displacement = displacement(from, FinePosition(x, unpack_residual(proposed_residuals[i])));
+    motion.from = positions[i].xyz;
+    motion.displacement = proposed - motion.from;
+    motion.v = velocity.xyz;
     motion.cloth = cloth;
+    motion.given = false;
+    flags = uint(velocity.w);
     if (push.features != 0 && corrections[i].substep == push.substep)
     {
         motion.displacement += corrections[i].shift;
-        velocity += vec4(corrections[i].change, VOILE_VERTEX_MEETS);
+        motion.v += corrections[i].change;
+        flags |= VOILE_VERTEX_MEETS;
     }
-    motion.v = velocity.xyz;
     return motion;
 }
 
@@ -305,12 +315,20 @@ Depenetration depenetration_of(uint i)
     return depenetrations[i];
 }
 
-// `flags` of the velocity, VOILE_VERTEX_...; `change` of the predicted velocity, if anything has `changed`.
-void commit(uint i, Motion motion, FinePosition from, float inverse_mass, uint flags, vec3 change, bool changed)
+FinePosition final_position(uint i, Motion motion)
 {
-    const FinePosition to = moved(from, motion.displacement);
-    const vec4 position = vec4(to.x, inverse_mass);
+    const FinePosition from = FinePosition(motion.from, unpack_residual(residuals[i]));
+    const vec3 left_out = motion.given ? vec3(0) : unpack_residual(proposed_residuals[i]) - from.residual;
+    return moved(from, motion.displacement + left_out);
+}
+
+// `flags` of the velocity, VOILE_VERTEX_...
+void commit(uint i, Motion motion, uint flags)
+{
+    const FinePosition to = final_position(i, motion);
+    const vec4 position = vec4(to.x, proposed_positions[i].w);
     const vec4 velocity = vec4(motion.v, flags);
+    const vec4 change = vec4(motion.v - proposed_velocities[i].xyz, 0);
     const bool verlet = is_verlet(motion.cloth);
     if (push.in_place == 0)
     {
@@ -318,16 +336,14 @@ void commit(uint i, Motion motion, FinePosition from, float inverse_mass, uint f
         residuals[i] = pack_residual(to);
         velocities[i] = velocity;
         if (verlet)
-            predicted[i] = proposed_predicted[i] + vec4(change, 0);
+            predicted[i] = proposed_predicted[i] + change;
+        return;
     }
-    else if (changed)
-    {
-        proposed_positions[i] = position;
-        proposed_residuals[i] = pack_residual(to);
-        proposed_velocities[i] = velocity;
-        if (verlet)
-            proposed_predicted[i] += vec4(change, 0);
-    }
+    proposed_positions[i] = position;
+    proposed_residuals[i] = pack_residual(to);
+    proposed_velocities[i] = velocity;
+    if (verlet)
+        proposed_predicted[i] += change;
 }
 
 void main()
@@ -338,12 +354,9 @@ void main()
     const uint i = self.index;
     const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
-    const vec4 proposed_velocity = proposed_velocities[i];
-    const FinePosition from = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
-    vec4 velocity = proposed_velocity;
-    Motion motion = propose(i, cloth, from, proposed.xyz, velocity);
-    uint flags = uint(velocity.w);
-    bool changed = flags != 0;
+    uint flags;
+    Motion motion = propose(i, cloth, proposed.xyz, flags);
+    bool changed = push.in_place == 0 || flags != 0;
     if (proposed.w > 0)
     {
         query_progress = vec2(push.progress_from, push.progress_to);
@@ -355,11 +368,17 @@ void main()
         contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
         const Depenetration depenetration = depenetration_of(i);
         if (depenetration.solid != 0)
+        {
             leave(motion, depenetration);
+            changed = true;
+        }
         find_candidates(i, motion.from, position_of(motion), motion.v, contact.thickness);
         if (meet_all(motion, contact, depenetration.solid - 1).touches)
+        {
             flags |= VOILE_VERTEX_TOUCHES;
-        changed = flags != 0 || depenetration.solid != 0;
+            changed = true;
+        }
     }
-    commit(i, motion, from, proposed.w, flags, motion.v - proposed_velocity.xyz, changed);
+    if (changed)
+        commit(i, motion, flags);
 }
