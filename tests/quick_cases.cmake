@@ -45,6 +45,8 @@ quick(test_edits
     "a cloth at its strain limit hangs still")
 quick(test_energy "a crumpled free cloth stays where it is")
 quick(test_fabric
+    "the air drags and lifts a tilted plate by 1/2 rho C |u| u along its normal and across it"
+    "10 km from the origin cloth hangs as it does there, and comes to rest, and at 100 km it is finite"
     "a plate that falls face on reaches its terminal speed"
     "every preset is found by its name, valid, and on a grid of its own stretch and shear")
 quick(test_frame)
@@ -110,6 +112,7 @@ quick(test_viewer
     "a scene that cannot be used is named with its place and the reason"
     "options that cannot be used are named"
     "without Vulkan there is one line that says so"
+    "validation messages make the exit code 2"
     "a point cache holds every frame, several cloths get a file each"
     "a scene of meshes, moving pins, tethers and gusts runs, and what is odd about a mesh is told"
     "a run without frames has the state of the start"
