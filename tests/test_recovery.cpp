@@ -392,7 +392,8 @@ TEST_CASE("inside is told right at edges, at corners and in slivers")
                     continue;
                 const bool expected = exact.winding_number(p) > 0.5;
                 inside += expected;
-                wrong += expected != (after[i] != points[i]);
+                // What the place at the start left beside its float stays with the vertex.
+                wrong += expected != (glm::distance(glm::vec3(after[i]), glm::vec3(points[i])) > 1e-6f);
             }
             CHECK(inside > 100);
             CHECK(wrong == 0);

@@ -170,21 +170,6 @@ void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Boun
 
 } // namespace
 
-namespace
-{
-
-// The solver's own ranges, where it has them.
-template <typename S>
-gpu::Result<void> check_step(const S& step)
-{
-    if constexpr (requires { cloth::validate(step); })
-        return cloth::validate(step);
-    else
-        return {};
-}
-
-} // namespace
-
 gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                              const Options& options)
 {
@@ -197,7 +182,7 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
     world.step.gust_length = scene.wind.gust_length;
     world.step.substeps = scene.step.substeps.value_or(0);
     world.step.duration = 1 / scene.step.rate;
-    if (const auto valid = check_step(world.step); !valid)
+    if (const auto valid = cloth::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());

@@ -22,9 +22,6 @@
 // What lies behind an open mesh with one side has its nearest point straight before it: |cosine| to the face's normal.
 #define VOILE_BEHIND 0.99
 
-// A nearest point lies inside its triangle if the offset is this straight before it: |cosine|, 0.6 degrees.
-#define VOILE_INSIDE_FACE 0.99995
-
 struct Contact
 {
     bool found;
@@ -196,7 +193,8 @@ Contact nearest_contact()
     // Near the surface the offset is too short to have a precise direction; the face has one. So it has for a ray's hit,
     // whose offset follows the cloth, and inside the triangle, where rounding of large coordinates would tilt the offset.
     const bool short_offset = query.distance < VOILE_SHORT_OFFSET * query.thickness;
-    const bool inside_face = query.method == VOILE_METHOD_NEAREST_POINT && query.alignment > VOILE_INSIDE_FACE;
+    const vec3 beside = offset - dot(offset, query.face) * query.face;
+    const bool inside_face = query.method == VOILE_METHOD_NEAREST_POINT && length(beside) < rounding(query.to);
     if (short_offset || inside_face || query.method == VOILE_METHOD_NORMAL_RAY)
     {
         const vec3 side = query.method == VOILE_METHOD_NORMAL_RAY ? query.from - query.point : offset;

@@ -23,7 +23,7 @@ struct Gather
     vec3 wind;      // m/s, at x
     vec3 air;       // N
     float air_rate; // N s/m, force over relative velocity
-    Viscosity viscosity; // of fast springs
+    bool fast;      // it has springs that viscosity slows down
 };
 
 // Verlet has no damping of its own, and springs that change much within a substep heat it up: its resonances with modes near
@@ -36,20 +36,6 @@ const float k_viscous_strain = 0.02;
 const float k_viscous_shear = 0.2;
 const float k_viscous_shear_slope = 0.4;
 
-vec3 viscous_force(Gather g, float stiffness, float rest_over_length, float per_length, vec3 direction,
-                   vec3 relative_velocity)
-{
-    const float change = length(relative_velocity) * per_length; // per substep, of the rest length
-    if (change < k_viscous_strain)
-        return vec3(0);
-    const float rate = dot(relative_velocity, direction);
-    const float along = min(max(abs(rate) * per_length - k_viscous_strain, 0), g.viscosity.most);
-    const float across = min(k_viscous_shear_slope * max(change - k_viscous_shear, 0), g.viscosity.most);
-    // A stretched spring resists in all directions and leaves less of the reach.
-    const float scale = min(rest_over_length * rest_over_length, 1) * g.viscosity.scale * stiffness * push.step;
-    return scale * (along * rate * direction + across * relative_velocity);
-}
-
 void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
 {
     const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
@@ -61,8 +47,29 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float stretch = excess / (length_squared * inverse_length + rest_length);
     g.force += (stiffness * stretch + damping * dot(relative_velocity, direction)) * direction;
     if (VERLET)
-        g.force += viscous_force(g, stiffness, rest_length * inverse_length, push.step / rest_length, direction,
-                                 relative_velocity);
+    {
+        const float slow = k_viscous_strain / push.step * rest_length; // m/s
+        g.fast = g.fast || dot(relative_velocity, relative_velocity) > slow * slow;
+    }
+}
+
+// The viscous force of a spring. Few vertices have fast springs: they look at all of them once more.
+void add_viscosity(inout Gather g, Viscosity viscosity, float stiffness, float rest_length, vec3 delta,
+                   vec3 relative_velocity)
+{
+    const float per_length = push.step / rest_length;
+    const float change = length(relative_velocity) * per_length; // per substep, of the rest length
+    if (change < k_viscous_strain)
+        return;
+    const float inverse_length = inversesqrt(max(dot(delta, delta), 1e-20));
+    const vec3 direction = delta * inverse_length;
+    const float rate = dot(relative_velocity, direction);
+    const float along = min(max(abs(rate) * per_length - k_viscous_strain, 0), viscosity.most);
+    const float across = min(k_viscous_shear_slope * max(change - k_viscous_shear, 0), viscosity.most);
+    // A stretched spring resists in all directions and leaves less of the reach.
+    const float share = min(rest_length * inverse_length, 1);
+    const float scale = share * share * viscosity.scale * stiffness * push.step;
+    g.force += scale * (along * rate * direction + across * relative_velocity);
 }
 
 // Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
@@ -125,13 +132,6 @@ void add_springs(inout Gather g, SpringClass spring, Neighbour a, Neighbour b)
     add_spring(g, spring.stiffness, spring.damping, spring.rest_length, b.delta, b.velocity);
 }
 
-SpringClass scaled(SpringClass spring, float stiffness, float damping)
-{
-    spring.stiffness *= stiffness;
-    spring.damping *= damping;
-    return spring;
-}
-
 // One line of the grid through the vertex: its structural and bend springs, and bending by the isometric model, from the
 // energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of the line: minus its gradient over c.
 void gather_line(inout Gather g, uint cloth, ChunkVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
@@ -159,20 +159,32 @@ void add_twist(inout Gather g, float c, Neighbour diagonal, Neighbour along_row,
         g.bending -= c * (bent(g, diagonal) - bent(g, along_row) - bent(g, along_column));
 }
 
+// What springs along the row and along the column have of their stiffness at the grid's border.
+vec2 border_shares(uint cloth, ChunkVertex self)
+{
+    const float share = cloths[cloth].border_share;
+    return vec2(self.place.y == 0 || self.place.y + 1 == int(cloths[cloth].rows) ? share : 1,
+                self.place.x == 0 || self.place.x + 1 == int(cloths[cloth].columns) ? share : 1);
+}
+
+SpringClass grid_springs(uint cloth, int c, vec2 shares, StabilityScales scales)
+{
+    const float share = c % 4 == 0 ? shares.x : c % 4 == 1 ? shares.y : 1;
+    SpringClass spring = cloths[cloth].springs[c];
+    spring.stiffness *= share * scales.stiffness;
+    spring.damping *= share * scales.damping;
+    return spring;
+}
+
 // Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
 // bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
 // the sum of the squared second differences along rows and columns and of twice the squared twist of the cells.
 void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales scales)
 {
-    const float share = cloths[cloth].border_share;
-    const float row_share = self.place.y == 0 || self.place.y + 1 == int(cloths[cloth].rows) ? share : 1;
-    const float column_share = self.place.x == 0 || self.place.x + 1 == int(cloths[cloth].columns) ? share : 1;
+    const vec2 shares = border_shares(cloth, self);
     SpringClass springs[VOILE_SPRING_CLASSES];
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
-    {
-        const float border = c % 4 == 0 ? row_share : c % 4 == 1 ? column_share : 1;
-        springs[c] = scaled(cloths[cloth].springs[c], border * scales.stiffness, border * scales.damping);
-    }
+        springs[c] = grid_springs(cloth, c, shares, scales);
     const Neighbour east = grid_neighbour(g, cloth, self, ivec2(1, 0));
     const Neighbour west = grid_neighbour(g, cloth, self, ivec2(-1, 0));
     const Neighbour south = grid_neighbour(g, cloth, self, ivec2(0, 1));
@@ -181,8 +193,8 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales s
     const Neighbour north_west = grid_neighbour(g, cloth, self, ivec2(-1, -1));
     const Neighbour north_east = grid_neighbour(g, cloth, self, ivec2(1, -1));
     const Neighbour south_west = grid_neighbour(g, cloth, self, ivec2(-1, 1));
-    gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], row_share * cloths[cloth].bending.x, east, west);
-    gather_line(g, cloth, self, ivec2(0, 1), springs[1], springs[5], column_share * cloths[cloth].bending.y, south, north);
+    gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], shares.x * cloths[cloth].bending.x, east, west);
+    gather_line(g, cloth, self, ivec2(0, 1), springs[1], springs[5], shares.y * cloths[cloth].bending.y, south, north);
     add_springs(g, springs[2], south_east, north_west);
     add_springs(g, springs[3], north_east, south_west);
     const float twist = cloths[cloth].bending.z;
@@ -210,23 +222,31 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales s
     }
 }
 
+SpringClass mesh_spring_class(uint cloth, MeshSpring entry)
+{
+    const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
+    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
+    const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
+    SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
+    spring.stiffness *= weight;
+    spring.damping *= weight;
+    return spring;
+}
+
 // A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it.
 void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
-    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
     for (uint s = 0; s < vertex.springs; ++s)
     {
         const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
-        const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
-        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
-        const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
+        const SpringClass spring = mesh_spring_class(cloth, entry);
         const vec3 delta = delta_to(g, other);
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
-        const float stiffness = scales.stiffness * weight * spring.stiffness;
-        const float damping = scales.damping * weight * spring.damping;
+        const float stiffness = scales.stiffness * spring.stiffness;
+        const float damping = scales.damping * spring.damping;
         if (stiffness + damping > 0)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
         g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
@@ -242,6 +262,36 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     }
 }
 
+// Once more all springs of a vertex, for their viscosity.
+void slow_down(inout Gather g, uint cloth, ChunkVertex self, StabilityScales scales)
+{
+    const Viscosity viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
+                                             cloths[cloth].decay, push.step);
+    if (cloths[cloth].columns > 0)
+    {
+        const vec2 shares = border_shares(cloth, self);
+        for (int i = 0; i < 2 * VOILE_SPRING_CLASSES; ++i)
+        {
+            const SpringClass spring = grid_springs(cloth, i / 2, shares, scales);
+            const Neighbour n = grid_neighbour(g, cloth, self, (1 - 2 * (i % 2)) * k_spring_offsets[i / 2]);
+            if (spring.stiffness > 0)
+                add_viscosity(g, viscosity, spring.stiffness, spring.rest_length, n.delta, n.velocity);
+        }
+        return;
+    }
+    const uint first_vertex = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + self.local];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
+        const float stiffness = scales.stiffness * mesh_spring_class(cloth, entry).stiffness;
+        if (stiffness > 0)
+            add_viscosity(g, viscosity, stiffness, entry.rest_length, delta_to(g, other),
+                          stage_velocities[other].xyz - g.v);
+    }
+}
+
 // The acceleration of a vertex, m/s^2.
 vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
 {
@@ -253,15 +303,15 @@ vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
     g.air_rate = 0;
     g.wind = wind_at(x.x);
     const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
-    if (VERLET)
-        g.viscosity = viscosity(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
-                                cloths[cloth].decay, push.step);
+    g.fast = false;
     g.bending_stiffness = scales.stiffness;
     g.bending_damping = scales.damping * cloths[cloth].bending_time;
     if (cloths[cloth].columns > 0)
         gather_grid(g, cloth, self, scales);
     else
         gather_mesh(g, cloth, self.local, scales);
+    if (g.fast)
+        slow_down(g, cloth, self, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(inverse_mass * g.air_rate, push.step);
     return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);

@@ -3,8 +3,10 @@
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
-// neighbours, and writes the next stage's state. STAGE 4 writes the result of the step.
-// Reads: cloths, chunks, mesh lists, base state, stage state, residuals of both. Writes: next state, running sums.
+// neighbours, and writes the next stage's state. STAGE 4 writes the result of the step, from the velocities of all stages:
+// they are k1 to k4 of the positions, and their differences have k1 to k3 of the velocities in them. So no stage keeps sums.
+// Reads: cloths, chunks, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
+// Writes: next state.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -17,10 +19,9 @@ layout(set = 0, binding = 3, std430) readonly buffer BaseVelocities { vec4 base_
 layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage_positions[]; };
 layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
-layout(set = 0, binding = 8, std430) buffer VelocitySums { vec4 velocity_sums[]; };         // k1 + 2 k2 + 2 k3 of x
-layout(set = 0, binding = 9, std430) buffer AccelerationSums { vec4 acceleration_sums[]; }; // k1 + 2 k2 + 2 k3 of v
-
+layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
+layout(set = 0, binding = 8, std430) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for STAGE 4
+layout(set = 0, binding = 9, std430) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
 layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 11, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
@@ -54,7 +55,6 @@ void main()
     const vec4 stage_x = stage_positions[i];
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
-    const vec3 velocity_sum = STAGE == 1 ? vec3(0) : velocity_sums[i].xyz;
     const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
 
@@ -64,13 +64,15 @@ void main()
     const float h = push.step;
     if (STAGE == 4)
     {
-        write_position(i, moved(x, h / 6 * (velocity_sum + stage_v)), inverse_mass);
-        next_velocities[i] = vec4(v + h / 6 * (acceleration_sums[i].xyz + a), 0);
+        const vec3 second = second_velocities[i].xyz;
+        const vec3 third = third_velocities[i].xyz;
+        write_position(i, moved(x, h / 6 * (v + 2 * (second + third) + stage_v)), inverse_mass);
+        // h / 2 k1 + h k2 + h k3 + h / 2 k4, over 3
+        const vec3 change = (second - v) + 2 * (third - v) + (stage_v - v) + 0.5 * h * a;
+        next_velocities[i] = vec4(v + change / 3, 0);
         return;
     }
     const float reach = STAGE == 3 ? h : 0.5 * h;
     write_position(i, moved(x, reach * stage_v), inverse_mass);
     next_velocities[i] = vec4(v + reach * a, 0);
-    velocity_sums[i] = vec4(velocity_sum + (STAGE == 1 ? 1.0 : 2.0) * stage_v, 0);
-    acceleration_sums[i] = vec4(STAGE == 1 ? a : acceleration_sums[i].xyz + 2 * a, 0);
 }

@@ -49,7 +49,7 @@ struct Viscosity
 // How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach; less
 // than half of it goes along a spring and across it each. A step far within the reach needs none: there it vanishes with
 // the fourth power of the step, faster than the method's own error.
-Viscosity viscosity(StabilityScales scales, float omega_squared, float flat_omega_squared, float decay, float h)
+Viscosity viscosity_of(StabilityScales scales, float omega_squared, float flat_omega_squared, float decay, float h)
 {
     const float load = verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h);
     const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);

@@ -63,8 +63,9 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.stage_b.positions, "cloth stage b positions", per_vertex},
         {&state.stage_b.residuals, "cloth stage b residuals", per_residual},
         {&state.stage_b.velocities, "cloth stage b velocities", per_vertex},
-        {&state.sums.positions, "cloth velocity sums", per_vertex},
-        {&state.sums.velocities, "cloth acceleration sums", per_vertex},
+        {&state.stage_c.positions, "cloth stage c positions", per_vertex},
+        {&state.stage_c.residuals, "cloth stage c residuals", per_residual},
+        {&state.stage_c.velocities, "cloth stage c velocities", per_vertex},
         {&state.candidate_places, "cloth candidate places", per_vertex},
         {&state.candidate_triangles, "cloth candidate triangles",
          model.positions.size() * VOILE_CANDIDATE_WORDS * sizeof(uint32_t)},
@@ -110,7 +111,7 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
 {
     const VkBuffer positions = s.stage_b.positions.handle();
     const VkBuffer velocities = s.stage_b.velocities.handle();
-    const VkBuffer predicted = s.sums.velocities.handle();
+    const VkBuffer predicted = s.stage_c.velocities.handle();
     const VkBuffer residuals = s.stage_b.residuals.handle();
     binder.bind(s.pins, kernels.pins,
                 {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle(),
@@ -149,7 +150,7 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.triangles.handle(),
                  s.mesh_vertices.handle(),
                  s.mesh_corners.handle(),
-                 s.sums.velocities.handle(),
+                 s.stage_c.velocities.handle(),
                  s.stage_a.velocities.handle(),
                  s.candidate_places.handle(),
                  s.candidate_triangles.handle(),
@@ -168,7 +169,7 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                  s.feature_dispatch.handle(), s.feature_chunks.handle(), s.near_colliders.handle()});
     binder.bind(s.feature_contact, kernels.feature_contact,
                 {s.cloths.handle(), s.chunks.handle(), s.stage_b.positions.handle(), s.stage_b.velocities.handle(),
-                 s.feature_corrections.handle(), s.feature_chunks.handle(), s.sums.velocities.handle(),
+                 s.feature_corrections.handle(), s.feature_chunks.handle(), s.stage_c.velocities.handle(),
                  s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(), s.collider_motions.handle(),
                  s.feature_sets.handle(), s.feature_nodes.handle(), s.features.handle(), s.state.positions.handle(),
                  s.near_colliders.handle()});
@@ -187,15 +188,15 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
         binder.bind(set, kernels.stages[stage],
                     {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
-                     output.velocities.handle(), s.sums.positions.handle(), s.sums.velocities.handle(),
+                     output.velocities.handle(), s.stage_a.velocities.handle(), s.stage_b.velocities.handle(),
                      s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle(),
                      s.state.residuals.handle(), input.residuals.handle(), output.residuals.handle()});
     };
     bind_stage(s.stages[0], 0, s.state, s.stage_a);
     bind_stage(s.stages[1], 1, s.stage_a, s.stage_b);
-    bind_stage(s.stages[2], 2, s.stage_b, s.stage_a);
-    bind_stage(s.stages[3], 3, s.stage_a, s.stage_b);
-    bind_stage(s.last_stage_alone, 3, s.stage_a, s.state);
+    bind_stage(s.stages[2], 2, s.stage_b, s.stage_c);
+    bind_stage(s.stages[3], 3, s.stage_c, s.stage_b);
+    bind_stage(s.last_stage_alone, 3, s.stage_c, s.state);
     // Of a Verlet cloth: positions, velocities at their time or predicted for it, velocities half a substep before.
     struct Motion
     {
@@ -206,7 +207,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     };
     const Motion start{s.state.positions, s.state.residuals, s.state.velocities, s.state.velocities};
     const Motion here{s.state.positions, s.state.residuals, s.stage_a.velocities, s.state.velocities};
-    const Motion there{s.stage_b.positions, s.stage_b.residuals, s.sums.velocities, s.stage_b.velocities};
+    const Motion there{s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.stage_b.velocities};
     const auto bind_verlet = [&](VkDescriptorSet& set, const Motion& input, const Motion& output)
     {
         binder.bind(set, kernels.verlet,
@@ -219,7 +220,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     bind_verlet(s.verlet_forth, here, there);
     bind_verlet(s.verlet_back, there, here);
     // The last kick leaves positions alone; what it would write of them goes where nobody looks.
-    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.stage_b.residuals, s.sums.velocities, s.state.velocities});
+    bind_verlet(s.verlet_last, here, {s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
     bind_contact(s, kernels, binder);

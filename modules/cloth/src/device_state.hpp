@@ -51,9 +51,9 @@ struct DeviceState
     gpu::Buffer holds;
     gpu::Buffer tethers;
     StateBuffers state;              // what the cloth is between steps
-    StateBuffers stage_a;            // written by stages 1 and 3
-    StateBuffers stage_b;            // written by stages 2 and 4
-    StateBuffers sums;               // running sums of the stages
+    StateBuffers stage_a;            // written by stage 1
+    StateBuffers stage_b;            // by stages 2 and 4
+    StateBuffers stage_c;            // by stage 3
     gpu::Buffer candidate_places;    // where the lists of triangles near each vertex hold
     gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
@@ -62,7 +62,7 @@ struct DeviceState
     gpu::BindingPool pool;
     std::array<VkDescriptorSet, 4> stages{};
     VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
-    // Velocity Verlet goes from the state to stage B, with predictions in stage A's and the sums' velocities.
+    // Velocity Verlet goes from the state to stage B, with predictions in the velocities of stages A and C.
     VkDescriptorSet verlet_first{};     // state to stage B: the velocities are those of the positions' time
     VkDescriptorSet verlet_forth{};     // state to stage B
     VkDescriptorSet verlet_back{};      // stage B to state, where no contact pass does that
