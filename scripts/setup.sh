@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what Voile builds and runs with: Debian 12 and 13, Ubuntu 24.04 (apt). Elsewhere it says what
-# to install. Does nothing, in under a second, when everything is there.
+# Installs what Voile builds and runs with, on Debian 12 (apt). Debian 13 has packages of these names but for RenderDoc; neither
+# it nor Ubuntu 24.04 was tried. Without apt it says what to install. Does nothing when everything is there.
 #
 #   scripts/setup.sh            installs what is missing
 #   scripts/setup.sh --check    only says what is missing; exit code 1 if anything is

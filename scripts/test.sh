@@ -1,11 +1,40 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. Needs no display and no GPU. Arguments go to ctest, e.g.
-#   scripts/test.sh -R contact
+# Installs what is missing, builds, and runs the tests. Needs no display and no GPU.
+#
+#   scripts/test.sh                all tests
+#   scripts/test.sh --quick        some cases of every subject (tests/quick_cases.cmake), in under 3 minutes on two cores
+#   scripts/test.sh --help         prints this
+#   scripts/test.sh [--quick] ...  everything else goes to ctest, e.g. -R contact
+#
+# The exit code is ctest's.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+quick_seconds=180
+selection=()
+arguments=()
+for argument in "$@"; do
+  case "$argument" in
+    --help | -h)
+      awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' scripts/test.sh
+      exit 0
+      ;;
+    --quick) selection=(--label-regex '^quick$') ;;
+    *) arguments+=("$argument") ;;
+  esac
+done
+
 scripts/setup.sh
 scripts/build.sh
 
 # Tests run beside each other, one a core. A software device that took all cores in each of them would only wait for itself.
 export LP_NUM_THREADS="${LP_NUM_THREADS:-1}"
-exec ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure "$@"
+SECONDS=0
+status=0
+ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure \
+  ${selection[@]+"${selection[@]}"} ${arguments[@]+"${arguments[@]}"} || status=$?
+if [ "${#selection[@]}" -gt 0 ] && [ "$SECONDS" -gt "$quick_seconds" ]; then
+  printf 'test: the quick cases took %d s; on two cores that do nothing else they should take under %d\n' \
+    "$SECONDS" "$quick_seconds" >&2
+fi
+exit "$status"

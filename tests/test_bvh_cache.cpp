@@ -153,7 +153,7 @@ TEST_CASE("several threads may ask at once, while others change the limit")
     CHECK(cache.counts().builds + cache.counts().hits == k_threads * k_rounds);
 }
 
-TEST_CASE("colliders of all solvers share a cache; a changed vertex or transform builds anew")
+TEST_CASE("colliders of all solvers share a cache, and a changed vertex or transform builds anew")
 {
     cloth::BvhCache& cache = cloth::bvh_cache();
     cloth::set_hierarchy_cache_limit(0);

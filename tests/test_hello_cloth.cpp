@@ -1,5 +1,6 @@
 // The first test: the shortest program runs, and its picture shows a red cloth on the ground under a sky.
 #include "test_folder.hpp"
+#include "test_paths.hpp"
 
 #include "engine/assets/image_file.hpp"
 
@@ -10,7 +11,8 @@
 TEST_CASE("hello_cloth draws a cloth on a sphere")
 {
     const TestFolder folder;
-    const std::string command = "cd " + folder.path().string() + " && " VOILE_BINARY_DIR "/hello_cloth --headless";
+    const std::string command =
+        "cd " + folder.path().string() + " && '" + tests::program("hello_cloth").string() + "' --headless";
     REQUIRE(std::system(command.c_str()) == 0);
     const auto picture = engine::load_png(folder / "hello_cloth.png");
     REQUIRE_MESSAGE(picture, picture.error().message);

@@ -245,3 +245,48 @@ TEST_CASE("normals of a sheet that hangs in folds are the cross products of its 
         }
     CHECK(straightest < 0.9); // it is curved
 }
+
+TEST_CASE("a step has the dispatches that it says, and as many for ten cloths as for one")
+{
+    const cloth::Step step{.substeps = 20};
+    for (const cloth::Integrator integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+        for (const bool everything : {false, true})
+        {
+            ClothHarness harness;
+            cloth::Fabric fabric;
+            fabric.strain_limit = everything ? 0.05f : 0;
+            const auto add = [&]
+            {
+                const cloth::ClothId id = engine::take(harness.solver.add_cloth(
+                    cloth::Grid{.columns = 9, .rows = 7, .material = fabric, .integrator = integrator, .held = {0}}));
+                if (!everything)
+                    return;
+                const std::vector<cloth::Hold> holds{{.vertex = 0}, {.vertex = 3, .stiffness = 10}};
+                engine::take(harness.solver.set_holds(id, holds));
+                engine::take(harness.solver.set_tethers(id, cloth::Tethers{}));
+            };
+            const auto count = [&]
+            {
+                harness.upload();
+                harness.step(step); // from then on without edits
+                uint32_t dispatches = 0;
+                harness.run(
+                    [&](VkCommandBuffer cmd)
+                    {
+                        gpu::Recorder recorder(harness.context(), cmd);
+                        engine::take(harness.solver.record(recorder, step));
+                        dispatches = recorder.dispatches();
+                    });
+                CHECK(dispatches == harness.solver.dispatches(step));
+                return dispatches;
+            };
+            for (int i = 0; everything && i < 9; ++i) // enough for lists of those near; they have edges, but far away
+                (void)engine::take(
+                    harness.solver.add_collider(cloth::BoxCollider{.min = {9, 9, 9}, .max = {10, 10, 10}}));
+            add();
+            const uint32_t of_one = count();
+            for (int i = 0; i < 9; ++i)
+                add();
+            CHECK(count() == of_one);
+        }
+}

@@ -1,6 +1,7 @@
 // What has to outlive what, what is found where it does not, and what several threads may do at once.
 #include "cloth_harness.hpp"
 #include "collider_scenes.hpp"
+#include "test_paths.hpp"
 
 #include "engine/assets/shapes.hpp"
 #include "lifetime_check.hpp"
@@ -83,7 +84,7 @@ struct End
 // Runs a test case of this program that is left out otherwise, as a process of its own.
 End run_case(const std::string& name)
 {
-    const std::string command = "'" VOILE_BINARY_DIR "/test_lifetime' --no-skip -tc='" + name + "' 2>&1";
+    const std::string command = "'" + tests::program("test_lifetime").string() + "' --no-skip -tc='" + name + "' 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
     End end;

@@ -1,5 +1,6 @@
 // Pictures: what the renderer must show, pixel by pixel where that is exact, and a golden picture of a whole scene.
 #include "gpu_fixture.hpp"
+#include "test_paths.hpp"
 
 #include "component/cloth_component.hpp"
 #include "engine/assets/shapes.hpp"
@@ -286,7 +287,7 @@ TEST_CASE("the golden picture")
     for (uint64_t frame = 0; frame < 20; ++frame)
         picture = stage.draw(frame);
 
-    const std::string golden = VOILE_SOURCE_DIR "/tests/golden/drape.png";
+    const std::string golden = tests::source("tests/golden/drape.png").string();
     if (std::getenv("VOILE_UPDATE_GOLDEN") != nullptr)
         engine::take(engine::save_png(golden, picture));
     const auto expected = engine::load_png(golden);

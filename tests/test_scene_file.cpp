@@ -1,6 +1,7 @@
 // Scene files: what is read from them, and how scenes are found. tests/test_scene_errors.cpp has what is refused.
 #include "scene_text.hpp"
 #include "test_folder.hpp"
+#include "test_paths.hpp"
 
 #include <doctest/doctest.h>
 
@@ -219,7 +220,7 @@ TEST_CASE("a transform scales, then rotates about x, y, z, then translates")
 
 TEST_CASE("the reference scene is that of the report")
 {
-    const fs::path path = fs::path(VOILE_SOURCE_DIR) / "samples/scenes/reference.json";
+    const fs::path path = tests::source("samples/scenes/reference.json");
     std::ifstream file(path);
     std::stringstream text;
     text << file.rdbuf();

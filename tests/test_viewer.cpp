@@ -145,6 +145,16 @@ TEST_CASE("files that cannot be written are refused before the run, and nothing 
     CHECK(std::distance(fs::recursive_directory_iterator(folder.path()), {}) == 1); // the one that was there
 }
 
+TEST_CASE("validation messages make the exit code 2")
+{
+    // Its advice is more than this program follows.
+    const Run run = run_viewer(k_small + "--validate --frames 1",
+                               "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 2);
+    CHECK(run.errors.find(" validation messages\n") != std::string::npos);
+}
+
 TEST_CASE("without Vulkan there is one line that says so")
 {
     check_refused(run_viewer(k_small + "--frames 1", "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "test_folder.hpp"
+#include "test_paths.hpp"
 #include "viewer_run.hpp"
 
 #include <fcntl.h>
@@ -33,7 +34,7 @@ public:
     template <typename Prepare>
     ViewerProcess(const std::vector<std::string>& arguments, Prepare prepare)
     {
-        std::vector<std::string> all{VOILE_BINARY_DIR "/viewer"};
+        std::vector<std::string> all{program("viewer").string()};
         all.insert(all.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
         for (std::string& argument : all)

@@ -1,6 +1,8 @@
 // The viewer as a program of its own: what it says and how it ends.
 #pragma once
 
+#include "test_paths.hpp"
+
 #include <doctest/doctest.h>
 
 #include <sys/wait.h>
@@ -36,8 +38,8 @@ inline Run run_viewer(const std::string& arguments, const std::string& environme
 {
     const std::string base =
         (std::filesystem::temp_directory_path() / ("voile_run_" + std::to_string(getpid()))).string();
-    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " VOILE_BINARY_DIR "/viewer " +
-                                arguments + " >" + base + ".out 2>" + base + ".err";
+    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " '" + program("viewer").string() +
+                                "' " + arguments + " >" + base + ".out 2>" + base + ".err";
     const int status = std::system(command.c_str());
     Run run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(base + ".out"), text_of(base + ".err")};
     std::filesystem::remove(base + ".out");

@@ -10,10 +10,20 @@
 //
 // Shear: KES G in gf/(cm degree) times 56.19 is N/m; it is a slope at small angles already.
 //
-// What is behind a source's name: denim's values and the FAST report were read in tables; Kawabata's means, LT and the
-// ranges called typical are recalled from the literature and were not looked up again. Values inside a typical range
-// are a choice. The bending of silk and of leather was chosen with their drape coefficients known, so that these do not
-// confirm it.
+// Sources. Where a comment names a source with a table or a file, the value was read there; the list below says where.
+// "Typical": of that class of fabric, recalled and not looked up, and so are the ranges and the LT of 0.65. A value
+// inside a typical range is a choice. fabrics.hpp repeats for users which values are typical.
+// - Wang, O'Brien and Ramamoorthi 2011, "Data-driven elastic models for cloth": the authors' measurements as published
+//   for ARCSim, 11oz-black-denim.json, read in github.com/wxhaooo/lyra, materials/.
+// - Kumari and Khurana 2016, Journal of Textiles, article 4614168, table 5: KES of six denims of cotton and regenerated
+//   cellulose, A to F.
+// - Feng et al. 2022, "Learning-based bending stiffness parameter estimation by a drape tester": the authors' data of
+//   618 fabrics, github.com/DrapeTester/ClothDrapeTester, dataset/dataset.csv.
+// - Penava et al. 2014, table 1, rows 5 and 6, as a public program transcribes them; the paper itself was not opened.
+// - Memon et al. 2021, Materials 14, 4553, the abstract: thickness and drape coefficients of four sheep leathers.
+// - A FAST report: "Fabric Assurance by Simple Testing", a report of students on a plain worsted of 0.168 kg/m^2,
+//   tables V and VI. It also has a shear rigidity of 26 N/m and bending rigidities of 5.6 and 5.0e-6 N m.
+// - Kawabata 1980 ("Standardization and analysis of hand evaluation") is recalled: no copy could be opened.
 //
 // Thickness. Contact keeps single vertices at that distance, so that what spans between them stays out of a curved
 // surface: 2 to 5 mm, some times the fabric's own.
@@ -25,14 +35,14 @@ namespace cloth
 Fabric silk()
 {
     Fabric f;
-    f.areal_density = 0.082f;          // 19 momme charmeuse at 4.34 g/m^2 each (trade data); the class has 0.055-0.090
+    f.areal_density = 0.082f;          // 19 momme; one is 4.340 g/m^2, and charmeuse has 12 to 30 (trade data)
     f.stretch_stiffness = {1400, 740}; // typical KES secants 15 and 8 kN/m, LT 0.65
     f.shear_stiffness = 17;            // typical, G 0.2-0.4 gf/(cm degree)
-    f.bending_stiffness = 1.8e-6f; // chosen in 0.8-3e-6, typical; limp cloths of 0.07-0.10 kg/m^2 in the data of Feng
-                                   // et al. 2022 (drape tester) have 0.5-2.5e-6
-    f.thickness = 0.002f;          // the fabric's own: 0.22 mm
-    f.static_friction = 0.3f;      // typical 0.25-0.40; fibres 0.26 (Morton and Hearle)
-    f.kinetic_friction = 0.25f;    // typical 0.20-0.35
+    f.bending_stiffness = 1.8e-6f;     // typical, 0.8-3e-6. In dataset.csv of Feng et al. 2022 limp fabrics of
+                                       // 0.07-0.10 kg/m^2 have 0.6-2.0e-6, the mean of warp and weft
+    f.thickness = 0.002f;              // the fabric's own: typical, 0.22 mm
+    f.static_friction = 0.3f;          // typical, 0.25-0.40
+    f.kinetic_friction = 0.25f;        // typical, 0.20-0.35
     f.bending_model = BendingModel::isometric;
     return f;
 }
@@ -40,13 +50,13 @@ Fabric silk()
 Fabric cotton()
 {
     Fabric f;
-    f.areal_density = 0.13f;            // typical, 0.10-0.15 (Penava et al. 2014: 0.150 for a plain weave)
+    f.areal_density = 0.13f;            // typical, 0.10-0.15; Penava et al. 2014, table 1: 0.1503
     f.stretch_stiffness = {1900, 1100}; // typical KES secants 16 and 9 kN/m, LT 0.70
     f.shear_stiffness = 80;             // typical, G 0.8-2.0 gf/(cm degree)
     f.bending_stiffness = 1.4e-5f;      // typical of cantilevers, 0.8-2.5e-5; KES 0.5-1.2e-5
-    f.thickness = 0.003f;               // the fabric's own: 0.32 mm (Penava et al. 2014)
-    f.static_friction = 0.6f;           // typical 0.5-0.8
-    f.kinetic_friction = 0.5f;          // typical 0.40-0.65; fibres 0.29-0.57 (Morton and Hearle)
+    f.thickness = 0.003f;               // the fabric's own: 0.318 mm (Penava et al. 2014, table 1)
+    f.static_friction = 0.6f;           // typical, 0.5-0.8
+    f.kinetic_friction = 0.5f;          // typical, 0.40-0.65
     f.bending_model = BendingModel::isometric;
     return f;
 }
@@ -54,14 +64,15 @@ Fabric cotton()
 Fabric wool()
 {
     Fabric f;
-    f.areal_density = 0.2635f;         // Kawabata 1980, mean of 214 men's winter suitings
-    f.stretch_stiffness = {730, 1200}; // a FAST report of a plain worsted: 0.67 and 0.40 % at 4.9 N/m. The mean of the
-                                       // suitings, 8.1 kN/m at LT 0.61, gives 620
-    f.shear_stiffness = 54;            // Kawabata 1980: G 0.968 gf/(cm degree)
-    f.bending_stiffness = 1.9e-5f;     // Kawabata 1980: B 1.33e-5, and HB c = 0.58e-5 for c = 1.9 cm
-    f.thickness = 0.004f;              // the fabric's own: 0.75 mm (Kawabata 1980)
-    f.static_friction = 0.5f;          // typical 0.4-0.6
-    f.kinetic_friction = 0.4f;         // typical 0.3-0.5
+    f.areal_density = 0.2635f;         // typical: the mean of 214 men's winter suitings in Kawabata 1980, recalled.
+                                       // Penava et al. 2014, table 1: 0.2348
+    f.stretch_stiffness = {730, 1200}; // the FAST report, tables V and VI: 0.67 and 0.40 % at 4.9 N/m, of a lighter
+                                       // worsted. The suitings' mean, 8.1 kN/m at LT 0.61 (recalled), gives 620
+    f.shear_stiffness = 54;            // typical: Kawabata 1980, recalled, G 0.968 gf/(cm degree)
+    f.bending_stiffness = 1.9e-5f;     // typical: Kawabata 1980, recalled, B 1.33e-5, and HB c = 0.58e-5, c = 1.9 cm
+    f.thickness = 0.004f;              // the fabric's own: typical, 0.75 mm; Penava et al. 2014, table 1: 0.568 mm
+    f.static_friction = 0.5f;          // typical, 0.4-0.6
+    f.kinetic_friction = 0.4f;         // typical, 0.3-0.5
     f.bending_model = BendingModel::isometric;
     return f;
 }
@@ -69,15 +80,16 @@ Fabric wool()
 Fabric denim()
 {
     Fabric f;
-    f.areal_density = 0.324f;           // Wang, O'Brien and Ramamoorthi 2011, 11 oz; 0.318-0.334 in Fashion and
-                                        // Textiles 1:19 (2014)
-    f.stretch_stiffness = {1100, 1100}; // J. Textiles 2016, 4614168: mean of six, 9.4 kN/m, LT 0.70; Wang et al. fit
-                                        // 205 and 1014 at low loads
-    f.shear_stiffness = 89;         // J. Textiles 2016, 4614168: median of six, G 1.58 gf/(cm degree); Wang et al. 53
-    f.bending_stiffness = 8.06e-5f; // Wang et al. 2011, mean of warp and weft; 5-9e-5 by bending lengths of washed ones
-    f.thickness = 0.005f;           // the fabric's own: 0.85 mm (J. Textiles 2016)
-    f.static_friction = 0.6f;       // typical 0.5-0.8
-    f.kinetic_friction = 0.5f;      // typical 0.40-0.65; 0.28-0.33 against a smooth probe
+    f.areal_density = 0.324f;           // Wang et al. 2011, 11 oz: "density"
+    f.stretch_stiffness = {1100, 1100}; // Kumari and Khurana 2016, table 5: means of six, EMT 5.21 % at 490 N/m, which
+                                        // is 9.4 kN/m, and LT 0.70. Wang et al. 2011 fit 205 and 1014 at low loads
+    f.shear_stiffness = 89;             // Kumari and Khurana 2016, table 5: median of six, G 1.58 gf/(cm degree), of
+                                        // 1.50 to 3.40. Wang et al. 2011: 53
+    f.bending_stiffness = 8.06e-5f;     // Wang et al. 2011, "bending", first column: mean of 6.42e-5 and 9.70e-5, along
+                                        // warp and weft. Table 5 of Kumari and Khurana 2016 has B of 1.4 to 2.2e-5
+    f.thickness = 0.005f;               // the fabric's own: 0.80 to 1.19 mm (Kumari and Khurana 2016, table 5)
+    f.static_friction = 0.6f;           // typical, 0.5-0.8
+    f.kinetic_friction = 0.5f;          // typical, 0.40-0.65
     f.bending_model = BendingModel::isometric;
     return f;
 }
@@ -86,11 +98,11 @@ Fabric leather()
 {
     Fabric f;
     f.areal_density = 0.5f;             // typical, 0.6 g/cm^3 at 0.64-0.96 mm
-    f.stretch_stiffness = {1900, 1100}; // chosen: 5 along and 3 kN/m across the backbone at 98 N/m, LT 0.8
+    f.stretch_stiffness = {1900, 1100}; // typical: 5 along and 3 kN/m across the backbone at 98 N/m, LT 0.8
     f.shear_stiffness = 560;            // no measurement; a felt has no yarns to turn: E / (2 (1 + nu)), nu 0.35
-    f.bending_stiffness = 4e-5f;        // chosen, 1-8e-5, to give the drape coefficients of 47 to 70 % that Memon et
-                                        // al. 2021 (Materials 14, 4553) measured
-    f.thickness = 0.005f;               // the leather's own: 0.80 mm (Memon et al. 2021: 0.64-0.96)
+    f.bending_stiffness = 4e-5f;        // chosen in 1-8e-5, typical, to give the drape coefficients that Memon et al.
+                                        // 2021 measured, 47.35 to 69.9 %; so these do not confirm it
+    f.thickness = 0.005f;               // the leather's own: 0.64 to 0.96 mm (Memon et al. 2021)
     f.static_friction = 0.6f;           // typical of finished leather, 0.5-0.7
     f.kinetic_friction = 0.5f;          // typical, 0.4-0.6
     f.bending_model = BendingModel::isometric;

@@ -125,8 +125,8 @@ enum class Sides
 //
 // All mesh colliders of a solver together can have 67,108,864 triangles, those that deform half as many. The hierarchy
 // over the triangles of one that keeps its shape is built when it is added, by one thread a core; 2
-// million triangles take some 0.9 s on two cores. It is kept for when the same mesh is added again, to any solver:
-// set_hierarchy_cache_limit.
+// million triangles took 0.7 s on two cores (bench/NOTES.md). It is kept for when the same mesh is added again, to any
+// solver: set_hierarchy_cache_limit.
 struct MeshCollider
 {
     std::string name = "mesh";

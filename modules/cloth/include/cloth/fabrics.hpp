@@ -1,4 +1,4 @@
-// Fabrics to start from: typical samples of five classes, from published measurements where these exist.
+// Fabrics to start from: typical samples of five classes. Some values were measured, some are typical.
 #pragma once
 
 #include "cloth/material.hpp"
@@ -9,18 +9,30 @@
 namespace cloth
 {
 
-// Each value's source stands beside it in fabrics.cpp. Of all five:
+// Which values were read in a published measurement ("read"), and which are typical of the class, recalled and not
+// looked up ("typical"). fabrics.cpp names each source with its table or file.
+//
+//           areal density  stretch  shear      bending  friction
+//   silk    read           typical  typical    typical  typical
+//   cotton  typical        typical  typical    typical  typical
+//   wool    typical        read     typical    typical  typical
+//   denim   read           read     read       read     typical
+//   leather typical        typical  estimated  chosen   typical
+//
+// Leather's bending is chosen to give measured drape coefficients; its shear follows from its stretch as in a felt.
+// Wool's stretch is that of one plain worsted of 0.168 kg/m^2. Of all five:
 // - stretch stiffness is the secant at about 5 N/m, the loads of hanging and draping;
 // - bending stiffness is what a cantilever has (KES B plus its friction), in the isometric model;
-// - friction is of the fabric on itself, typical: measured values depend on pressure and direction;
-// - thickness is the distance that contact keeps, some millimetres, and not the fabric's own, which is told beside it.
+// - friction is of the fabric on itself; measured values depend on pressure and direction;
+// - damping and air drag are Fabric's defaults;
+// - thickness is the distance that contact keeps, 2 to 5 mm, and not the fabric's own, which fabrics.cpp names.
 Fabric silk();    // light and limp: crepe de chine, charmeuse
 Fabric cotton();  // shirting
 Fabric wool();    // winter suiting
 Fabric denim();   // washed, 11 oz
 Fabric leather(); // sheep garment leather
 
-// By the function's name, nothing for others.
+// By the function's name; nothing for other names.
 std::optional<Fabric> find_fabric(std::string_view name);
 
 } // namespace cloth

@@ -7,40 +7,15 @@
 //   each frame:   if (auto r = solver.value().record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
 //                 draw solver.value().vertices(sheet.value())   // the same buffers that were written
 //
-// Buffers (one entry a vertex of all cloths, unless said otherwise) and who touches them:
-//   buffer            format                 written by             read by
-//   positions         vec4 x y z 1/mass      contact, stage 4,      stage 1, Verlet, features, contact, normals,
-//                                            Verlet                 statistics, recovery, drawing
-//   velocities        vec4, w: touches       the same               stage 1, Verlet, feature reach, statistics
-//   depenetrations    Depenetration          recovery               contact
-//   near colliders    words, per chunk       collider reach         all that looks for colliders
-//   stage A, stage B  vec4 x and v each      stages 1-4, Verlet,    stages 2-4, contact, Verlet, strain limit
-//                                            holds, strain limit
-//   sums              vec4 x and v each      stages 1-3, Verlet     stages 2-4, Verlet
-//   mesh lists        MeshVertex, -Spring,   upload                 stages, Verlet, contact, normals, statistics
-//                     -Corner
-//   normals           vec4                   normals                recovery, drawing
-//   start             vec4 x y z, 1/measure  upload                 edits
-//   anchors, holds,   AnchorRecord,          upload, edits          pins, holds, tethers
-//   tethers           HoldRecord, TetherRecord
-//   cloths, chunks    ClothRecord, Chunk     upload, edits          all
-//   colliders, motions, ColliderRecord,      upload, edits          recovery, features, contact, statistics
-//   nodes, triangles    -Motion, Bvh...
-//   candidates        vec4, 26 words         contact                contact, statistics
-//   features, their   Feature,               upload, feature        feature reach, feature contact, contact
-//     corrections       FeatureCorrection      contact
-//   near chunks,      uint,                  feature reach          feature contact
-//   dispatch sizes    3 words                feature reach,         indirect dispatches
-//                                              recovery
-//   partials, result  StatisticsRecord       statistics             the host (result), kept through uploads
+// The host draws from the buffers of VertexStreams: positions, velocities, normals. ARCHITECTURE.md lists all buffers
+// with who writes and who reads them.
 //
 // Lifetime. The solver submits nothing and waits for nothing, so the host keeps things alive for the GPU:
 // - destroy a Solver, or assign another one to it, when no command buffer that it recorded into is pending;
 // - keep an Upload until the command buffer that record_upload recorded into has completed;
 // - keep a Snapshot until the command buffers that save it or restore from it have completed;
-// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots. Uploads and Snapshots may
-// outlive
-//   the Solver.
+// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots;
+// - Uploads and Snapshots may outlive the Solver.
 // Where SolverOptions::lifetime_checks is on, destroying a Solver or an Upload while the GPU executes its commands ends
 // the program with a line on stderr. A Solver, an Upload or a Snapshot that was moved from may only be destroyed or
 // assigned to.
@@ -305,10 +280,9 @@ public:
     // All 0 for a slot that nothing was recorded into, or that does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps. 0
-    // for a duration that record refuses.
-    // From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched:
-    // RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
+    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
+    // 0 for a duration that record refuses. From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of
+    // the cloth, crumpled and stretched: RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     // needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;

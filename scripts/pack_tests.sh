@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Packs the tests of build/release into one archive, to run them on another machine: one with a GPU, say, that has neither
+# a compiler nor the packages. Build first (scripts/build.sh). The other machine needs bash, tar with xz, glibc and
+# libstdc++ as new as this one's, and a Vulkan driver with its loader.
+#
+#   scripts/pack_tests.sh [FILE]    default: build/tests.tar.xz
+#
+# There:   tar xf tests.tar.xz && voile_tests/run.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+archive=$(realpath -m "${1:-build/tests.tar.xz}")
+most_bytes=$((40 * 1024 * 1024))
+programs=build/release/bin
+layer_name=VkLayer_khronos_validation
+
+fail() {
+  printf 'pack_tests: %s\n' "$*" >&2
+  exit 1
+}
+
+ls "$programs"/test_* >/dev/null 2>&1 || fail "there are no tests in $programs; run scripts/build.sh"
+[ -d build/release/scenes ] || fail 'there are no scenes in build/release/scenes; run scripts/build.sh'
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+pack=$work/voile_tests
+mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples}
+
+# The tests that ctest knows: a build folder keeps programs of tests that are no more.
+mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
+for program in "${tests[@]}" viewer hello_cloth; do
+  [ -x "$programs/$program" ] || fail "$programs/$program is not built; run scripts/build.sh"
+  strip --strip-all -o "$pack/bin/$program" "$programs/$program"
+done
+
+# Libraries, less those of the C and C++ runtimes, which every machine has.
+for program in "$pack"/bin/*; do
+  ldd "$program"
+done | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | sort -u |
+  grep -vE '/(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so\.[0-9]+)$' | xargs -r -I{} cp -L {} "$pack/lib/"
+
+# The validation layer, with a manifest that finds it beside itself.
+manifest=''
+for folder in /usr/local/share /etc /usr/share; do
+  [ ! -f "$folder/vulkan/explicit_layer.d/$layer_name.json" ] || manifest=$folder/vulkan/explicit_layer.d/$layer_name.json
+done
+[ -n "$manifest" ] || fail 'the validation layer is not installed; run scripts/setup.sh'
+library=$(find /usr/lib /usr/local/lib -name "lib$layer_name.so" -print -quit)
+[ -n "$library" ] || fail "lib$layer_name.so was not found"
+cp -L "$library" "$pack/layers/"
+sed 's|"library_path": *"[^"]*"|"library_path": "./lib'"$layer_name"'.so"|' "$manifest" >"$pack/layers/$layer_name.json"
+
+cp -r build/release/scenes "$pack/scenes"
+cp -r tests/golden "$pack/sources/tests/golden"
+cp -r samples/scenes "$pack/sources/samples/scenes"
+cp scripts/run_packed_tests.sh "$pack/run.sh"
+git log -1 --format='%h %s' >"$pack/version" 2>/dev/null || true
+
+mkdir -p "$(dirname "$archive")"
+tar -C "$work" -cf - voile_tests | xz -T0 -6 >"$archive"
+bytes=$(stat -c %s "$archive")
+printf 'pack_tests: %s, %d programs, %.1f MiB\n' "$archive" "${#tests[@]}" "$(awk "BEGIN { print $bytes / 1048576 }")"
+[ "$bytes" -le "$most_bytes" ] || fail "the archive is larger than $((most_bytes / 1048576)) MiB"

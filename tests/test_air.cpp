@@ -1,0 +1,127 @@
+// The air: its force on a tilted plate, and the field of the wind and its gusts.
+#include "cloth_harness.hpp"
+
+#include <cmath>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+constexpr cloth::Step k_no_gravity{.substeps = 1, .gravity = glm::vec3(0)};
+
+// Vertices that nothing joins and the air drags along: after a short step their velocity is the wind's, times this.
+constexpr float k_dragged = 1e-3f;
+
+cloth::Grid dust(uint32_t side, float size)
+{
+    cloth::Material material;
+    material.vertex_mass = 0.01f;
+    material.linear_drag = 0.01f;
+    cloth::Grid grid;
+    grid.columns = grid.rows = side;
+    grid.width = grid.depth = size;
+    grid.material = material;
+    return grid;
+}
+
+// m/s, at the vertices of a flat square of cloth around the origin.
+std::vector<glm::dvec3> wind_over(ClothHarness& harness, cloth::ClothId cloth, cloth::Step step)
+{
+    step.duration = k_dragged;
+    engine::take(harness.solver.reset(cloth));
+    harness.step(step);
+    std::vector<glm::dvec3> winds;
+    for (const glm::vec4& v : harness.velocities(cloth))
+        winds.push_back(glm::dvec3(v) / (1 - std::exp(-static_cast<double>(k_dragged))));
+    return winds;
+}
+
+double largest_difference(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double largest = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, glm::distance(a[i], b[i]));
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("the air drags and lifts a tilted plate by 1/2 rho C |u| u along its normal and across it")
+{
+    cloth::Fabric fabric;
+    fabric.areal_density = 0.2f;
+    fabric.stretch_stiffness = {1, 1};
+    fabric.shear_stiffness = 0.1f;
+    fabric.air_drag_normal = 1.28f;
+    fabric.air_drag_tangential = 0.3f;
+    cloth::Grid plate{.columns = 7, .rows = 5, .width = 1.2f, .depth = 0.8f, .material = fabric};
+    plate.transform[0] = {0.8f, 0.6f, 0, 0};
+    plate.transform[1] = {-0.6f, 0.8f, 0, 0};
+    const glm::dvec3 normal(-0.6, 0.8, 0);
+    const glm::dvec3 wind(3, 0, 1);
+    cloth::Step step = k_no_gravity;
+    step.duration = 1e-5f;
+    step.wind = glm::vec3(wind);
+    for (const cloth::Integrator integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    {
+        plate.integrator = integrator;
+        ClothHarness harness;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(plate));
+        harness.upload();
+        harness.step(step);
+        const double along = glm::dot(wind, normal);
+        const glm::dvec3 across = wind - along * normal;
+        const glm::dvec3 expected =
+            0.5 * 1.225 / 0.2 * (1.28 * std::abs(along) * along * normal + 0.3 * glm::length(across) * across);
+        double worst = 0;
+        for (const glm::vec4& v : harness.velocities(id))
+            worst = std::max(worst, glm::distance(glm::dvec3(v) / 1e-5, expected) / glm::length(expected));
+        CAPTURE(worst);
+        CHECK(worst < 3e-4);
+    }
+}
+
+TEST_CASE("gusts have the strength that they are given, and depend on place and time alone")
+{
+    ClothHarness harness;
+    const cloth::ClothId fine = engine::take(harness.solver.add_cloth(dust(129, 64)));
+    const cloth::ClothId coarse = engine::take(harness.solver.add_cloth(dust(65, 64)));
+    const cloth::ClothId large = engine::take(harness.solver.add_cloth(dust(65, 128)));
+    harness.upload();
+    cloth::Step step = k_no_gravity;
+    step.wind = {2, 0, 1};
+    step.gust = 0.4f;
+    step.time = 12.5;
+    const std::vector<glm::dvec3> winds = wind_over(harness, fine, step);
+
+    glm::dvec3 mean(0);
+    for (const glm::dvec3& wind : winds)
+        mean += wind / static_cast<double>(winds.size());
+    double square = 0;
+    for (const glm::dvec3& wind : winds)
+        square += glm::dot(wind - mean, wind - mean) / static_cast<double>(winds.size());
+    CAPTURE(mean.x);
+    CAPTURE(mean.z);
+    CHECK(glm::distance(mean, glm::dvec3(2, 0, 1)) < 3e-4);
+    CHECK(std::sqrt(square) == doctest::Approx(0.4 * std::sqrt(5.0)).epsilon(4e-4));
+
+    // Another cloth feels the same where it has vertices, too; and the same again after the wind of another time.
+    std::vector<glm::dvec3> shared;
+    for (size_t row = 0; row < 129; row += 2)
+        for (size_t column = 0; column < 129; column += 2)
+            shared.push_back(winds[row * 129 + column]);
+    const std::vector<glm::dvec3> winds_of_coarse = wind_over(harness, coarse, step);
+    CHECK(largest_difference(winds_of_coarse, shared) < 1e-6);
+    step.time = 13;
+    CHECK(largest_difference(wind_over(harness, coarse, step), shared) > 0.1);
+    step.time = 12.5;
+    CHECK(largest_difference(wind_over(harness, coarse, step), winds_of_coarse) == 0);
+
+    // Waves twice as long make the same field on a cloth twice as large.
+    step.time = 0;
+    const std::vector<glm::dvec3> start = wind_over(harness, coarse, step);
+    step.gust_length = 8;
+    CHECK(largest_difference(wind_over(harness, large, step), start) < 2.5e-5);
+}
