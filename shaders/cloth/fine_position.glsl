@@ -33,9 +33,10 @@ vec3 unpack_residual(uvec2 bits)
 
 uvec2 pack_residual(FinePosition p)
 {
-    const float unit = residual_step(p.x);
-    const uvec3 fraction = floatBitsToUint(min(p.residual / unit, 32767) + k_residual_offset) & 0xffffu;
-    return uvec2(fraction.x | fraction.y << 16, fraction.z | floatBitsToUint(unit));
+    const uint unit = floatBitsToUint(residual_step(p.x));
+    const float a_unit = uintBitsToFloat((254u << 23) - unit); // 1 / unit, a power of two as well
+    const uvec3 fraction = floatBitsToUint(min(p.residual * a_unit, 32767) + k_residual_offset) & 0xffffu;
+    return uvec2(fraction.x | fraction.y << 16, fraction.z | unit);
 }
 
 // The position moved by a displacement, m.
