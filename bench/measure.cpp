@@ -23,21 +23,22 @@ constexpr float k_frame = 1.f / 60; // s
 // Bytes that the passes move, every value that a vertex owns counted once a pass: the neighbours' values that a gather
 // reads again, the few bytes of cloths and chunks, and the colliders' hierarchy are taken to come from the caches. A
 // value is a vec4 of 16 bytes (buffer table in cloth/solver.hpp); "state" and "stage" are two of them, x and v.
-//   stage 1   reads state                       writes stage A, sums    2 + 4 =  6
-//   stage 2   reads stage A, state, sums        writes stage B, sums    6 + 4 = 10
-//   stage 3   reads stage B, state, sums        writes stage A, sums    6 + 4 = 10
-//   stage 4   reads stage A, state, sums        writes stage B or state 6 + 2 =  8
-//   Verlet    reads x, v, predicted v           writes the same         3 + 3 =  6, in place of the stages
-//   contact   reads stage B, earlier positions  writes state            3 + 2 =  5
-//   normals   reads positions                   writes normals          1 + 1 =  2, once a frame
+// A residual is half of one, and belongs to its positions.
+//   stage 1   reads state                          writes stage A        2.5 + 2.5 = 5
+//   stage 2   reads stage A, state                 writes stage B        5 + 2.5   = 7.5
+//   stage 3   reads stage B, state                 writes stage C        5 + 2.5   = 7.5
+//   stage 4   reads stage C, state, v of A and B   writes the proposal   7 + 2.5   = 9.5
+//   Verlet    reads x, v, predicted v              writes the same       3.5 + 3.5 = 7, in place of the stages
+//   contact   reads proposed x and v, earlier x    nothing, in free fall             3
+//   normals   reads positions                      writes normals        1.5 + 1   = 2.5, once a frame
 // A mesh's vertex reads its record and its list of springs as well, 16 bytes each, in every evaluation of the forces.
 // Edits, holds, tethers and the strain limit are not counted. What fits a cache need not reach memory: the share of the
 // copy bandwidth can then exceed 100 %.
 constexpr double k_value = 16;
-constexpr double k_rk4 = (6 + 10 + 10 + 8) * k_value;
-constexpr double k_verlet = 6 * k_value;
-constexpr double k_contact = 5 * k_value;
-constexpr double k_normals = 2 * k_value;
+constexpr double k_rk4 = (5 + 7.5 + 7.5 + 9.5) * k_value;
+constexpr double k_verlet = 7 * k_value;
+constexpr double k_contact = 3 * k_value;
+constexpr double k_normals = 2.5 * k_value;
 
 double bytes_a_substep(const cloth::Solver& solver, const Case& item, uint32_t substeps)
 {

@@ -240,6 +240,7 @@ struct StagePush
     uint first_chunk;      // of the dispatch
     float kick;            // Verlet: s, how long the acceleration acts on the velocity
     float drift;           // Verlet: s, how far the position moves on; 0 ends a step
+    uint stage;            // RK4: 1 to 4
 };
 
 // Push constants of the contact pass.

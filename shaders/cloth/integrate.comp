@@ -3,14 +3,15 @@
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
-// neighbours, and writes the next stage's state. STAGE 4 writes the result of the step, from the velocities of all stages:
+// neighbours, and writes the next stage's state. Stage 4 writes the result of the step, from the velocities of all stages:
 // they are k1 to k4 of the positions, and their differences have k1 to k3 of the velocities in them. So no stage keeps sums.
+// One kernel for all stages: four of them, each with the forces in it, no longer fit the instruction caches of an H200 beside
+// contact (bench/NOTES.md).
 // Reads: cloths, chunks, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
 // Writes: next state.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint STAGE = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
@@ -20,7 +21,7 @@ layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage
 layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
-layout(set = 0, binding = 8, std430) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for STAGE 4
+layout(set = 0, binding = 8, std430) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for stage 4
 layout(set = 0, binding = 9, std430) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
 layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 11, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
@@ -59,10 +60,10 @@ void main()
     const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.
-    const FinePosition x = STAGE == 1 ? here : base_position(i);
-    const vec3 v = STAGE == 1 ? stage_v : base_velocities[i].xyz;
+    const FinePosition x = push.stage == 1 ? here : base_position(i);
+    const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
     const float h = push.step;
-    if (STAGE == 4)
+    if (push.stage == 4)
     {
         const vec3 second = second_velocities[i].xyz;
         const vec3 third = third_velocities[i].xyz;
@@ -72,7 +73,7 @@ void main()
         next_velocities[i] = vec4(v + change / 3, 0);
         return;
     }
-    const float reach = STAGE == 3 ? h : 0.5 * h;
+    const float reach = push.stage == 3 ? h : 0.5 * h;
     write_position(i, moved(x, reach * stage_v), inverse_mass);
     next_velocities[i] = vec4(v + reach * a, 0);
 }

@@ -205,10 +205,10 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
 gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::Buffer& statistics)
 {
     Binder binder{s.pool};
-    const auto bind_stage = [&](VkDescriptorSet& set, size_t stage, const StateBuffers& base, const StateBuffers& third,
+    const auto bind_stage = [&](VkDescriptorSet& set, const StateBuffers& base, const StateBuffers& third,
                                 const StateBuffers& input, const StateBuffers& output)
     {
-        binder.bind(set, kernels.stages[stage],
+        binder.bind(set, kernels.stage,
                     {s.cloths.handle(), s.chunks.handle(), base.positions.handle(), base.velocities.handle(),
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
                      output.velocities.handle(), s.stage_a.velocities.handle(), third.velocities.handle(),
@@ -219,12 +219,12 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     {
         const StateBuffers& base = proposal(s, parity).earlier;
         const StateBuffers& other = proposal(s, parity).state;
-        bind_stage(s.stages[parity][0], 0, base, other, base, s.stage_a);
-        bind_stage(s.stages[parity][1], 1, base, other, s.stage_a, other);
-        bind_stage(s.stages[parity][2], 2, base, other, other, s.stage_c);
-        bind_stage(s.stages[parity][3], 3, base, other, s.stage_c, other);
+        bind_stage(s.stages[parity][0], base, other, base, s.stage_a);
+        bind_stage(s.stages[parity][1], base, other, s.stage_a, other);
+        bind_stage(s.stages[parity][2], base, other, other, s.stage_c);
+        bind_stage(s.stages[parity][3], base, other, s.stage_c, other);
     }
-    bind_stage(s.last_stage_alone, 3, s.state, s.stage_b, s.stage_c, s.state);
+    bind_stage(s.last_stage_alone, s.state, s.stage_b, s.stage_c, s.state);
     // Of a Verlet cloth: positions, velocities at their time or predicted for it, velocities half a substep before.
     struct Motion
     {

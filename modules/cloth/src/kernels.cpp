@@ -21,14 +21,13 @@ struct Request
 
 std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
-    constexpr std::array k_stage_names{"cloth rk4 stage 1", "cloth rk4 stage 2", "cloth rk4 stage 3",
-                                       "cloth rk4 stage 4"};
     const uint32_t group = options.workgroup_size;
     const auto method = static_cast<uint32_t>(options.contact_method);
     const auto layout = static_cast<uint32_t>(options.mesh_layout);
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
+        {&kernels.stage, {"cloth rk4 stage", shaders::k_integrate_comp, 16, k_stage_bytes, {group, 0, layout}}},
         {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 13, k_stage_bytes, {group, 0, layout}}},
         {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
         {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
@@ -84,10 +83,6 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
           sizeof(shared::StatisticsReducePush),
           {group}}},
     };
-    for (uint32_t stage = 0; stage < 4; ++stage)
-        requests.push_back(
-            {&kernels.stages[stage],
-             {k_stage_names[stage], shaders::k_integrate_comp, 16, k_stage_bytes, {group, stage + 1, layout}}});
     return requests;
 }
 

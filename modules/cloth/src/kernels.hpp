@@ -16,7 +16,7 @@ constexpr uint32_t k_most_storage_buffers = 24; // of a kernel: contact's
 
 struct Kernels
 {
-    std::array<gpu::Kernel, 4> stages; // the four stages of RK4
+    gpu::Kernel stage; // of RK4, any of the four
     gpu::Kernel verlet;
     gpu::Kernel pins;
     gpu::Kernel holds;

@@ -26,7 +26,7 @@ static_assert(sizeof(shared::ColliderRecord) == 96);
 static_assert(offsetof(shared::ColliderRecord, shape) == 64);
 static_assert(sizeof(shared::ColliderMotion) == 80);
 static_assert(offsetof(shared::ColliderMotion, place_to) == 64);
-static_assert(sizeof(shared::StagePush) == 68);
+static_assert(sizeof(shared::StagePush) == 72);
 static_assert(offsetof(shared::StagePush, gust_phases) == 32);
 static_assert(sizeof(shared::StatisticsRecord) == 48);
 

@@ -84,13 +84,13 @@ shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
     return push;
 }
 
-void SubstepRecorder::record_rk4(const shared::StagePush& push, uint32_t substep)
+void SubstepRecorder::record_rk4(shared::StagePush push, uint32_t substep)
 {
-    const uint32_t threads = device_.rk4_chunks * group_;
     const auto& sets = device_.stages[commits_ && in_stage_b(substep) ? 1 : 0];
-    for (size_t stage = 0; stage < 3; ++stage)
-        recorder_.dispatch(kernels_.stages[stage], sets[stage], threads, group_, push);
-    recorder_.dispatch(kernels_.stages[3], commits_ ? sets[3] : device_.last_stage_alone, threads, group_, push);
+    for (push.stage = 1; push.stage <= 4; ++push.stage)
+        recorder_.dispatch(kernels_.stage,
+                           push.stage == 4 && !commits_ ? device_.last_stage_alone : sets[push.stage - 1],
+                           device_.rk4_chunks * group_, group_, push);
 }
 
 uint32_t SubstepRecorder::verlet_threads() const

@@ -20,7 +20,7 @@ public:
 
 private:
     [[nodiscard]] shared::StagePush make_push(uint32_t substep) const;
-    void record_rk4(const shared::StagePush& push, uint32_t substep);
+    void record_rk4(shared::StagePush push, uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
     void record_holds(uint32_t substep);
