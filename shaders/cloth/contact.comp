@@ -346,6 +346,16 @@ void commit(uint i, Motion motion, uint flags)
         proposed_predicted[i] += change;
 }
 
+// What contact leaves alone is the same to the bit in either place.
+void take_over(uint i, uint cloth, vec4 proposed)
+{
+    positions[i] = proposed;
+    residuals[i] = proposed_residuals[i];
+    velocities[i] = proposed_velocities[i];
+    if (is_verlet(cloth))
+        predicted[i] = proposed_predicted[i];
+}
+
 void main()
 {
     const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
@@ -356,7 +366,7 @@ void main()
     const vec4 proposed = proposed_positions[i];
     uint flags;
     Motion motion = propose(i, cloth, proposed.xyz, flags);
-    bool changed = push.in_place == 0 || flags != 0;
+    bool changed = flags != 0;
     if (proposed.w > 0)
     {
         query_progress = vec2(push.progress_from, push.progress_to);
@@ -381,4 +391,6 @@ void main()
     }
     if (changed)
         commit(i, motion, flags);
+    else if (push.in_place == 0)
+        take_over(i, cloth, proposed);
 }
