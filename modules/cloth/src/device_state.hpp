@@ -27,6 +27,7 @@ struct DeviceState
     gpu::Buffer mesh_vertices;
     gpu::Buffer mesh_springs;
     gpu::Buffer mesh_corners;
+    gpu::Buffer membrane_corners;
     gpu::Buffer colliders;
     gpu::Buffer collider_motions;
     gpu::Buffer deforming_input;     // what the host gives for deforming meshes, as it gives it
@@ -42,10 +43,10 @@ struct DeviceState
     gpu::Buffer feature_chunks;      // those that come near features
     gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
     std::array<gpu::Buffer, 2>
-        recover_dispatch; // workgroups that look for vertices inside of colliders, of this step and the next
+        recover_dispatch;       // workgroups that look for vertices inside of colliders, of this step and the next
     gpu::Buffer depenetrations; // how these come out
     gpu::Buffer near_colliders; // of each chunk, if there are many
-    gpu::Buffer start;    // places at the start, and what density multiplies
+    gpu::Buffer start;          // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
     gpu::Buffer holds;

@@ -29,7 +29,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
-        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 13, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 14, k_stage_bytes, {group, 0, layout}}},
         {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
         {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
         {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 6, sizeof(shared::HoldPush), {group}}},
@@ -85,7 +85,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     for (uint32_t stage = 0; stage < 4; ++stage)
         requests.push_back(
             {&kernels.stages[stage],
-             {k_stage_names[stage], shaders::k_integrate_comp, 16, k_stage_bytes, {group, stage + 1, layout}}});
+             {k_stage_names[stage], shaders::k_integrate_comp, 17, k_stage_bytes, {group, stage + 1, layout}}});
     return requests;
 }
 
