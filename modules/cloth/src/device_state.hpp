@@ -27,6 +27,7 @@ struct DeviceState
     gpu::Buffer mesh_vertices;
     gpu::Buffer mesh_springs;
     gpu::Buffer mesh_corners;
+    gpu::Buffer membrane_corners;
     gpu::Buffer colliders;
     gpu::Buffer collider_motions;
     gpu::Buffer deforming_input;     // what the host gives for deforming meshes, as it gives it
@@ -44,7 +45,7 @@ struct DeviceState
     std::array<gpu::Buffer, 2> recovery_votes; // of each cloth, of this step and the next
     gpu::Buffer depenetrations; // how vertices inside of colliders come out, after two sizes of the pass over them
     gpu::Buffer near_colliders; // of each chunk, if there are many
-    gpu::Buffer start;    // places at the start, and what density multiplies
+    gpu::Buffer start;          // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
     gpu::Buffer holds;
