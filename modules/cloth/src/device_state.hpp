@@ -58,6 +58,9 @@ struct DeviceState
     gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
     gpu::Buffer partials; // statistics, one record a chunk
+    std::array<gpu::Buffer, 4> limit_works; // of the strain limit, one record per chunk: see limit_work.comp
+    gpu::Buffer limit_scales;               // per cloth, of what it has changed
+    StateBuffers step_start;                // where cloths with a strain limit were when the step began
 
     gpu::BindingPool pool;
     std::array<VkDescriptorSet, 4> stages{};
@@ -74,6 +77,9 @@ struct DeviceState
     VkDescriptorSet strain_first{}; // state to stage B
     VkDescriptorSet strain_back{};  // stage B to stage A
     VkDescriptorSet strain_forth{}; // stage A to stage B
+    std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
+    VkDescriptorSet limit_scale{};
+    VkDescriptorSet limit_guard{};
     VkDescriptorSet edit{};
     VkDescriptorSet contact{}; // from stage B
     VkDescriptorSet collider_reach{};

@@ -6,6 +6,9 @@
 namespace cloth
 {
 
+// Passes of the strain limit whose widest level has that spacing: an odd number.
+uint32_t limit_passes(uint32_t widest_spacing);
+
 class SubstepRecorder
 {
 public:
@@ -23,7 +26,8 @@ private:
     void record_rk4(const shared::StagePush& push);
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
-    void record_holds(uint32_t substep);
+    // At a progress of the step, over `duration` s; over 0 springs add nothing, and bounds still hold.
+    void record_holds(float progress, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Which chunks come near corners and edges of colliders, until the next such look.
     void record_feature_reach(uint32_t substep);
@@ -31,6 +35,9 @@ private:
     void record_features(uint32_t substep);
     void record_contact(uint32_t substep);
     void record_strain_limit();
+    void record_limit_passes();
+    void record_limit_guard();
+    void keep_state(const gpu::Buffer& positions, const gpu::Buffer& residuals, const gpu::Buffer& velocities);
     // Where nothing commits what a substep proposes, Verlet goes back and forth between the state and stage B.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const { return !commits_ && substep % 2 == 1; }
     [[nodiscard]] uint32_t verlet_threads() const;

@@ -188,8 +188,9 @@ private:
 struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 4 if what
-                                          // is around it met a corner or an edge of a collider
+    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a
+                                          // tether, a leash or a backstop holds it, plus 4 if what is around it met a
+                                          // corner or an edge of a collider
     VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
     VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
