@@ -341,8 +341,8 @@ struct LimitWork
     float v_dx;   // J s, sum of m v . dx
     float dx_dx;  // J s^2, sum of m dx . dx
     float dv_dx;  // J s, sum of m dv . dx
-    float padding_0;
-    float padding_1;
+    float undone; // J s^2, minus the sum of m dx . (displacement from the step's start)
+    float padding;
 };
 
 // How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give back.

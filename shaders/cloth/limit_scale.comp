@@ -5,7 +5,8 @@
 //
 // Velocities take what leaves them the least kinetic energy. Positions take what is paid for: by the kinetic energy that
 // goes, by what damping and contact have taken in this step, and by a reserve. The first brings a cloth back that has fallen
-// beyond its limit within the step, the second keeps one from creeping beyond it. The reserve is what the limit has taken
+// beyond its limit within the step. The second keeps one from creeping beyond it; it counts as far as the limit undoes the
+// step, or a limit that cannot be kept would shake the cloth with all that damping takes. The reserve is what the limit has taken
 // from the cloth's energy in the last steps: its passes are no exact projection, and give some of it back.
 // Reads: patches, work. Writes: one scale per cloth.
 #include "cloth_layout.h"
@@ -22,6 +23,8 @@ layout(set = 0, binding = 5, std430) buffer Scales { LimitScale scales[]; };
 layout(push_constant, std430) uniform Push { LimitScalePush push; };
 
 const float k_kept = 0.9; // of the reserve, per step
+// A limit whose displacements are up to so many times the step's own, in the same places, undoes the step.
+const float k_undoing = 5;
 
 struct Energies
 {
@@ -39,7 +42,7 @@ Energies add(Energies a, Energies b)
     const LimitWork m = b.limit;
     return Energies(a.lost + b.lost, a.first + b.first, a.second + b.second,
                     LimitWork(0, l.v_dv + m.v_dv, l.dv_dv + m.dv_dv, l.v_dx + m.v_dx, l.dx_dx + m.dx_dx,
-                              l.dv_dx + m.dv_dx, 0, 0));
+                              l.dv_dx + m.dv_dx, l.undone + m.undone, 0));
 }
 
 Energies energies_of(uint chunk)
@@ -66,7 +69,8 @@ LimitScale scale_of(float reserve, Energies e)
     }
     const float kinetic = v * l.v_dv + shift * l.v_dx + v * shift * l.dv_dx + 0.5 * (v * v * l.dv_dv + shift * shift * l.dx_dx);
     const float saved = max(reserve - kinetic, 0);
-    const float lost = max(e.lost, 0);
+    const float undone = l.dx_dx > 0 ? clamp(k_undoing * l.undone / l.dx_dx, 0, 1) : 1;
+    const float lost = undone * max(e.lost, 0);
     const float available = saved + lost;
     float x = 1;
     if (e.first + e.second > available)

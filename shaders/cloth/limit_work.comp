@@ -26,6 +26,9 @@ layout(set = 0, binding = 12, std430) readonly buffer VelocitiesAfter { vec4 vel
 layout(set = 0, binding = 13, std430) readonly buffer ResidualsAfter { uvec2 residuals_after[]; };
 layout(set = 0, binding = 14, std430) writeonly buffer Works { LimitWork works[]; };
 
+layout(set = 0, binding = 15, std430) readonly buffer StepStart { vec4 step_start[]; };
+layout(set = 0, binding = 16, std430) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
+
 layout(push_constant, std430) uniform Push { StagePush push; }; // without air
 
 bool VERLET; // whether the patch's cloth uses it
@@ -56,7 +59,7 @@ vec3 conservative_force(ChunkVertex self, FinePosition x, float inverse_mass)
 LimitWork add(LimitWork a, LimitWork b)
 {
     return LimitWork(a.work + b.work, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv, a.v_dx + b.v_dx, a.dx_dx + b.dx_dx,
-                     a.dv_dx + b.dv_dx, 0, 0);
+                     a.dv_dx + b.dv_dx, a.undone + b.undone, 0);
 }
 
 LimitWork work_of(ChunkVertex self)
@@ -68,12 +71,13 @@ LimitWork work_of(ChunkVertex self)
     const FinePosition from = FinePosition(x.xyz, unpack_residual(residuals_before[i]));
     const FinePosition to = FinePosition(after[i].xyz, unpack_residual(residuals_after[i]));
     const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
+    const FinePosition start = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
     const vec3 v = velocities_before[i].xyz;
     const vec3 dv = velocities_after[i].xyz - v;
     const vec3 dx = displacement(from, to);
     const float mass = 1 / x.w;
     return LimitWork(dot(conservative_force(self, here, x.w), dx), mass * dot(v, dv), mass * dot(dv, dv),
-                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx), 0, 0);
+                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx), -mass * dot(dx, displacement(start, from)), 0);
 }
 
 void main()

@@ -156,7 +156,7 @@ void bind_limit_guard(DeviceState& s, const Kernels& kernels, Binder& binder)
         binder.bind(s.limit_work[i], kernels.limit_work,
                     {s.cloths.handle(), s.chunks.handle(), here[0], here[1], here[2], s.mesh_vertices.handle(),
                      s.mesh_springs.handle(), s.mesh_corners.handle(), from[0], from[1], from[2], to[0], to[1], to[2],
-                     s.limit_works[i].handle()});
+                     s.limit_works[i].handle(), start[0], start[2]});
     };
     bind_work(0, start, start, before);
     bind_work(1, before, start, before);

@@ -35,7 +35,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
         {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 6, sizeof(shared::HoldPush), {group}}},
         {&kernels.limit_strain,
          {"cloth strain limit", shaders::k_limit_strain_comp, 12, sizeof(shared::StrainPush), {group, 0, layout}}},
-        {&kernels.limit_work, {"cloth limit work", shaders::k_limit_work_comp, 15, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.limit_work, {"cloth limit work", shaders::k_limit_work_comp, 17, k_stage_bytes, {group, 0, layout}}},
         {&kernels.limit_scale,
          {"cloth limit scale", shaders::k_limit_scale_comp, 6, sizeof(shared::LimitScalePush), {group}}},
         {&kernels.limit_guard, {"cloth limit guard", shaders::k_limit_guard_comp, 9, 0, {group}}},
