@@ -36,11 +36,9 @@ inline double bending_energy(const cloth::Grid& raw, const std::vector<glm::dvec
         {
             const auto squared = [](const glm::dvec3& d) { return glm::dot(d, d); };
             if (c > 0 && c + 1 < raw.columns)
-                sum += border(r, raw.rows) * b / (a * a * a) *
-                       squared(at(r, c - 1) - 2.0 * at(r, c) + at(r, c + 1));
+                sum += border(r, raw.rows) * b / (a * a * a) * squared(at(r, c - 1) - 2.0 * at(r, c) + at(r, c + 1));
             if (r > 0 && r + 1 < raw.rows)
-                sum += border(c, raw.columns) * a / (b * b * b) *
-                       squared(at(r - 1, c) - 2.0 * at(r, c) + at(r + 1, c));
+                sum += border(c, raw.columns) * a / (b * b * b) * squared(at(r - 1, c) - 2.0 * at(r, c) + at(r + 1, c));
             if (r + 1 < raw.rows && c + 1 < raw.columns)
                 sum += 2 / (a * b) * squared(at(r, c) - at(r, c + 1) - at(r + 1, c) + at(r + 1, c + 1));
         }
@@ -55,6 +53,14 @@ struct GridReference : reference::Cloth
     [[nodiscard]] double energy(const reference::Environment& environment) const
     {
         return reference::Cloth::energy(environment) + bending_energy(raw, state.x);
+    }
+
+    // Scales what stores energy, as a step does that is too long for it.
+    void soften(double stiffness)
+    {
+        for (reference::Spring& spring : springs)
+            spring.stiffness *= stiffness;
+        std::get<cloth::Material>(raw.material).bending_stiffness *= static_cast<float>(stiffness);
     }
 
     cloth::Grid raw;

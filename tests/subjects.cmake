@@ -21,7 +21,7 @@ voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::clot
 voile_add_test(test_mesh_cloth SOURCES test_mesh_cloth.cpp test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_verlet SOURCES test_verlet.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_static_friction SOURCES test_static_friction.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_energy SOURCES test_energy.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_energy SOURCES test_energy.cpp test_energy_random.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_stability SOURCES test_stability.cpp test_slivers.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_fabric SOURCES test_fabric.cpp LIBRARIES voile::cloth voile::engine)
 if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers

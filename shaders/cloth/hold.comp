@@ -75,7 +75,8 @@ void main()
     const FinePosition next = moved(here, shift);
     positions[hold.vertex].xyz = next.x;
     residuals[hold.vertex] = pack_residual(next);
-    velocities[hold.vertex] = vec4(v, taut ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
+    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
+    velocities[hold.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
     if (verlet)
         predicted[hold.vertex].xyz += v - velocity.xyz;
 }

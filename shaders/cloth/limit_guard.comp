@@ -26,9 +26,11 @@ void main()
     if (!self.exists || cloths[self.cloth].strain_limit == 0)
         return;
     const LimitScale scale = scales[self.cloth];
+    const uint i = self.index;
+    // What a vertex touched in the last substep decides about Verlet's next kick.
+    velocities[i].w = velocities_before[i].w;
     if (scale.position == 1 && scale.velocity == 1 && scale.shift_rate == 0)
         return;
-    const uint i = self.index;
     const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
     const FinePosition to = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
     const vec3 shift = displacement(from, to);

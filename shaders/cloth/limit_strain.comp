@@ -50,7 +50,8 @@ struct Correction
 
 const Correction k_no_correction = Correction(vec3(0), vec3(0), StiffnessSum(vec3(0), vec3(0)));
 
-// The end of a spring, and what of a correction it bears: the other end takes the same, so that momentum is kept. Its inverse mass is 1/kg, or what stands for it on a coarse level.
+// The end of a spring, and what of a correction it bears: the other end takes no more, so that momentum is kept. Its inverse
+// mass is 1/kg, or what stands for it on a coarse level.
 struct End
 {
     uint index;

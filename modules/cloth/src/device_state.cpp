@@ -126,7 +126,8 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
     binder.bind(s.proposed_holds, kernels.holds,
                 {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
     binder.bind(s.proposed_tethers, kernels.tethers,
-                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted, residuals});
+                {s.tethers.handle(), s.cloths.handle(), positions, velocities, predicted, residuals,
+                 s.state.positions.handle()});
     binder.bind(s.edit, kernels.edit,
                 {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.start_residuals.handle(), s.state.residuals.handle()});

@@ -42,10 +42,10 @@ struct DeviceState
     gpu::Buffer feature_chunks;      // those that come near features
     gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
     std::array<gpu::Buffer, 2>
-        recover_dispatch; // workgroups that look for vertices inside of colliders, of this step and the next
+        recover_dispatch;       // workgroups that look for vertices inside of colliders, of this step and the next
     gpu::Buffer depenetrations; // how these come out
     gpu::Buffer near_colliders; // of each chunk, if there are many
-    gpu::Buffer start;    // places at the start, and what density multiplies
+    gpu::Buffer start;          // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
     gpu::Buffer holds;
@@ -57,7 +57,7 @@ struct DeviceState
     gpu::Buffer candidate_places;    // where the lists of triangles near each vertex hold
     gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
-    gpu::Buffer partials; // statistics, one record a chunk
+    gpu::Buffer partials;                   // statistics, one record a chunk
     std::array<gpu::Buffer, 4> limit_works; // of the strain limit, one record per chunk: see limit_work.comp
     gpu::Buffer limit_scales;               // per cloth, of what it has changed
     StateBuffers step_start;                // where cloths with a strain limit were when the step began
@@ -74,9 +74,9 @@ struct DeviceState
     VkDescriptorSet pins{};
     VkDescriptorSet proposed_holds{};
     VkDescriptorSet proposed_tethers{};
-    VkDescriptorSet strain_first{}; // state to stage B
-    VkDescriptorSet strain_back{};  // stage B to stage A
-    VkDescriptorSet strain_forth{}; // stage A to stage B
+    VkDescriptorSet strain_first{};              // state to stage B
+    VkDescriptorSet strain_back{};               // stage B to stage A
+    VkDescriptorSet strain_forth{};              // stage A to stage B
     std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
     VkDescriptorSet limit_scale{};
     VkDescriptorSet limit_guard{};

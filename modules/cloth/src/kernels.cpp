@@ -32,7 +32,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
         {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 13, k_stage_bytes, {group, 0, layout}}},
         {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
         {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
-        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 6, sizeof(shared::HoldPush), {group}}},
+        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 7, sizeof(shared::HoldPush), {group}}},
         {&kernels.limit_strain,
          {"cloth strain limit", shaders::k_limit_strain_comp, 12, sizeof(shared::StrainPush), {group, 0, layout}}},
         {&kernels.limit_work, {"cloth limit work", shaders::k_limit_work_comp, 17, k_stage_bytes, {group, 0, layout}}},

@@ -149,12 +149,9 @@ void SubstepRecorder::record_collider_reach(uint32_t substep)
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
-    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep),
-                                         sudden_speed(),
-                                         1 / static_cast<float>(substeps_),
-                                         device_.collider_count,
-                                         solver_.passes.features ? 1u : 0u,
-                                         device_.near_stride};
+    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
+                                         1 / static_cast<float>(substeps_),       device_.collider_count,
+                                         solver_.passes.features ? 1u : 0u,       device_.near_stride};
     recorder_.dispatch(kernels_.collider_reach, device_.collider_reach, device_.chunk_count * group_, group_, push);
 }
 
@@ -162,8 +159,12 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
     clear_dispatch(recorder_, device_.feature_dispatch, solver_.options.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(), progress(substep),
-                                        progress(next), device_.collider_count, device_.near_stride};
+    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
+                                        sudden_speed(),
+                                        progress(substep),
+                                        progress(next),
+                                        device_.collider_count,
+                                        device_.near_stride};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
                        device_.feature_reach, device_.chunk_count * group_, group_, push);
     publish_dispatch(recorder_);
@@ -171,8 +172,12 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
 
 void SubstepRecorder::record_features(uint32_t substep)
 {
-    const shared::FeaturePush push{h_, progress(substep), progress(substep + 1), device_.collider_count,
-                                   first_substep_ + substep, device_.near_stride};
+    const shared::FeaturePush push{h_,
+                                   progress(substep),
+                                   progress(substep + 1),
+                                   device_.collider_count,
+                                   first_substep_ + substep,
+                                   device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
                                 device_.feature_contact, device_.feature_dispatch.handle(), push);
 }
@@ -199,7 +204,8 @@ void SubstepRecorder::record_contact(uint32_t substep)
     recorder_.dispatch(kernel, device_.contact, device_.chunk_count * group_, group_, push);
 }
 
-// Attachments and contact have the last word on positions; then the guard looks at what all of it has done to the energy.
+// Attachments and contact have the last word on positions; then the guard measures what all of it has done to the
+// energy.
 void SubstepRecorder::record_strain_limit()
 {
     record_limit_passes();

@@ -61,11 +61,11 @@ struct Material
 
 // The strain limit acts at the end of each step, by corrections that keep momentum and never add to the cloth's energy
 // (shaders/cloth/limit_strain.comp, limit_scale.comp). They undo what the step has stretched; beyond that, motion and
-// damping pay for them. A grid of up to 128 x 128 that hangs or swings keeps its largest stretch below 1.2 times the limit,
-// even where the springs alone would stretch to several times it. Where stiff springs are pressed together for it, less can be
-// paid for: cotton that falls on a sphere from 0.1 m is stretched to 2.2 times a limit of 1 % for a moment and rests at 1.1
-// times it; a limit of 0.1 % is exceeded 23 times and 10 times. On a mesh, where corrections have no coarse levels to travel
-// on, the lower end of a very soft cloth follows over some steps: tethers help there.
+// damping pay for them. A grid of up to 128 x 128 that hangs or swings keeps its largest stretch below 1.2 times the
+// limit, even where the springs alone would stretch to several times it. Where stiff springs are pressed together for
+// it, less can be paid for: cotton that falls on a sphere from 0.1 m is stretched to 2.2 times a limit of 1 % for a
+// moment and rests at 1.1 times it; of a limit of 0.1 % it is 23 times and 10 times. On a mesh, where corrections have
+// no coarse levels to travel on, the lower end of a very soft cloth follows over some steps: tethers help there.
 
 // A fabric by its own properties, independent of the mesh that it is sampled with.
 struct Fabric

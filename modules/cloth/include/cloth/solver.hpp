@@ -223,7 +223,8 @@ public:
     // while an upload is due wait for it as well. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
-    // isometric bending of a mesh that was added without. Which corners and edges of colliders count follows a new
+    // isometric bending of a mesh that was added without. With a new density a cloth keeps its momentum where it
+    // becomes heavier, its velocity where it becomes lighter. Which corners and edges of colliders count follows a new
     // thickness with the next upload.
     Result<void> set_material(ClothId cloth, const ClothMaterial& material);
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
@@ -306,10 +307,9 @@ public:
     // All 0 for a slot that nothing was recorded into, or that does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps. 0
-    // for a duration that record refuses.
-    // From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched:
-    // RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
+    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
+    // 0 for a duration that record refuses. From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of
+    // the cloth, crumpled and stretched: RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     // needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
