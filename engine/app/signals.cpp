@@ -17,16 +17,13 @@ namespace engine
 namespace
 {
 
-constexpr std::pair<int, const char*> k_ending[] = {{SIGHUP, "SIGHUP"},
-                                                    {SIGINT, "SIGINT"},
-                                                    {SIGQUIT, "SIGQUIT"},
-                                                    {SIGTERM, "SIGTERM"},
-                                                    {SIGXCPU, "SIGXCPU"}};
+constexpr std::pair<int, const char*> k_ending[] = {
+    {SIGHUP, "SIGHUP"}, {SIGINT, "SIGINT"}, {SIGQUIT, "SIGQUIT"}, {SIGTERM, "SIGTERM"}, {SIGXCPU, "SIGXCPU"}};
 
 // As nohup does, and shells for what runs in the background.
 bool is_ignored(int signal)
 {
-    struct sigaction action{};
+    struct sigaction action = {};
     return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 

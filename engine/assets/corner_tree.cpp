@@ -15,9 +15,9 @@ namespace
 constexpr uint32_t k_leaf_points = 8;
 constexpr uint32_t k_removed = std::numeric_limits<uint32_t>::max();
 
-// False only if no point of the box lies in the triangle or on its edges, the triangle's corners apart. Exact for a box of
-// one point. Every operation of turn() is monotonic in the point's coordinates, rounding included: its value at the box's
-// farthest corner bounds those at all points of the box.
+// False only if no point of the box lies in the triangle or on its edges, the triangle's corners apart. Exact for a box
+// of one point. Every operation of turn() is monotonic in the point's coordinates, rounding included: its value at the
+// box's farthest corner bounds those at all points of the box.
 bool may_touch(const FlatTriangle& triangle, const glm::dvec2& min, const glm::dvec2& max)
 {
     const auto [a, b, c] = triangle;
@@ -27,8 +27,9 @@ bool may_touch(const FlatTriangle& triangle, const glm::dvec2& min, const glm::d
     const glm::dvec2 high = glm::max(glm::max(a, b), c);
     if (glm::any(glm::lessThan(max, low)) || glm::any(glm::greaterThan(min, high)))
         return false;
-    const auto reaches = [&](const glm::dvec2& from, const glm::dvec2& to)
-    { return turn(from, to, {to.y > from.y ? min.x : max.x, to.x > from.x ? max.y : min.y}) >= 0; };
+    const auto reaches = [&](const glm::dvec2& from, const glm::dvec2& to) {
+        return turn(from, to, {to.y > from.y ? min.x : max.x, to.x > from.x ? max.y : min.y}) >= 0;
+    };
     return reaches(a, b) && reaches(b, c) && reaches(c, a);
 }
 

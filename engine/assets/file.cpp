@@ -63,7 +63,7 @@ gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t m
     const auto error = [&](const std::string& reason)
     { return gpu::Error{path_text(path) + ": cannot read: " + reason}; };
     const Descriptor file(path);
-    struct stat status{};
+    struct stat status = {};
     if (const std::string obstacle = find_obstacle(file.number(), most_bytes, status); !obstacle.empty())
         return error(obstacle);
     // One byte more than it should have: those of the system have no size, and others grow while they are read.

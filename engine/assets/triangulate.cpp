@@ -46,9 +46,9 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
     return flat;
 }
 
-// Cuts off, again and again, the ear with the shortest cut. An ear that has another corner in its way is not tested again
-// before that corner is cut off or the ear's own neighbors change, and a test searches a tree: so the time grows little
-// faster than the number of corners.
+// Cuts off, again and again, the ear with the shortest cut. An ear that has another corner in its way is not tested
+// again before that corner is cut off or the ear's own neighbors change, and a test searches a tree: so the time grows
+// little faster than the number of corners.
 class EarClipper
 {
 public:

@@ -10,7 +10,6 @@
 #include <complex>
 #include <numbers>
 
-
 namespace cloth
 {
 

@@ -38,13 +38,13 @@ struct DeviceState
     gpu::Buffer feature_sets; // corners and edges of colliders
     gpu::Buffer feature_nodes;
     gpu::Buffer features;
-    gpu::Buffer feature_corrections; // what they change of vertices
-    gpu::Buffer feature_chunks;      // those that come near features
-    gpu::Buffer feature_dispatch;    // and how many they are: workgroups of the pass over them
+    gpu::Buffer feature_corrections;           // what they change of vertices
+    gpu::Buffer feature_chunks;                // those that come near features
+    gpu::Buffer feature_dispatch;              // and how many they are: workgroups of the pass over them
     std::array<gpu::Buffer, 2> recovery_votes; // of each cloth, of this step and the next
     gpu::Buffer depenetrations; // how vertices inside of colliders come out, after two sizes of the pass over them
     gpu::Buffer near_colliders; // of each chunk, if there are many
-    gpu::Buffer start;    // places at the start, and what density multiplies
+    gpu::Buffer start;          // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
     gpu::Buffer holds;
@@ -79,7 +79,7 @@ struct DeviceState
     VkDescriptorSet collider_reach{};
     VkDescriptorSet feature_reach{};
     std::array<VkDescriptorSet, 2> feature_contact{}; // corrections of stage B, of the state
-    std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
+    std::array<VkDescriptorSet, 2> recover{};         // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};

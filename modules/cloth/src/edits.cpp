@@ -165,9 +165,8 @@ void Solver::State::update_passes()
     passes.features = device->feature_count > 0;
     passes.recover =
         options.recovery &&
-        (passes.convex ||
-         any_collider([](const auto& collider)
-                      { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
+        (passes.convex || any_collider([](const auto& collider)
+                                       { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
     passes.strain_spacing = 0;
     for (const shared::ClothRecord& record : std::span(model.records).first(device->cloth_count))
     {

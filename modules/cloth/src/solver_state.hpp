@@ -125,8 +125,8 @@ struct Solver::State
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 
-// Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many workgroups
-// each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
+// Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many
+// workgroups each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
 void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word = 0, uint32_t groups_each = 1,
                     const gpu::Buffer* counts = nullptr);
 
