@@ -3,9 +3,9 @@
 // Contact of all cloths with all colliders: detection and response, one thread a vertex.
 //
 // Reads the state that integration proposes and the state before the substep, writes the substep's result: what it changes of
-// the proposed state, or all of it into the state before. The vertex ends
-// on the offset surface, its approaching velocity is removed, and Coulomb friction acts on the rest: it sticks while the
-// tangential impulse stays within mu_s times the normal one, else it slides with mu_k times it.
+// the proposed state, or all of it into the state before. The vertex ends on the offset surface, its approaching velocity is
+// removed, and Coulomb friction acts on the rest: it sticks while the tangential impulse stays within mu_s times the normal
+// one, else it slides with mu_k times it.
 // Reads: cloths, chunks, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
 // own previous state, residuals of both, the way out of what the vertex is inside of, the colliders near a chunk.
 // Writes: the one or the other state (velocity.w: 1 = touches), predicted velocities, candidates.
@@ -76,8 +76,7 @@ float contact_slop(vec3 x, float thickness)
 #include "fine_position.glsl"
 #include "friction.glsl"
 
-// As floats tell it. What residuals add is loaded where the vertex is written: kept through the queries, they cost 4 us on an
-// H200.
+// As floats tell it. What residuals add is loaded where the vertex is written: most vertices touch nothing and are not.
 struct Motion
 {
     vec3 from;         // m, before the substep

@@ -40,8 +40,7 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
     const float inverse_length = inversesqrt(length_squared);
     const vec3 direction = delta * inverse_length;
-    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest pulls with nothing. And no
-    // division, which takes long where the dividend is 0.
+    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest pulls with nothing.
     const float excess =
         fma(delta.x, delta.x, fma(delta.y, delta.y, fma(delta.z, delta.z, -rest_length * rest_length)));
     const float stretch = excess * (1 / (length_squared * inverse_length + rest_length));
