@@ -19,6 +19,7 @@ voile_add_test(test_viewer
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_mesh_cloth SOURCES test_mesh_cloth.cpp test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_membrane SOURCES test_membrane.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_verlet SOURCES test_verlet.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_static_friction SOURCES test_static_friction.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_energy SOURCES test_energy.cpp LIBRARIES voile::cloth voile::engine)

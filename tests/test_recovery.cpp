@@ -77,9 +77,9 @@ float fastest(const std::vector<glm::vec4>& velocities)
     return speed;
 }
 
-// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of 1 m later, has
-// this.
-constexpr float k_calm = 10;
+// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of a second later,
+// has this.
+constexpr float k_calm = 12;
 
 // Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside
 // then.

@@ -6,10 +6,15 @@
 
 // The springs of a grid vertex come in eight classes; a class joins it to the vertices at +offset and -offset.
 // Classes 0-1 structural (column, row), 2-3 shear, 4-5 bend, 6-7 diagonal bend.
-// A mesh has two: 0 along its edges, 1 between the vertices opposite to an edge.
+// A mesh has five: 0 along its edges (a Material's), 1 between the vertices opposite to an edge, 2-4 the springs of a
+// Fabric's membrane along warp, weft and both diagonals (membrane.glsl), in N/m and N s/m of strain and strain rate.
 #define VOILE_SPRING_CLASSES 8
 #define VOILE_CLASS_EDGE 0
 #define VOILE_CLASS_OPPOSITE 1
+#define VOILE_CLASS_WARP 2
+#define VOILE_CLASS_WEFT 3
+#define VOILE_CLASS_DIAGONAL 4
+#define VOILE_MEMBRANE_SPRINGS 3
 
 // Ranges of the input along each axis, either way, as in cloth/ranges.hpp.
 #define VOILE_MOST_COORDINATE 1e6 // m
@@ -117,7 +122,7 @@ struct ClothRecord
 };
 
 // A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[]
-// and of MeshCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first
+// and of MeshCorner[] and MembraneCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first
 // entries of its vertices stand side by side, then their second ones, so that a workgroup's reads coalesce.
 struct MeshVertex
 {
@@ -131,7 +136,7 @@ struct MeshSpring
 {
     uint neighbour;    // counted within the cloth; VOILE_OPPOSITE_BIT
     float rest_length; // m
-    float weight;      // times the class's stiffness and damping. Edge: none; opposite: 1/m^2. 0: no spring
+    float weight;      // times the class's stiffness and damping. Edge: 1; opposite: 1/m^2. 0: no spring
     float bending;     // of the isometric model, 1/m^2: force = -B * bending * (x_neighbour - x)
 };
 
@@ -140,6 +145,15 @@ struct MeshCorner
 {
     uint b;
     uint c;
+};
+
+// The same triangle at rest, entry for entry; alike for all of its corners but for which one the vertex is.
+struct MembraneCorner
+{
+    vec2 gradient_1; // 1/m, along warp and weft, of the barycentric coordinates of corner 1
+    vec2 gradient_2; // and of corner 2
+    float weight;    // m^2, the area; of a sliver less
+    uint corner;     // the vertex: 0..2, counter-clockwise
 };
 
 // What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift

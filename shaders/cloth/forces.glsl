@@ -2,7 +2,7 @@
 // order never changes).
 //
 // The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[], mesh_springs[],
-// mesh_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
+// mesh_corners[], membrane_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
@@ -85,12 +85,14 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
 bool feels_air(uint cloth) { return cloths[cloth].drag_normal + cloths[cloth].drag_tangential > 0; }
 bool bends_isometrically(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_ISOMETRIC) != 0; }
 
-// From the vertex to another one, m.
-vec3 delta_to(Gather g, uint other)
+FinePosition position_of(uint vertex)
 {
-    const vec3 x = stage_positions[other].xyz;
-    return displacement(g.x, FinePosition(x, unpack_residual(stage_residuals[other])));
+    const vec3 x = stage_positions[vertex].xyz;
+    return FinePosition(x, unpack_residual(stage_residuals[vertex]));
 }
+
+// From the vertex to another one, m.
+vec3 delta_to(Gather g, uint other) { return displacement(g.x, position_of(other)); }
 
 // A neighbour on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
 // to it pulls with nothing, and no branch keeps loads from being issued together.
@@ -157,13 +159,17 @@ vec2 border_shares(uint cloth, ChunkVertex self)
                 self.place.x == 0 || self.place.x + 1 == int(cloths[cloth].columns) ? share : 1);
 }
 
+SpringClass scaled(SpringClass spring, float stiffness, float damping)
+{
+    spring.stiffness *= stiffness;
+    spring.damping *= damping;
+    return spring;
+}
+
 SpringClass grid_springs(uint cloth, int c, vec2 shares, StabilityScales scales)
 {
     const float share = c % 4 == 0 ? shares.x : c % 4 == 1 ? shares.y : 1;
-    SpringClass spring = cloths[cloth].springs[c];
-    spring.stiffness *= share * scales.stiffness;
-    spring.damping *= share * scales.damping;
-    return spring;
+    return scaled(cloths[cloth].springs[c], share * scales.stiffness, share * scales.damping);
 }
 
 // Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
@@ -212,7 +218,10 @@ void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales s
     }
 }
 
-// A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it.
+#include "membrane.glsl"
+
+// A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it,
+// with the membrane of a Fabric.
 void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
@@ -225,22 +234,36 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
         const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
-        const vec3 delta = delta_to(g, other);
-        const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
         const float stiffness = scales.stiffness * weight * spring.stiffness;
         const float damping = scales.damping * weight * spring.damping;
-        if (stiffness + damping > 0)
+        const bool pulls = stiffness + damping > 0;
+        if (!pulls && entry.bending == 0)
+            continue;
+        const vec3 delta = delta_to(g, other);
+        const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
+        if (pulls)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
         g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
     }
     g.bending *= cloths[cloth].bending.x;
-    if (feels_air(cloth))
+    if (alike && !feels_air(cloth))
+        return;
+    SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
+    for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
+        membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
+    for (uint t = 0; t < vertex.corners; ++t)
     {
-        for (uint c = 0; c < vertex.corners; ++c)
-        {
-            const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
-            add_air(g, cloth, delta_to(g, first_vertex + corner.b), delta_to(g, first_vertex + corner.c), 1.0 / 3);
-        }
+        const uint entry = vertex.first_corner + t * MESH_STRIDE;
+        const MeshCorner corner = mesh_corners[entry];
+        const uint b = first_vertex + corner.b;
+        const uint c = first_vertex + corner.c;
+        const FinePosition x_b = position_of(b);
+        const FinePosition x_c = position_of(c);
+        if (!alike)
+            add_membrane(g, membrane, membrane_corners[entry], TriangleCorner(x_b, stage_velocities[b].xyz),
+                         TriangleCorner(x_c, stage_velocities[c].xyz));
+        if (feels_air(cloth))
+            add_air(g, cloth, displacement(g.x, x_b), displacement(g.x, x_c), 1.0 / 3);
     }
 }
 

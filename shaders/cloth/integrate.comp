@@ -28,6 +28,7 @@ layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner m
 layout(set = 0, binding = 13, std430) readonly buffer BaseResiduals { uvec2 base_residuals[]; };
 layout(set = 0, binding = 14, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
 layout(set = 0, binding = 15, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(set = 0, binding = 16, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 

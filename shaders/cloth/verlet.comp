@@ -25,6 +25,7 @@ layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring me
 layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(set = 0, binding = 11, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
 layout(set = 0, binding = 12, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(set = 0, binding = 13, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 

@@ -18,11 +18,11 @@ const std::vector<Case>& all_cases()
         {"cantilever, grid", "A strip held at its first two columns, isometric bending, Γ = w L³ / B.",
          cantilever_grid},
         {"cantilever, mesh", "The same of equilateral triangles.", cantilever_mesh},
-        {"incline", "Patches beside each other on an incline of 30° for 1 s; kinetic friction 0.5.", incline},
+        {"incline",
+         "Patches of 8 cm of the presets on an incline of 30° for 0.25 s, beside each other; kinetic friction 0.5.",
+         incline},
         {"strap", "Light straps over half a triangulated cylinder, a weight at each end, friction 0.3.", strap},
-        {"drape",
-         "A disc of 30 cm, held on 18 cm, comes to rest; the presets on a triangle mesh, with the fabric's shear.",
-         drape},
+        {"drape", "A disc of 30 cm, held on 18 cm, comes to rest; the presets on a triangle mesh.", drape},
     };
     return cases;
 }

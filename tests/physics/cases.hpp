@@ -14,6 +14,15 @@ enum class Detail
     fine,
 };
 
+// Of a quantity that has one value at the coarser resolution and another at the finer one.
+struct Target
+{
+    double coarse = 0;
+    double fine = 0;
+
+    [[nodiscard]] double at(Detail detail) const { return detail == Detail::fine ? fine : coarse; }
+};
+
 // One number. A band has no exact value, but a lowest and a highest one.
 struct Measurement
 {
@@ -21,9 +30,12 @@ struct Measurement
     std::string resolution;
     double value = 0;
     double exact = 0;
-    double target = 0; // at the finer resolution: |value / exact - 1|, or |value - exact| where the exact is 0
+    // |value / exact - 1|, or |value - exact| where the exact is 0; at most five times what was measured (of quantities
+    // of a kind: the largest).
+    double target = 0;
     double low = 0;
-    double high = 0; // of a band; 0: not a band
+    double high = 0;   // of a band; 0: not a band
+    double change = 0; // of a band: how much both resolutions may differ
 
     [[nodiscard]] bool band() const { return high > 0; }
     [[nodiscard]] double error() const
@@ -91,5 +103,6 @@ CaseResult incline(Detail detail);
 CaseResult strap(Detail detail);
 // drape.cpp
 CaseResult drape(Detail detail);
+CaseResult coarse_drape(); // in seconds, far from converged
 
 } // namespace physics

@@ -32,16 +32,20 @@ std::string error_of(const Measurement& m)
 {
     if (m.band())
         return m.error() == 0 ? "inside" : text("%.3g", m.error()) + " outside";
-    return m.exact == 0 ? text("%.2g", m.error()) : text("%.3f", 100 * m.error()) + " %";
+    return m.exact == 0 ? text("%.2g", m.error()) : text("%.2g", 100 * m.error()) + " %";
 }
 
 std::string target_of(const Measurement& m)
 {
-    return m.band() ? "inside" : m.exact == 0 ? text("%.2g", m.target) : text("%.3g", 100 * m.target) + " %";
+    return m.band()       ? "inside, change at most " + text("%.3g", m.change)
+           : m.exact == 0 ? text("%.2g", m.target)
+                          : text("%.3g", 100 * m.target) + " %";
 }
 
-void write_table(std::ostream& out, const physics::CaseResult& coarse, const physics::CaseResult& fine)
+// Returns how many targets were missed.
+long write_table(std::ostream& out, const physics::CaseResult& coarse, const physics::CaseResult& fine)
 {
+    long missed = 0;
     out << "| quantity | exact | coarse | error | fine | error | target | |\n"
            "| --- | --- | --- | --- | --- | --- | --- "
            "| --- |\n";
@@ -49,13 +53,16 @@ void write_table(std::ostream& out, const physics::CaseResult& coarse, const phy
     {
         const Measurement& c = coarse.measurements[i];
         const Measurement& f = fine.measurements[i];
+        const bool met = f.good() && (!f.band() || std::abs(f.value - c.value) <= f.change);
+        missed += met ? 0 : 1;
         out << "| " << f.quantity << " | " << exact_of(f) << " | " << text("%.5g", c.value) << " (" << c.resolution
             << ") | " << error_of(c) << " | " << text("%.5g", f.value) << " (" << f.resolution << ") | " << error_of(f)
-            << " | " << target_of(f) << " | " << (f.good() ? "met" : "**missed**") << " |\n";
+            << " | " << target_of(f) << " | " << (met ? "met" : "**missed**") << " |\n";
     }
     out << "\n";
     if (!fine.remark.empty())
         out << fine.remark << "\n\n";
+    return missed;
 }
 
 // Returns how many targets were missed.
@@ -65,7 +72,7 @@ long run_case(const physics::Case& entry, std::ostream& out, const std::filesyst
     const physics::CaseResult coarse = entry.run(physics::Detail::coarse);
     const physics::CaseResult fine = entry.run(physics::Detail::fine);
     out << "## " << entry.name << "\n" << entry.setup << "\n\n";
-    write_table(out, coarse, fine);
+    const long missed = write_table(out, coarse, fine);
     for (const physics::Plot& plot : fine.plots)
     {
         out << "![" << plot.title << "](physics/" << plot.file << ".svg)\n\n";
@@ -74,8 +81,7 @@ long run_case(const physics::Case& entry, std::ostream& out, const std::filesyst
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::cerr << entry.name << ": " << text("%.1f", seconds) << " s\n";
-    return std::count_if(fine.measurements.begin(), fine.measurements.end(),
-                         [](const Measurement& m) { return !m.good(); });
+    return missed;
 }
 
 const char* const k_head = R"(# Physics report

@@ -243,8 +243,8 @@ CaseResult strap(Detail detail)
         const std::string of = ", drum of " + std::to_string(segments);
         const std::string size = std::to_string(links) + " links";
         result.measurements.push_back({"T2 / T1 by the stretch, sliding" + of, size, found.tension, exact, 0.02});
-        result.measurements.push_back(
-            {"T2 / T1 by the acceleration, sliding" + of, size, found.acceleration, exact, 0.02});
+        result.measurements.push_back({"T2 / T1 by the acceleration, sliding" + of, size, found.acceleration, exact,
+                                       Target{0.015, 0.008}.at(detail)});
         result.measurements.push_back({"weights that begin to slip" + of, size, found.slipping, exact, 0.02});
     }
     result.remark = k_remark;

@@ -1,5 +1,6 @@
 // A mesh as cloth in double precision on the CPU, from the model's formulas alone: one map of edges, one loop over
-// triangles. Bending is the quadratic form of its energy, assembled as it stands.
+// triangles. A fabric's stretch and shear are springs along four directions of each triangle; bending is the quadratic
+// form of its energy, assembled as it stands.
 #pragma once
 
 #include "cloth_reference.hpp"
@@ -20,6 +21,7 @@ public:
     {
         for (const glm::vec3& p : mesh.positions)
             rest_.emplace_back(glm::vec3(mesh.transform * glm::vec4(p, 1))); // stored in float
+        find_second_axis(mesh);
         state = {rest_, std::vector<glm::dvec3>(rest_.size(), glm::dvec3(mesh.velocity))};
         const double flat = 1e-6; // of the longest edge squared; see mesh_topology.cpp
         std::erase_if(triangles_,
@@ -69,6 +71,15 @@ public:
             force[spring.a] += f;
             force[spring.b] -= f;
         }
+        for (const Thread& thread : threads)
+        {
+            const glm::dvec3 along = thread.sum(s.x);
+            const glm::dvec3 d = glm::normalize(along);
+            const double pull = thread.area * (thread.stiffness * (glm::length(along) - 1) +
+                                               thread.damping * glm::dot(thread.sum(s.v), d));
+            for (int i = 0; i < 3; ++i)
+                force[thread.corner[i]] -= pull * thread.coefficient[i] * d;
+        }
         for (const auto& [pair, q] : bending_form_) // minus the gradient of 1/2 B x^T Q x, and its damping
             force[pair.first] -= bending_ * q * (s.x[pair.second] + bending_time_ * s.v[pair.second]);
         for (const glm::uvec3& t : triangles_)
@@ -91,6 +102,8 @@ public:
                          inverse_mass[i];
         for (const Spring& s : springs)
             total += 0.5 * s.stiffness * std::pow(glm::distance(state.x[s.a], state.x[s.b]) - s.rest_length, 2);
+        for (const Thread& thread : threads)
+            total += 0.5 * thread.area * thread.stiffness * std::pow(glm::length(thread.sum(state.x)) - 1, 2);
         for (const auto& [pair, q] : bending_form_)
             total += 0.5 * bending_ * q * glm::dot(state.x[pair.first], state.x[pair.second]);
         return total;
@@ -105,6 +118,16 @@ public:
             stiffness[s.a] += 2 * s.stiffness;
             stiffness[s.b] += 2 * s.stiffness;
         }
+        for (size_t first = 0; first < threads.size(); first += 4) // the directions of a triangle
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                {
+                    double pair = 0;
+                    for (size_t k = first; k < first + 4; ++k)
+                        pair += threads[k].area * threads[k].stiffness * threads[k].coefficient[i] *
+                                threads[k].coefficient[j];
+                    stiffness[threads[first].corner[i]] += std::abs(pair);
+                }
         for (const auto& [pair, q] : bending_form_)
             stiffness[pair.first] += bending_ * std::abs(q);
         double largest = 0;
@@ -113,8 +136,24 @@ public:
         return largest;
     }
 
+    // One direction of a triangle of fabric: the sum of coefficient * x is what a unit vector along it becomes.
+    struct Thread
+    {
+        uint32_t corner[3];
+        double coefficient[3]; // 1/m
+        double area;           // m^2
+        double stiffness;      // N/m
+        double damping;        // N s/m
+
+        [[nodiscard]] glm::dvec3 sum(const std::vector<glm::dvec3>& x) const
+        {
+            return coefficient[0] * x[corner[0]] + coefficient[1] * x[corner[1]] + coefficient[2] * x[corner[2]];
+        }
+    };
+
     ClothState state;
     std::vector<Spring> springs;
+    std::vector<Thread> threads;
     std::vector<double> inverse_mass; // 1/kg
 
 private:
@@ -123,6 +162,24 @@ private:
         uint32_t opposite;
         glm::uvec3 triangle;
     };
+
+    // The gradient, in the world, of the second coordinate in which the mesh is seen along its thinnest axis.
+    void find_second_axis(const cloth::MeshCloth& mesh)
+    {
+        glm::dvec3 low(1e300);
+        glm::dvec3 high(-1e300);
+        for (const glm::vec3& p : mesh.positions)
+        {
+            low = glm::min(low, glm::dvec3(p));
+            high = glm::max(high, glm::dvec3(p));
+        }
+        const glm::dmat3 axes(mesh.transform);
+        int thinnest = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (glm::length(axes[axis]) * (high - low)[axis] < glm::length(axes[thinnest]) * (high - low)[thinnest])
+                thinnest = axis;
+        second_axis_ = glm::transpose(glm::inverse(axes))[thinnest == 2 ? 1 : 2];
+    }
 
     static std::pair<uint32_t, uint32_t> ordered(uint32_t a, uint32_t b) { return std::minmax({a, b}); }
 
@@ -166,25 +223,22 @@ private:
         density_ = double(fabric.areal_density);
         drag_normal_ = double(fabric.air_drag_normal);
         drag_tangential_ = double(fabric.air_drag_tangential);
-        const double stretch = 0.5 * (double(fabric.stretch_stiffness[0]) + double(fabric.stretch_stiffness[1]));
         const double ratio = double(fabric.damping_ratio);
         const auto solid = double(std::count_if(areas_.begin(), areas_.end(), [](double a) { return a > 0; }));
-        double mean_stiffness = 0;
         double mean_mass = 0;
-        for_each_edge([&](uint32_t, uint32_t, double a, double length)
-                      { mean_stiffness += stretch * a / (length * length) / double(edges_.size()); });
         for (const double a : areas_)
             mean_mass += density_ * a / solid;
-        const double time = 2 * ratio * std::sqrt(mean_mass / (2 * mean_stiffness)); // damping over stiffness
-        const auto add = [&](uint32_t a, uint32_t b, double stiffness, double length) {
-            springs.push_back({a, b, stiffness, stiffness * time, length});
-        };
-        for_each_edge([&](uint32_t a, uint32_t b, double around, double length)
-                      { add(a, b, stretch * around / (length * length), length); });
+        add_membrane(fabric, mean_mass);
         if (fabric.bending_model == cloth::BendingModel::springs)
         {
-            for_each_pair([&](uint32_t a, uint32_t b, double around, double length)
-                          { add(a, b, double(fabric.bending_stiffness) * 2 / 3 / around, length); });
+            const double stretch = 0.5 * (double(fabric.stretch_stiffness[0]) + double(fabric.stretch_stiffness[1]));
+            const double time = 2 * ratio * std::sqrt(mean_mass / (2 * stretch)); // damping over stiffness
+            for_each_pair(
+                [&](uint32_t a, uint32_t b, double around, double length)
+                {
+                    const double stiffness = double(fabric.bending_stiffness) * 2 / 3 / around;
+                    springs.push_back({a, b, stiffness, stiffness * time, length});
+                });
             return;
         }
         bending_ = double(fabric.bending_stiffness);
@@ -198,6 +252,54 @@ private:
             if (areas_[i] > 0)
                 fastest = std::max(fastest, 2 * bending_ * row_sums[i] / (density_ * areas_[i]));
         bending_time_ = fastest > 0 ? 2 * ratio / std::sqrt(fastest) : 0;
+    }
+
+    // Threads of a fabric that runs as the mesh seen along its thinnest axis does: the other two in their order. The
+    // moduli of stretch in one direction and of shear are the fabric's: (c_warp, K_s; K_s, c_weft) is the stiffness of
+    // strain along both, and c_warp - K_s^2 / c_weft = K_warp, likewise for the weft. Diagonals at 45 degrees of 2 K_s
+    // each have (K_s, K_s; K_s, K_s) and shear with K_s. Damping: the ratio of what is critical to vertices of the mean
+    // mass on a spring as a grid of square cells has it, whose diagonals have K_s.
+    void add_membrane(const cloth::Fabric& fabric, double mean_mass)
+    {
+        const double warp = double(fabric.stretch_stiffness[0]);
+        const double weft = double(fabric.stretch_stiffness[1]);
+        const double shear = double(fabric.shear_stiffness);
+        const double quotient = weft / warp; // of the held stiffnesses too
+        const double held = warp / 2 * (1 + std::sqrt(1 + 4 * shear * shear / (warp * weft)));
+        const auto damping = [&](double k)
+        { return 2 * double(fabric.damping_ratio) * std::sqrt(std::max(k, 0.0) * mean_mass / 2); };
+        for (const glm::uvec3& t : triangles_)
+        {
+            const auto [u, v] = fabric_axes(t);
+            const struct
+            {
+                glm::dvec3 direction;
+                double stiffness;
+                double damping;
+            } directions[] = {{u, held - shear, damping(held - shear)},
+                              {v, quotient * held - shear, damping(quotient * held - shear)},
+                              {glm::normalize(u + v), 2 * shear, 2 * damping(shear)},
+                              {glm::normalize(u - v), 2 * shear, 2 * damping(shear)}};
+            for (const auto& [direction, stiffness, loss] : directions)
+            {
+                Thread thread{{t.x, t.y, t.z}, {}, area(t, rest_), std::max(stiffness, 0.0), loss};
+                for (int i = 0; i < 3; ++i)
+                {
+                    const glm::dvec3 up = height(t[(i + 1) % 3], t[(i + 2) % 3], t[i]);
+                    thread.coefficient[i] = glm::dot(up, direction) / glm::dot(up, up);
+                }
+                threads.push_back(thread);
+            }
+        }
+    }
+
+    // Unit vectors of warp and weft in a triangle: along the warp the second of the mesh's own coordinates stays.
+    [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> fabric_axes(const glm::uvec3& t) const
+    {
+        const glm::dvec3 normal = glm::normalize(glm::cross(rest_[t.y] - rest_[t.x], rest_[t.z] - rest_[t.x]));
+        glm::dvec3 u = glm::cross(normal, second_axis_);
+        u = glm::normalize(u);
+        return {u, glm::cross(normal, u)};
     }
 
     // visit(a, b, area of the triangles around, length) of every edge.
@@ -297,6 +399,7 @@ private:
 
     std::vector<glm::uvec3> triangles_; // that have area
     std::vector<glm::dvec3> rest_;
+    glm::dvec3 second_axis_{0};
     std::vector<double> areas_; // m^2, of each vertex
     std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> edges_;
     std::map<std::pair<uint32_t, uint32_t>, double> bending_form_; // 1/m^2, both halves

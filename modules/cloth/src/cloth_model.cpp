@@ -32,12 +32,6 @@ struct Rates
     double decay = 0;              // 1/s, in any shape
 };
 
-// Largest eigenvalue of the symmetric matrix (xx, xy; xy, yy).
-double largest_eigenvalue(double xx, double xy, double yy)
-{
-    return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-}
-
 // Of a vertex on a line of `count`, whatever the line across it is.
 double border_scale(const shared::ClothRecord& record, int index, uint32_t count)
 {
@@ -159,7 +153,7 @@ void set_grid_rates(const glm::vec2& spacing, double mass, shared::ClothRecord& 
     record.decay = static_cast<float>(rates.decay);
 }
 
-// A mesh of springs that follow from a fabric: the classes' constants are per unit of the springs' weights.
+// A mesh of triangles that resist as a fabric says: see membrane.hpp.
 void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothRecord& record)
 {
     const auto density = static_cast<double>(f.areal_density);
@@ -167,26 +161,34 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
         0.5 * (static_cast<double>(f.stretch_stiffness[0]) + static_cast<double>(f.stretch_stiffness[1]));
     const auto bending = static_cast<double>(f.bending_stiffness);
     const bool isometric = f.bending_model == BendingModel::isometric;
-    // Damping in proportion to stiffness: 2 ratio sqrt(k m / 2) for the mean spring between vertices of the mean mass.
-    const double mean_stiffness = std::max(stretch * mesh.mean_weight, 1e-30);
-    const double time =
-        2 * static_cast<double>(f.damping_ratio) * std::sqrt(density * mesh.mean_area / (2 * mean_stiffness));
-    const double edge_omega_squared = stretch * mesh.fabric.edge / density;
+    const MembraneSprings membrane = make_membrane_springs(f, std::sqrt(mesh.mean_area));
+    const auto membrane_rate_of = [&](float Spring::*constant)
+    {
+        return membrane_rate(mesh.membrane, mesh.areas, static_cast<double>(membrane.warp.*constant),
+                             static_cast<double>(membrane.weft.*constant),
+                             static_cast<double>(membrane.diagonal.*constant)) /
+               density;
+    };
+    // Bend springs: damping in proportion to stiffness, 2 ratio sqrt(k m / 2) for a spring that stretches.
+    const double time = 2 * static_cast<double>(f.damping_ratio) * std::sqrt(density * mesh.mean_area / (2 * stretch));
     const double opposite_omega_squared = (isometric ? 0 : bending) * mesh.fabric.opposite / density;
     const double bending_omega_squared = (isometric ? bending : 0) * mesh.fabric.bending / density;
 
-    record.springs[VOILE_CLASS_EDGE] = {static_cast<float>(stretch), static_cast<float>(stretch * time),
-                                        static_cast<float>(std::sqrt(mesh.mean_area)), 0};
+    record.springs[VOILE_CLASS_EDGE] = spring_class({}, std::sqrt(mesh.mean_area));
+    record.springs[VOILE_CLASS_WARP] = spring_class(membrane.warp, 1);
+    record.springs[VOILE_CLASS_WEFT] = spring_class(membrane.weft, 1);
+    record.springs[VOILE_CLASS_DIAGONAL] = spring_class(membrane.diagonal, 1);
     const double bend = isometric ? 0 : bending;
     record.springs[VOILE_CLASS_OPPOSITE] = {static_cast<float>(bend), static_cast<float>(bend * time), 0, 0};
     record.bending = glm::vec3(isometric ? f.bending_stiffness : 0, 0, 0);
     const double bending_time =
         bending_omega_squared > 0 ? 2 * static_cast<double>(f.damping_ratio) / std::sqrt(bending_omega_squared) : 0;
     record.bending_time = static_cast<float>(bending_time);
-    record.omega_squared = static_cast<float>(edge_omega_squared + opposite_omega_squared + bending_omega_squared);
+    record.omega_squared =
+        static_cast<float>(membrane_rate_of(&Spring::stiffness) + opposite_omega_squared + bending_omega_squared);
     record.flat_omega_squared = record.omega_squared;
-    record.decay =
-        static_cast<float>(time * (edge_omega_squared + opposite_omega_squared) + bending_time * bending_omega_squared);
+    record.decay = static_cast<float>(membrane_rate_of(&Spring::damping) + time * opposite_omega_squared +
+                                      bending_time * bending_omega_squared);
 }
 
 void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::ClothRecord& record)

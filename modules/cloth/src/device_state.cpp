@@ -30,6 +30,8 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.mesh_vertices, "cloth mesh vertices", data.lists.vertices.size() * sizeof(shared::MeshVertex)},
         {&state.mesh_springs, "cloth mesh springs", data.lists.springs.size() * sizeof(shared::MeshSpring)},
         {&state.mesh_corners, "cloth mesh corners", data.lists.corners.size() * sizeof(shared::MeshCorner)},
+        {&state.membrane_corners, "cloth membrane corners",
+         data.lists.membrane.size() * sizeof(shared::MembraneCorner)},
         {&state.colliders, "cloth colliders", model.colliders.size() * sizeof(shared::ColliderRecord)},
         {&state.collider_motions, "cloth collider motions", model.colliders.size() * sizeof(shared::ColliderMotion)},
         {&state.deforming_input, "cloth deforming input", model.deforming_positions.size() / 2 * k_most_stride},
@@ -213,7 +215,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                      input.positions.handle(), input.velocities.handle(), output.positions.handle(),
                      output.velocities.handle(), s.stage_a.velocities.handle(), third.velocities.handle(),
                      s.mesh_vertices.handle(), s.mesh_springs.handle(), s.mesh_corners.handle(),
-                     base.residuals.handle(), input.residuals.handle(), output.residuals.handle()});
+                     base.residuals.handle(), input.residuals.handle(), output.residuals.handle(),
+                     s.membrane_corners.handle()});
     };
     for (size_t parity = 0; parity < 2; ++parity)
     {
@@ -242,7 +245,8 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                     {s.cloths.handle(), s.chunks.handle(), input.positions.handle(), input.gathered.handle(),
                      input.velocities.handle(), output.positions.handle(), output.velocities.handle(),
                      output.gathered.handle(), s.mesh_vertices.handle(), s.mesh_springs.handle(),
-                     s.mesh_corners.handle(), input.residuals.handle(), output.residuals.handle()});
+                     s.mesh_corners.handle(), input.residuals.handle(), output.residuals.handle(),
+                     s.membrane_corners.handle()});
     };
     bind_verlet(s.verlet_first, start, there);
     bind_verlet(s.verlet_forth, here, there);

@@ -27,6 +27,7 @@ struct DeviceState
     gpu::Buffer mesh_vertices;
     gpu::Buffer mesh_springs;
     gpu::Buffer mesh_corners;
+    gpu::Buffer membrane_corners;
     gpu::Buffer colliders;
     gpu::Buffer collider_motions;
     gpu::Buffer deforming_input;     // what the host gives for deforming meshes, as it gives it

@@ -27,8 +27,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
-        {&kernels.stage, {"cloth rk4 stage", shaders::k_integrate_comp, 16, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 13, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.stage, {"cloth rk4 stage", shaders::k_integrate_comp, 17, k_stage_bytes, {group, 0, layout}}},
+        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 14, k_stage_bytes, {group, 0, layout}}},
         {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
         {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
         {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 6, sizeof(shared::HoldPush), {group}}},

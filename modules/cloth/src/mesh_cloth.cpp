@@ -35,41 +35,50 @@ std::vector<glm::dvec3> places(const MeshCloth& cloth)
 }
 
 // The mesh seen along the axis of its smallest extent.
-std::vector<glm::vec2> projected(std::span<const glm::dvec3> positions)
+struct Projection
 {
+    std::vector<glm::vec2> coordinates; // m
+    glm::dvec3 view{0};                 // unit length, world
+};
+
+// Along the mesh's own axes, so that the fabric turns with the mesh.
+Projection project(const MeshCloth& cloth)
+{
+    const glm::dmat3 axes(cloth.transform);
+    const glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(std::numeric_limits<double>::lowest());
-    for (const glm::dvec3& p : positions)
+    for (const glm::vec3& p : cloth.positions)
     {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+        low = glm::min(low, glm::dvec3(p));
+        high = glm::max(high, glm::dvec3(p));
     }
-    const glm::dvec3 extent = high - low;
+    const glm::dvec3 extent = scale * (high - low);
     const int along = extent.x <= extent.y && extent.x <= extent.z ? 0 : extent.y <= extent.z ? 1 : 2;
-    std::vector<glm::vec2> result;
-    result.reserve(positions.size());
-    for (const glm::dvec3& p : positions)
-        result.emplace_back((p - low)[along == 0 ? 1 : 0], (p - low)[along == 2 ? 1 : 2]);
+    Projection result{{}, axes[along] / scale[along]};
+    result.coordinates.reserve(cloth.positions.size());
+    for (const glm::vec3& p : cloth.positions)
+    {
+        const glm::dvec3 place = scale * (glm::dvec3(p) - low);
+        result.coordinates.emplace_back(place[along == 0 ? 1 : 0], place[along == 2 ? 1 : 2]);
+    }
     return result;
 }
 
-// Places the lists of `count` vertices, from `first` on, in one workgroup's block of `entries`, which grows by it.
+// Appends the lists of `vertices` as one workgroup's block to `entries`.
 template <typename Entry>
-void interleave_block(std::span<shared::MeshVertex> vertices, uint32_t stride, uint32_t shared::MeshVertex::*first,
-                      uint32_t shared::MeshVertex::*count, std::span<const Entry> source, std::vector<Entry>& entries)
+void interleave_block(std::span<const shared::MeshVertex> vertices, uint32_t stride,
+                      uint32_t shared::MeshVertex::*first, uint32_t shared::MeshVertex::*count,
+                      std::span<const Entry> source, std::vector<Entry>& entries)
 {
     uint32_t longest = 0;
     for (const shared::MeshVertex& vertex : vertices)
         longest = std::max(longest, vertex.*count);
-    const auto begin = static_cast<uint32_t>(entries.size());
-    entries.resize(entries.size() + size_t{longest} * stride);
-    for (uint32_t lane = 0; lane < vertices.size(); ++lane)
-    {
-        shared::MeshVertex& vertex = vertices[lane];
-        for (uint32_t entry = 0; entry < vertex.*count; ++entry)
-            entries[begin + lane + size_t{entry} * stride] = source[vertex.*first + entry];
-        vertex.*first = begin + lane;
-    }
+    const size_t begin = entries.size();
+    entries.resize(begin + size_t{longest} * stride);
+    for (size_t lane = 0; lane < vertices.size(); ++lane)
+        for (uint32_t entry = 0; entry < vertices[lane].*count; ++entry)
+            entries[begin + lane + size_t{entry} * stride] = source[vertices[lane].*first + entry];
 }
 
 } // namespace
@@ -94,15 +103,17 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.name = description.name;
     cloth.material = description.material;
     cloth.integrator = description.integrator;
-    cloth.mesh = make_mesh_topology(world, description.triangles, bends_isometrically(description.material),
-                                    std::holds_alternative<Material>(description.material));
+    Projection projection = project(description);
+    cloth.mesh = make_mesh_topology(
+        world, description.triangles, {description.texture_coordinates, projection.coordinates, projection.view},
+        bends_isometrically(description.material), std::holds_alternative<Material>(description.material));
     if (cloth.mesh->springs.empty())
         return invalid("cloth", description.name,
                        "none of its " + std::to_string(description.triangles.size()) + " triangles has an area");
     cloth.triangles.assign(description.triangles.begin(), description.triangles.end());
     cloth.texture_coordinates.assign(description.texture_coordinates.begin(), description.texture_coordinates.end());
     if (cloth.texture_coordinates.empty())
-        cloth.texture_coordinates = projected(world);
+        cloth.texture_coordinates = std::move(projection.coordinates);
 
     shared::ClothRecord record{};
     record.layers = description.layers;
@@ -118,6 +129,8 @@ Result<ClothId> Model::add(const MeshCloth& description)
     }
     mesh_springs.insert(mesh_springs.end(), cloth.mesh->springs.begin(), cloth.mesh->springs.end());
     mesh_corners.insert(mesh_corners.end(), cloth.mesh->corners.begin(), cloth.mesh->corners.end());
+    membrane_corners.insert(membrane_corners.end(), cloth.mesh->membrane_corners.begin(),
+                            cloth.mesh->membrane_corners.end());
     const auto index = static_cast<uint32_t>(cloths.size());
     cloths.push_back(std::move(cloth));
     records.push_back(record);
@@ -137,10 +150,20 @@ MeshLists interleave(const Model& model, uint32_t workgroup_size)
         for (size_t first = 0; first < vertices.size(); first += workgroup_size)
         {
             const auto block = vertices.subspan(first, std::min<size_t>(workgroup_size, vertices.size() - first));
+            const auto first_spring = static_cast<uint32_t>(lists.springs.size());
+            const auto first_corner = static_cast<uint32_t>(lists.corners.size());
             interleave_block<shared::MeshSpring>(block, workgroup_size, &shared::MeshVertex::first_spring,
                                                  &shared::MeshVertex::springs, model.mesh_springs, lists.springs);
             interleave_block<shared::MeshCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
                                                  &shared::MeshVertex::corners, model.mesh_corners, lists.corners);
+            interleave_block<shared::MembraneCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
+                                                     &shared::MeshVertex::corners, model.membrane_corners,
+                                                     lists.membrane);
+            for (uint32_t lane = 0; lane < block.size(); ++lane)
+            {
+                block[lane].first_spring = first_spring + lane;
+                block[lane].first_corner = first_corner + lane;
+            }
         }
     }
     return lists;

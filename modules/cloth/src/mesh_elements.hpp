@@ -1,5 +1,8 @@
-// What resists in a mesh as cloth, one by one: the springs along its edges and across them, and the folds at them.
+// What resists in a mesh as cloth, one by one: its triangles or the springs along its edges, springs across edges, and
+// the folds at them.
 #pragma once
+
+#include "membrane.hpp"
 
 #include <glm/glm.hpp>
 
@@ -17,16 +20,10 @@ struct MeshSide
     uint32_t b;
     uint32_t opposite;
     uint32_t triangle;
+    int corner;  // of the triangle, where the side begins
     double area; // m^2
 
     [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
-};
-
-// The sides of triangles that share an edge.
-struct MeshEdge
-{
-    std::span<const MeshSide> sides;
-    double length; // m
 };
 
 // All sides, those of an edge side by side.
@@ -55,12 +52,14 @@ struct Hinge
 
 struct MeshElements
 {
-    std::vector<ElementSpring> edges;     // weight: none
+    std::vector<ElementSpring> edges;     // weight: 1
     std::vector<ElementSpring> opposites; // weight: 1/m^2
     std::vector<Hinge> hinges;
+    std::vector<MembraneTriangle> triangles; // of a fabric
 };
 
-void add_edge(std::span<const glm::dvec3> positions, const MeshEdge& edge, MeshElements& elements);
+// The springs and folds of an edge, given all of its sides; it is noted with the triangles, if there are any.
+void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> sides, MeshElements& elements);
 
 // What one triangle adds to the bending form.
 struct BendingEntry

@@ -70,18 +70,22 @@ std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, flo
     return entries;
 }
 
+// `fabric`: of the membrane; none: springs along the edges.
 MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                         MeshReport& report)
+                         const FabricCoordinates* fabric, MeshReport& report)
 {
     const std::vector<MeshSide> sides = sides_of(positions, triangles);
     MeshElements elements;
+    if (fabric)
+        for (const glm::uvec3& t : triangles)
+            elements.triangles.push_back(make_membrane_triangle(positions, t, *fabric));
     for (size_t first = 0; first < sides.size();)
     {
         size_t last = first + 1;
         while (last < sides.size() && sides[last].key() == sides[first].key())
             ++last;
         const double length = glm::distance(positions[sides[first].a], positions[sides[first].b]);
-        add_edge(positions, {std::span(sides).subspan(first, last - first), length}, elements);
+        add_edge(positions, std::span(sides).subspan(first, last - first), elements);
         report.boundary_edges += last - first == 1 ? 1 : 0;
         report.non_manifold_edges += last - first > 2 ? 1 : 0;
         report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
@@ -132,6 +136,7 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::
 {
     std::vector<std::vector<shared::MeshSpring>> springs(mesh.vertices.size());
     std::vector<std::vector<shared::MeshCorner>> corners(mesh.vertices.size());
+    std::vector<std::vector<shared::MembraneCorner>> membrane(mesh.vertices.size());
     const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
     {
         for (const shared::MeshSpring& entry :
@@ -142,15 +147,21 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::
         put(pair.b, pair.a, pair);
     for (const Pair& pair : pairs)
         put(pair.a, pair.b, pair);
-    for (const glm::uvec3& t : triangles)
+    for (size_t i = 0; i < triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
+        {
+            const glm::uvec3& t = triangles[i];
             corners[t[corner]].push_back({t[(corner + 1) % 3], t[(corner + 2) % 3]});
+            membrane[t[corner]].push_back(mesh.membrane.empty() ? shared::MembraneCorner{}
+                                                                : make_membrane_corner(mesh.membrane[i], t[corner]));
+        }
     for (size_t i = 0; i < mesh.vertices.size(); ++i)
     {
         mesh.vertices[i] = {static_cast<uint32_t>(mesh.springs.size()), static_cast<uint32_t>(springs[i].size()),
                             static_cast<uint32_t>(mesh.corners.size()), static_cast<uint32_t>(corners[i].size())};
         mesh.springs.insert(mesh.springs.end(), springs[i].begin(), springs[i].end());
         mesh.corners.insert(mesh.corners.end(), corners[i].begin(), corners[i].end());
+        mesh.membrane_corners.insert(mesh.membrane_corners.end(), membrane[i].begin(), membrane[i].end());
     }
 }
 
@@ -162,8 +173,8 @@ void find_bounds(MeshTopology& mesh)
 {
     struct Sums // of a vertex
     {
-        double weighted[2] = {0, 0}; // by kind: edges, opposite vertices
-        double alike[2] = {0, 0};
+        double opposite = 0;      // weights
+        double alike[2] = {0, 0}; // by kind: edges, opposite vertices
         double bending = 0;
     };
     std::vector<Sums> sums(mesh.vertices.size());
@@ -181,21 +192,19 @@ void find_bounds(MeshTopology& mesh)
     visit_springs(
         [&](size_t i, uint32_t, int kind, const shared::MeshSpring& spring)
         {
-            sums[i].weighted[kind] += static_cast<double>(spring.weight);
+            sums[i].opposite += kind == VOILE_CLASS_OPPOSITE ? static_cast<double>(spring.weight) : 0;
             sums[i].alike[kind] += spring.weight > 0 ? 1 : 0;
             sums[i].bending += std::abs(static_cast<double>(spring.bending));
         });
-    double* const weighted[] = {&mesh.fabric.edge, &mesh.fabric.opposite};
     double* const alike[] = {&mesh.alike.edge, &mesh.alike.opposite};
     const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
     visit_springs(
         [&](size_t i, uint32_t j, int kind, const shared::MeshSpring& spring)
         {
             if (spring.weight > 0)
-            {
-                raise(*weighted[kind], sums[i].weighted[kind] / mesh.areas[i] + sums[j].weighted[kind] / mesh.areas[j]);
                 raise(*alike[kind], sums[i].alike[kind] + sums[j].alike[kind]);
-            }
+            if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
+                raise(mesh.fabric.opposite, sums[i].opposite / mesh.areas[i] + sums[j].opposite / mesh.areas[j]);
         });
     for (size_t i = 0; i < mesh.vertices.size(); ++i)
         if (mesh.areas[i] > 0)
@@ -208,7 +217,7 @@ void find_bounds(MeshTopology& mesh)
 } // namespace
 
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                                bool isometric, bool masses_alike)
+                                const FabricCoordinates& fabric, bool isometric, bool masses_alike)
 {
     std::vector<glm::uvec3> solid;
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
@@ -236,11 +245,10 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     for (uint32_t i = 0; i < welded.size(); ++i)
         mesh.report.coincident_vertices += welded[i] != i && mesh.areas[i] > 0 ? 1 : 0;
 
-    MeshElements elements = elements_of(positions, solid, mesh.report);
+    MeshElements elements = elements_of(positions, solid, masses_alike ? nullptr : &fabric, mesh.report);
     mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
     const std::vector<Pair> pairs = pairs_of(elements, isometric ? solid.size() : 0);
-    for (const Pair& pair : pairs)
-        mesh.mean_weight += pair.edge / static_cast<double>(elements.edges.size());
+    mesh.membrane = std::move(elements.triangles);
     fill_lists(mesh, positions, solid, pairs);
     find_bounds(mesh);
     return mesh;

@@ -64,6 +64,7 @@ struct Model
     std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
     std::vector<shared::MeshSpring> mesh_springs;
     std::vector<shared::MeshCorner> mesh_corners;
+    std::vector<shared::MembraneCorner> membrane_corners; // one for each of these
     std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
     std::vector<shared::ColliderRecord> colliders;
     std::vector<glm::mat4> placements;    // of the colliders: world from their own space when they were added; rigid
@@ -174,6 +175,7 @@ struct MeshLists
     std::vector<shared::MeshVertex> vertices;
     std::vector<shared::MeshSpring> springs;
     std::vector<shared::MeshCorner> corners;
+    std::vector<shared::MembraneCorner> membrane; // one for each of these
 };
 MeshLists interleave(const Model& model, uint32_t workgroup_size);
 

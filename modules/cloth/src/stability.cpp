@@ -60,4 +60,9 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     return static_cast<uint32_t>(std::clamp(substeps, 1.0, static_cast<double>(k_most_substeps)));
 }
 
+double largest_eigenvalue(double xx, double xy, double yy)
+{
+    return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+}
+
 } // namespace cloth

@@ -19,4 +19,7 @@ StabilityScales stability_scales(const shared::ClothRecord& record, double subst
 // The fewest substeps of a step of `duration` seconds that bear all of the stiffness and damping.
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration);
 
+// Of the symmetric matrix (xx, xy; xy, yy).
+double largest_eigenvalue(double xx, double xy, double yy);
+
 } // namespace cloth

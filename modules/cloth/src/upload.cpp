@@ -84,9 +84,10 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     data.chunks = make_chunks(s.model, s.options.workgroup_size);
     if (s.options.feature_contact)
         data.features = find_features(s.model);
-    data.lists = s.options.mesh_layout == MeshLayout::interleaved
-                     ? interleave(s.model, s.options.workgroup_size)
-                     : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners};
+    data.lists =
+        s.options.mesh_layout == MeshLayout::interleaved
+            ? interleave(s.model, s.options.workgroup_size)
+            : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners, s.model.membrane_corners};
     static constexpr uint32_t k_room = 16; // for holds and anchors that come later
     const auto room = [](size_t count) { return std::bit_ceil(std::max(static_cast<uint32_t>(count), k_room)); };
     data.anchors = room(s.anchors.size());
@@ -122,6 +123,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.mesh_vertices, 0, bytes_of(data.lists.vertices)},
         {next.mesh_springs, 0, bytes_of(data.lists.springs)},
         {next.mesh_corners, 0, bytes_of(data.lists.corners)},
+        {next.membrane_corners, 0, bytes_of(data.lists.membrane)},
         {next.colliders, 0, bytes_of(s.model.colliders)},
         {next.collider_motions, 0, bytes_of(motions)},
         {next.deforming_positions, kept_deforming * sizeof(glm::vec4),

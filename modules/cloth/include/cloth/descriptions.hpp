@@ -48,20 +48,25 @@ struct Grid
 // area have no springs; vertices without a triangle are held; across an edge of three or more triangles each pair of
 // them bends. mesh_report tells of all of these.
 //
+// The warp of a Fabric runs in each triangle where the first texture coordinate grows and the second does not; the weft
+// is at right angles to it. Their scale does not matter. Where there are none, or a triangle's have no area, those
+// apply that are given for an empty list: a flat mesh in x and z has its warp along x, like a Grid. Both turn with the
+// transform.
+//
 // The stiffest springs and folds set the substeps of the whole cloth (Solver::stable_substeps), and slivers have ones
-// beyond all measure: a triangle 3 cm long and 10 um high asks for a million. So a few may not. What is more than 4
-// times as stiff against the mass it moves as 99 % of its kind are, or all but 12 of 240 and more, or 95 % of 60 and
+// beyond all measure: a triangle 3 cm long and 10 um high asks for a million. So a few may not. A triangle that is more
+// than 8 times as stiff against the mass it moves as 99 % of all are, or all but 12 of 240 and more, or 95 % of 60 and
 // more, is softened to the stiffest of the others; folds and springs across edges, which grow faster as triangles
 // shrink, where it is 64 times. Masses and all else stay, forces between vertices stay equal and opposite. Nothing is
 // softened in meshes whose triangles are much alike, whose sizes pass into each other, or that have fewer than 60
-// edges. Springs of a Material, which are all alike, never are.
+// triangles. Springs of a Material, which are all alike, never are.
 struct MeshCloth
 {
     std::string name = "cloth";
     std::span<const glm::vec3> positions{};           // m, in the mesh's space
     std::span<const glm::uvec3> triangles{};          // indices into positions, counter-clockwise seen from outside
-    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along the
-                                                      // axis of its smallest extent
+    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along that of
+                                                      // its own axes along which it is thinnest
     glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
     glm::vec3 velocity{0.f};                          // m/s, -1e4..1e4 along each axis, of every vertex at the start
     ClothMaterial material{};

@@ -69,7 +69,7 @@ struct Fabric
 {
     float areal_density = 0.15f;                        // kg/m^2, 1e-3..1e3
     std::array<float, 2> stretch_stiffness{1000, 1000}; // N/m, 1e-2..1e7; warp (along rows), weft (along columns)
-    float shear_stiffness = 100;                        // N/m, 0..1e7. Grids only: see mesh_springs
+    float shear_stiffness = 100;                        // N/m, 0..1e7, between warp and weft
     float bending_stiffness = 1e-5f;                    // N m, 0..1e3
     float damping_ratio = 0.02f;                        // of each spring's critical damping, 0..1
     float thickness = 0.005f;                           // m, 1e-5..10
@@ -94,9 +94,15 @@ using ClothMaterial = std::variant<Fabric, Material>;
 //   spring's shortening as its measure: it has no stiffness near flat);
 // - damping c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring;
 // - the isometric model has no bend springs, and its fastest mode the same share of critical damping.
-// Meshes: k = E A / L^2 for an edge of length L between triangles of total area A, E the mean of warp and weft (Van
-// Gelder 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"); shear follows from it, 3/8
-// of E on equilateral triangles. A vertex has a third of the mass of each triangle around it.
+// Meshes have no springs along their edges. Each triangle resists as four springs in it do, along warp, weft and both
+// diagonals: with stretched lengths w of unit vectors in these directions, its energy is its area times the sum of
+// K / 2 (w - 1)^2, where K is A - K_s along the warp, A K_weft / K_warp - K_s along the weft (0 where that is negative)
+// and 2 K_s along each diagonal. That is the energy of a grid of square cells, so stretch and shear stiffness are the
+// fabric's on any triangles, and those of a grid. Damping is the same ratio on a grid of the mean spacing. Strain is
+// uniform in a triangle: where edges run across warp and weft and triangles are as large as folds, the mesh resists
+// shear that changes within a fold more than the fabric does, the more the stiffer stretch is against shear.
+// MeshCloth::texture_coordinates say where warp and weft run. A vertex has a third of the mass of each triangle around
+// it.
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
 // The constants of the reference scene: 0.15 kg a vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag

@@ -1,0 +1,91 @@
+// Stretch and shear of a fabric on a triangle: four springs along its warp, its weft and both diagonals between them.
+//
+// The deformation gradient F takes a unit vector d of the fabric to F d, whose length is 1 at rest. Each direction has the
+// energy weight * stiffness / 2 * (|F d| - 1)^2, so that a mesh has the moduli of a grid, whatever its triangles are. The
+// force on a corner is minus the energy's gradient, F S g: S is the sum of tension * d d^T over the directions, and g the
+// gradient of the corner's barycentric coordinate. Each corner computes F and S from the same edges in the same order, so
+// that the three forces and their torques add up to nothing, but for the rounding of F S g itself.
+// Included by forces.glsl.
+#ifndef VOILE_MEMBRANE_GLSL
+#define VOILE_MEMBRANE_GLSL
+
+// A symmetric matrix in warp and weft.
+struct FabricMatrix
+{
+    float warp;
+    float weft;
+    float mixed;
+};
+
+// d^T m d.
+float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.weft + 2 * d.x * d.y * m.mixed; }
+
+// |F d| below which a direction counts as one of that length: the triangle has collapsed.
+const float k_least_stretch = 1e-4;
+
+// `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
+void add_direction(inout FabricMatrix stress, Gather g, SpringClass spring, FabricMatrix excess, FabricMatrix rate, vec2 d)
+{
+    const float squared_excess = along(excess, d);
+    const float squared = max(1 + squared_excess, k_least_stretch * k_least_stretch);
+    const float stretch = sqrt(squared);
+    const float stretch_rate = along(rate, d) / squared; // 1/s, of |F d| over itself
+    float tension = spring.stiffness * squared_excess / (squared + stretch) + spring.damping * stretch_rate;
+    if (VERLET)
+    {
+        // As in add_spring, for a rest length of 1. Here what goes along suffices; what acts across would add spin.
+        const float change = abs(stretch_rate) * stretch * push.step;
+        const float viscosity = clamp(change - k_viscous_strain, 0, g.viscosity.most);
+        tension += min(1 / squared, 1) * g.viscosity.scale * viscosity * spring.stiffness * stretch_rate;
+    }
+    stress.warp += tension * d.x * d.x;
+    stress.weft += tension * d.y * d.y;
+    stress.mixed += tension * d.x * d.y;
+}
+
+// A corner of a triangle.
+struct TriangleCorner
+{
+    FinePosition x;
+    vec3 v; // m/s
+};
+
+// `b`, `c`: the other two corners, counter-clockwise.
+void add_membrane(inout Gather g, SpringClass springs[VOILE_MEMBRANE_SPRINGS], MembraneCorner rest, TriangleCorner b,
+                  TriangleCorner c)
+{
+    const TriangleCorner self = TriangleCorner(g.x, g.v);
+    const bool first = rest.corner == 0;
+    const bool second = rest.corner == 1;
+    const TriangleCorner corner_0 = first ? self : second ? c : b;
+    const TriangleCorner corner_1 = first ? b : second ? self : c;
+    const TriangleCorner corner_2 = first ? c : second ? b : self;
+    const vec3 edge_1 = displacement(corner_0.x, corner_1.x);
+    const vec3 edge_2 = displacement(corner_0.x, corner_2.x);
+    const vec3 velocity_1 = corner_1.v - corner_0.v;
+    const vec3 velocity_2 = corner_2.v - corner_0.v;
+    const vec3 warp = rest.gradient_1.x * edge_1 + rest.gradient_2.x * edge_2; // F along the warp
+    const vec3 weft = rest.gradient_1.y * edge_1 + rest.gradient_2.y * edge_2;
+    const vec3 warp_rate = rest.gradient_1.x * velocity_1 + rest.gradient_2.x * velocity_2;
+    const vec3 weft_rate = rest.gradient_1.y * velocity_1 + rest.gradient_2.y * velocity_2;
+
+    const FabricMatrix excess =
+        FabricMatrix(fma(warp.x, warp.x, fma(warp.y, warp.y, fma(warp.z, warp.z, -1))),
+                     fma(weft.x, weft.x, fma(weft.y, weft.y, fma(weft.z, weft.z, -1))), dot(warp, weft));
+    const FabricMatrix rate = FabricMatrix(dot(warp, warp_rate), dot(weft, weft_rate),
+                                           0.5 * (dot(warp, weft_rate) + dot(weft, warp_rate)));
+    const float k_diagonal = 0.70710678;
+    FabricMatrix stress = FabricMatrix(0, 0, 0);
+    add_direction(stress, g, springs[0], excess, rate, vec2(1, 0));
+    add_direction(stress, g, springs[1], excess, rate, vec2(0, 1));
+    add_direction(stress, g, springs[2], excess, rate, vec2(k_diagonal, k_diagonal));
+    add_direction(stress, g, springs[2], excess, rate, vec2(k_diagonal, -k_diagonal));
+
+    const vec2 own = first    ? -(rest.gradient_1 + rest.gradient_2)
+                     : second ? rest.gradient_1
+                              : rest.gradient_2;
+    g.force -= rest.weight * ((stress.warp * own.x + stress.mixed * own.y) * warp +
+                              (stress.mixed * own.x + stress.weft * own.y) * weft);
+}
+
+#endif
