@@ -76,6 +76,8 @@ quick(test_lifetime
     "a step out of range is refused by name, and nothing is recorded"
     "pins come to rest and go on with their anchor while an upload is due"
     "statistics in flight survive an upload")
+quick(test_membrane
+    "warp and weft follow the texture coordinates, and turn with the mesh where there are none")
 quick(test_mesh_cloth
     "a cantilever of isometric bending sags alike as mesh and as grid"
     "a mesh that cannot be a cloth is refused by name, and the solver stays as it was")
