@@ -1,4 +1,4 @@
-// What a cloth's state is worth in energy and momentum, by the reference's formulas, for tests of energy balance.
+// The energy and momentum of a cloth's state by the reference's formulas, for tests of energy balance.
 #pragma once
 
 #include "cloth_harness.hpp"
@@ -20,9 +20,55 @@ inline cloth::Grid with_springs(const cloth::Grid& grid)
     return raw;
 }
 
-inline reference::Cloth reference_of(const cloth::Grid& grid)
+// The energy of the isometric model on a grid, J: B / 2 times the squared second differences along rows and columns and
+// twice the squared twist of each cell, over areas.
+inline double bending_energy(const cloth::Grid& raw, const std::vector<glm::dvec3>& x)
 {
-    return reference::Cloth(with_springs(grid));
+    const auto& material = std::get<cloth::Material>(raw.material);
+    const double a = static_cast<double>(raw.width) / (raw.columns - 1);
+    const double b = static_cast<double>(raw.depth) / (raw.rows - 1);
+    const auto at = [&](uint32_t row, uint32_t column) { return x[size_t{row} * raw.columns + column]; };
+    const auto border = [&](uint32_t i, uint32_t count)
+    { return i == 0 || i + 1 == count ? static_cast<double>(material.border_share) : 1; };
+    double sum = 0;
+    for (uint32_t r = 0; r < raw.rows; ++r)
+        for (uint32_t c = 0; c < raw.columns; ++c)
+        {
+            const auto squared = [](const glm::dvec3& d) { return glm::dot(d, d); };
+            if (c > 0 && c + 1 < raw.columns)
+                sum += border(r, raw.rows) * b / (a * a * a) * squared(at(r, c - 1) - 2.0 * at(r, c) + at(r, c + 1));
+            if (r > 0 && r + 1 < raw.rows)
+                sum += border(c, raw.columns) * a / (b * b * b) * squared(at(r - 1, c) - 2.0 * at(r, c) + at(r + 1, c));
+            if (r + 1 < raw.rows && c + 1 < raw.columns)
+                sum += 2 / (a * b) * squared(at(r, c) - at(r, c + 1) - at(r + 1, c) + at(r + 1, c + 1));
+        }
+    return 0.5 * static_cast<double>(material.bending_stiffness) * sum;
+}
+
+// A grid's reference, with the energy of isometric bending, which reference::Cloth does not have.
+struct GridReference : reference::Cloth
+{
+    explicit GridReference(const cloth::Grid& grid) : reference::Cloth(with_springs(grid)), raw(with_springs(grid)) {}
+
+    [[nodiscard]] double energy(const reference::Environment& environment) const
+    {
+        return reference::Cloth::energy(environment) + bending_energy(raw, state.x);
+    }
+
+    // Scales what stores energy, as a step does that is too long for it.
+    void soften(double stiffness)
+    {
+        for (reference::Spring& spring : springs)
+            spring.stiffness *= stiffness;
+        std::get<cloth::Material>(raw.material).bending_stiffness *= static_cast<float>(stiffness);
+    }
+
+    cloth::Grid raw;
+};
+
+inline GridReference reference_of(const cloth::Grid& grid)
+{
+    return GridReference(grid);
 }
 
 inline reference::MeshCloth reference_of(const cloth::MeshCloth& mesh)

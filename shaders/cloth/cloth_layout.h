@@ -81,6 +81,7 @@
 
 // What a velocity's w says of its vertex, as a sum of these.
 #define VOILE_VERTEX_TOUCHES 1 // it touches a collider
+#define VOILE_VERTEX_TAUT 2    // a tether, a leash or a backstop holds it
 #define VOILE_VERTEX_MEETS 4   // a triangle or an edge around it meets a corner or an edge of a collider
 
 VOILE_SHARED_BEGIN(cloth)
@@ -311,7 +312,7 @@ struct HoldPush
     uint count;
     float step;     // s; pins: of the whole step
     float progress; // 0..1, of the step at the substep's end
-    float progress_a_substep;
+    float rate;     // 1/s, of the progress
 };
 
 #define VOILE_EDIT_MASSES 0    // inverse masses from areas and density
@@ -343,8 +344,39 @@ struct EditPush
 struct StrainPush
 {
     uint spacing; // of the level, in grid lines
-    uint between; // 1: vertices between the lines of the level before take over what their neighbours were moved by
+    uint between; // 1: vertices between the lines of the level before take over what their neighbors were moved by
     float acceleration; // of the passes of a level (Chebyshev); 1: none
+    uint first; // 1: of a level; no vertex knows yet what it bears
+    uint last;  // 1: of all; what vertices bear gives way to their flags
+};
+
+// A patch's part of what a step or the strain limit does to its cloth (limit_work.comp). Of a displacement dx and a change of
+// velocity dv:
+struct LimitWork
+{
+    float work;   // J, of elastic forces and gravity along dx
+    float v_dv;   // J, sum of m v . dv
+    float dv_dv;  // J, sum of m dv . dv
+    float v_dx;   // J s, sum of m v . dx
+    float dx_dx;  // J s^2, sum of m dx . dx
+    float dv_dx;  // J s, sum of m dv . dx
+    float undone; // J s^2, minus the sum of m dx . (displacement from the step's start)
+    float padding;
+};
+
+// How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give back.
+struct LimitScale
+{
+    float position;   // 0..1, of the displacements
+    float velocity;   // 0..1, of the changes of velocity
+    float shift_rate; // 1/s, of the displacements as a change of velocity besides
+    float reserve;    // J
+};
+
+struct LimitScalePush
+{
+    uint chunks;
+    float rate; // 1/s, the largest shift_rate
 };
 
 // Push constants of the statistics passes.

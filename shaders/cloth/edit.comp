@@ -39,7 +39,13 @@ void main()
     const uint i = cloths[push.cloth].first_vertex + local;
     const float inverse_mass = start[i].w * cloths[push.cloth].inverse_density;
     if (push.kind == VOILE_EDIT_MASSES)
+    {
+        // Heavier: the momentum stays, lighter: the velocity. Kinetic energy never grows with the mass.
+        const float before = positions[i].w;
+        if (before > inverse_mass)
+            velocities[i].xyz *= inverse_mass / before;
         positions[i].w = inverse_mass;
+    }
     else if (push.kind == VOILE_EDIT_RESET)
     {
         positions[i] = vec4(start[i].xyz, inverse_mass);

@@ -24,13 +24,14 @@ layout(push_constant, std430) uniform Push { HoldPush push; };
 
 #include "fine_position.glsl"
 
-// Puts a vertex that is `outside` m beyond a bound back along n, and takes what velocity leads it out.
-void keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
+// Puts a vertex that is `outside` m beyond a bound back along n, and takes the velocity that leads it out. False: it is not.
+bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
 {
     if (outside <= 0)
-        return;
+        return false;
     shift -= outside * n;
     v -= max(dot(v - place_velocity, n), 0) * n;
+    return true;
 }
 
 void main()
@@ -52,8 +53,7 @@ void main()
     const vec4 velocity = velocities[hold.vertex];
     vec3 v = velocity.xyz;
 
-    // The way over the whole step, by the substep's share of it, as a velocity.
-    const vec3 place_velocity = (to - from) * (push.progress_a_substep / h);
+    const vec3 place_velocity = (to - from) * push.rate;
     const float stiffness = hold.stiffness;
     const float w = position.w;
     const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * place_velocity;
@@ -64,17 +64,19 @@ void main()
 
     const vec3 offset = to_vertex + shift;
     const float distance = length(offset);
+    bool taut = false;
     if (distance > hold.max_distance)
-        keep_inside(shift, v, offset / distance, distance - hold.max_distance, place_velocity);
+        taut = keep_inside(shift, v, offset / distance, distance - hold.max_distance, place_velocity);
     if ((hold.flags & VOILE_HOLD_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * hold.normal);
-        keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, place_velocity);
+        taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, place_velocity) || taut;
     }
     const FinePosition next = moved(here, shift);
     positions[hold.vertex].xyz = next.x;
     residuals[hold.vertex] = pack_residual(next);
-    velocities[hold.vertex].xyz = v;
+    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
+    velocities[hold.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
     if (verlet)
         predicted[hold.vertex].xyz += v - velocity.xyz;
 }

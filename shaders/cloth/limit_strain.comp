@@ -1,17 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // One pass of the strain limit, after a step's last substep: where a spring is longer than its limit, both ends are moved
-// towards each other, each by its share of the masses, and the velocity that lengthens it on is taken from both alike. All
-// springs at once (Jacobi): what one end gets the other gets in return, so that momentum is kept, save where cloth is so
-// crumpled that a vertex bears less than its share.
+// towards each other, each by its fraction of the masses. All springs at once (Jacobi): what one end gets the other gets in
+// return, so that momentum is kept. The velocity that lengthens a spring at its limit is taken from both ends alike.
 //
-// A pass over neighbours carries a correction one spring far. On a grid, passes therefore go from coarse to fine: a level
+// A spring that is shorter than at rest is made no shorter: it would store energy that nothing pays for. What the passes
+// still cost is limit_work.comp's to measure.
+//
+// A pass over neighbors carries a correction one spring far. On a grid, passes therefore go from coarse to fine: a level
 // moves only the vertices whose row and column are multiples of its spacing, and after it the vertices between take the mean
-// of what their neighbours were moved by (after Müller 2008, "Hierarchical position based dynamics"). A bound for the way
+// of what their neighbors were moved by (after Müller 2008, "Hierarchical position based dynamics"). A bound for the distance
 // between far vertices follows from those for the springs between them, so that nothing is limited that the limit would not.
 // A coarse vertex has the mass of what moves with it, which keeps the momentum of the whole. A mesh compares the ends of its
 // edges in every pass.
-// A thread moves one vertex. Reads: cloths, chunks, mesh lists, places at the step's end, state before. Writes: state after.
+// A thread moves one vertex. Reads: cloths, patches, mesh lists, state before, the step's state. Writes: state after.
 #include "cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -21,6 +23,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 4, std430) buffer NextPositions { vec4 next_positions[]; };
+// w, except of the state: what of a correction a vertex bore in the pass before.
 layout(set = 0, binding = 5, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
 layout(set = 0, binding = 6, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(set = 0, binding = 7, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
@@ -40,28 +43,63 @@ layout(push_constant, std430) uniform Push { StrainPush push; };
 
 struct Correction
 {
-    vec3 x; // m
-    vec3 v; // m/s
-    StiffnessSum taken; // of the springs at their limit: sum of share * (n n^T)
+    vec3 x;             // m
+    vec3 v;             // m/s
+    StiffnessSum taken; // of the springs beyond a bound: sum of fraction * (n n^T)
 };
 
-const StiffnessSum k_nothing = StiffnessSum(vec3(0), vec3(0));
+const Correction k_no_correction = Correction(vec3(0), vec3(0), StiffnessSum(vec3(0), vec3(0)));
+
+// The end of a spring, and what of a correction it bears: the other end takes no more, so that momentum is kept. Its inverse
+// mass is 1/kg, or what stands for it on a coarse level.
+struct End
+{
+    uint index;
+    vec3 x; // m
+    vec3 v; // m/s
+    float inverse_mass;
+    float relaxation;
+};
+
+// Of any vertex: up to eight springs in one line, each of which takes half.
+const float k_safe_relaxation = 0.25;
+
+End end_at(uint index, float inverse_mass)
+{
+    const vec4 v = velocities[index];
+    return End(index, positions[index].xyz, v.xyz, inverse_mass, push.first == 1 ? k_safe_relaxation : v.w);
+}
+
+// m, at most: what the spring may not be shorter than.
+float shortest(End self, End other, float rest_length)
+{
+    return min(rest_length, distance(step_positions[self.index].xyz, step_positions[other.index].xyz));
+}
 
 // Springs this near below their limit have their lengthening stopped too, or they would swing about it.
 const float k_taut = 0.995;
 
-// `own`, `theirs`: inverse masses, or what stands for them on a coarse level.
-void add_limit(inout Correction correction, vec3 x, vec3 v, float own, uint other, float theirs, float longest)
+// Of springs with both ends next to each other `rest_length` is their own; 0: any shorter length is allowed.
+void add_limit(inout Correction correction, End self, End other, float longest, float rest_length)
 {
-    const vec3 delta = positions[other].xyz - x;
+    const vec3 delta = other.x - self.x;
     const float distance = length(delta);
-    if (distance < k_taut * longest || own == 0)
+    const bool is_short = distance < rest_length;
+    if (self.inverse_mass == 0 || distance == 0 || (!is_short && distance < k_taut * longest))
         return;
     const vec3 n = delta / distance;
-    const float share = own / (own + theirs);
-    add_stiffness(correction.taken, share, n, 1);
-    correction.x += share * max(distance - longest, 0) * n;
-    correction.v += share * max(dot(velocities[other].xyz - v, n), 0) * n;
+    const float fraction = self.inverse_mass / (self.inverse_mass + other.inverse_mass);
+    const float weight = min(self.relaxation, other.relaxation) * fraction;
+    if (is_short)
+    {
+        const float missing = max(shortest(self, other, rest_length) - distance, 0);
+        add_stiffness(correction.taken, missing > 0 ? fraction : 0, n, 1);
+        correction.x -= weight * missing * n;
+        return;
+    }
+    add_stiffness(correction.taken, fraction, n, 1);
+    correction.x += weight * max(distance - longest, 0) * n;
+    correction.v += weight * max(dot(other.v - self.v, n), 0) * n;
 }
 
 // What of `relaxation` is borne. All springs at once converge while twice the largest eigenvalue of what a vertex takes is
@@ -99,16 +137,16 @@ float coarse_inverse_mass(uint cloth, ivec2 place, uint index, int spacing)
                 lines_with(place.y, int(cloths[cloth].rows), spacing, share));
 }
 
-Correction limit_grid(ChunkVertex self, vec3 x, vec3 v)
+Correction limit_grid(ChunkVertex self)
 {
     const uint cloth = self.cloth;
-    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
+    Correction correction = k_no_correction;
     const uint columns = cloths[cloth].columns;
     const int spacing = int(push.spacing);
     const ivec2 place = self.place;
     if (!on_level(place, spacing))
         return correction;
-    const float own = coarse_inverse_mass(cloth, place, self.index, spacing);
+    const End end = end_at(self.index, coarse_inverse_mass(cloth, place, self.index, spacing));
     for (int c = 0; c < 4; ++c) // structural and shear
         for (int side = 0; side < 2; ++side)
         {
@@ -117,17 +155,18 @@ Correction limit_grid(ChunkVertex self, vec3 x, vec3 v)
             if (spring.stiffness == 0 || !in_grid(place + offset, columns, cloths[cloth].rows))
                 continue;
             const uint other = neighbour(self.index, offset, columns);
-            add_limit(correction, x, v, own, other, coarse_inverse_mass(cloth, place + offset, other, spacing),
-                      (1 + cloths[cloth].strain_limit) * float(spacing) * spring.rest_length);
+            add_limit(correction, end, end_at(other, coarse_inverse_mass(cloth, place + offset, other, spacing)),
+                      (1 + cloths[cloth].strain_limit) * float(spacing) * spring.rest_length,
+                      spacing == 1 ? spring.rest_length : 0);
         }
     return correction;
 }
 
-// What a vertex between the lines of the level before takes over from its neighbours on them.
+// What a vertex between the lines of the level before takes over from its neighbors on them.
 Correction between(ChunkVertex self)
 {
     const uint cloth = self.cloth;
-    Correction sum = Correction(vec3(0), vec3(0), k_nothing);
+    Correction sum = k_no_correction;
     const int spacing = int(push.spacing);
     const ivec2 place = self.place;
     if (!on_level(place, spacing) || on_level(place, 2 * spacing))
@@ -138,7 +177,7 @@ Correction between(ChunkVertex self)
     {
         const ivec2 side = ivec2(corner % 2, corner / 2);
         if (any(greaterThan(side, off)))
-            continue; // not between: one neighbour, itself
+            continue; // not between: one neighbor, itself
         const ivec2 offset = spacing * off * (1 - 2 * side);
         if (!in_grid(place + offset, cloths[cloth].columns, cloths[cloth].rows))
             continue;
@@ -147,21 +186,25 @@ Correction between(ChunkVertex self)
         sum.v += velocities[other].xyz - step_velocities[other].xyz;
         count += 1;
     }
-    return Correction(sum.x / count, sum.v / count, k_nothing);
+    sum.x /= count;
+    sum.v /= count;
+    return sum;
 }
 
-Correction limit_mesh(uint cloth, uint local, vec3 x, vec3 v, float inverse_mass)
+Correction limit_mesh(ChunkVertex self, float inverse_mass)
 {
-    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
+    const uint cloth = self.cloth;
+    Correction correction = k_no_correction;
+    const End end = end_at(self.index, inverse_mass);
     const uint first = cloths[cloth].first_vertex;
-    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + self.local];
     for (uint s = 0; s < vertex.springs; ++s)
     {
         const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
         const uint other = first + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
         if ((entry.neighbour & VOILE_OPPOSITE_BIT) == 0)
-            add_limit(correction, x, v, inverse_mass, other, positions[other].w,
-                      (1 + cloths[cloth].strain_limit) * entry.rest_length);
+            add_limit(correction, end, end_at(other, positions[other].w),
+                      (1 + cloths[cloth].strain_limit) * entry.rest_length, entry.rest_length);
     }
     return correction;
 }
@@ -171,39 +214,26 @@ void main()
     const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
     if (!self.exists)
         return;
-    const uint cloth = self.cloth;
     const uint i = self.index;
     const vec4 x = positions[i];
-    const vec4 v = velocities[i];
-    const bool grid = cloths[cloth].columns > 0;
-    Correction correction = Correction(vec3(0), vec3(0), k_nothing);
-    const bool limited = cloths[cloth].strain_limit > 0 && x.w > 0;
-    if (limited)
-    {
-        float relaxation = cloths[cloth].strain_relaxation;
-        if (!grid)
-            correction = limit_mesh(cloth, self.local, x.xyz, v.xyz, x.w);
-        else if (push.between == 1)
-        {
-            correction = between(self);
-            relaxation = 1;
-        }
-        else
-            correction =
-                limit_grid(self, x.xyz, v.xyz);
-        relaxation = borne(correction.taken, relaxation);
-        correction.x *= relaxation;
-        correction.v *= relaxation;
-    }
     const FinePosition here = FinePosition(x.xyz, unpack_residual(residuals[i]));
+    const bool limited = cloths[self.cloth].strain_limit > 0 && x.w > 0;
+    const bool grid = cloths[self.cloth].columns > 0;
+    Correction correction = k_no_correction;
+    if (limited && grid && push.between == 1)
+        correction = between(self);
+    else if (limited)
+        correction = grid ? limit_grid(self) : limit_mesh(self, x.w);
+    vec3 shift = correction.x;
     if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
     {
         const vec3 last = next_positions[i].xyz;
-        correction.x = mix(displacement(here, FinePosition(last, unpack_residual(next_residuals[i]))), correction.x,
-                           push.acceleration);
+        shift = mix(displacement(here, FinePosition(last, unpack_residual(next_residuals[i]))), shift, push.acceleration);
     }
-    const FinePosition next = moved(here, correction.x);
+    const FinePosition next = moved(here, shift);
     next_positions[i] = vec4(next.x, x.w);
     next_residuals[i] = pack_residual(next);
-    next_velocities[i] = vec4(v.xyz + correction.v, uint(v.w) & ~VOILE_VERTEX_TOUCHES); // contact follows, and adds that
+    const float w = push.last == 0 ? borne(correction.taken, cloths[self.cloth].strain_relaxation)
+                                   : uint(step_velocities[i].w) & ~VOILE_VERTEX_TOUCHES; // contact follows, and adds that
+    next_velocities[i] = vec4(velocities[i].xyz + correction.v, w);
 }

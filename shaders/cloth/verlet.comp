@@ -42,10 +42,10 @@ void main()
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = stage_x.w > 0 ? acceleration(self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
-    // What touches a collider leaves the step with the velocity that contact gave it: half a kick more would drive it into
-    // the surface. The next step's first kick has that half in it.
+    // What touches a collider or hangs on a taut tether leaves the step with the velocity that this gave it: half a kick more
+    // would drive it into the surface. The next step's first kick has that half in it.
     const bool ends = push.drift == 0;
-    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS);
+    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_MEETS);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
     const vec3 v = before.xyz + kick * a;
     const FinePosition next = moved(x, push.drift * v);

@@ -109,6 +109,14 @@ public:
         return total;
     }
 
+    // Scales what stores energy, as a step does that is too long for it.
+    void soften(double stiffness)
+    {
+        for (Spring& spring : springs)
+            spring.stiffness *= stiffness;
+        bending_ *= stiffness;
+    }
+
     // No vertex is moved by its neighbours faster than this, 1/s^2: twice its springs and bending over its mass.
     [[nodiscard]] double omega_squared() const
     {

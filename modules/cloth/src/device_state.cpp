@@ -73,6 +73,14 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.candidate_triangles, "cloth candidate triangles",
          model.positions.size() * VOILE_CANDIDATE_WORDS * sizeof(uint32_t)},
         {&state.normals, "cloth normals", per_vertex},
+        {&state.limit_works[0], "cloth limit works a", chunk_count * sizeof(shared::LimitWork)},
+        {&state.limit_works[1], "cloth limit works b", chunk_count * sizeof(shared::LimitWork)},
+        {&state.limit_works[2], "cloth limit works c", chunk_count * sizeof(shared::LimitWork)},
+        {&state.limit_works[3], "cloth limit works d", chunk_count * sizeof(shared::LimitWork)},
+        {&state.step_start.positions, "cloth step start positions", per_vertex},
+        {&state.step_start.residuals, "cloth step start residuals", per_residual},
+        {&state.step_start.velocities, "cloth step start velocities", per_vertex},
+        {&state.limit_scales, "cloth limit scales", model.records.size() * sizeof(shared::LimitScale)},
         {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
     };
     for (const BufferRequest& request : requests)
@@ -139,7 +147,7 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
                      p.state.velocities.handle(), p.predicted.handle(), p.state.residuals.handle()});
         binder.bind(s.proposed_tethers[i], kernels.tethers,
                     {s.tethers.handle(), s.cloths.handle(), p.state.positions.handle(), p.state.velocities.handle(),
-                     p.predicted.handle(), p.state.residuals.handle()});
+                     p.predicted.handle(), p.state.residuals.handle(), p.earlier.positions.handle()});
     }
     binder.bind(s.edit, kernels.edit,
                 {s.cloths.handle(), s.start.handle(), s.state.positions.handle(), s.state.velocities.handle(),
@@ -155,6 +163,33 @@ void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
     bind_strain(s.strain_first, s.state, s.stage_b);
     bind_strain(s.strain_back, s.stage_b, s.stage_a);
     bind_strain(s.strain_forth, s.stage_a, s.stage_b);
+}
+
+// The strain limit's energy: the state before it stands in stage A, its velocities in stage C's positions.
+void bind_limit_guard(DeviceState& s, const Kernels& kernels, Binder& binder)
+{
+    using Buffers = std::array<VkBuffer, 3>;
+    const Buffers start = {s.step_start.positions.handle(), s.step_start.velocities.handle(),
+                           s.step_start.residuals.handle()};
+    const Buffers before = {s.stage_a.positions.handle(), s.stage_c.positions.handle(), s.stage_a.residuals.handle()};
+    const Buffers after = {s.state.positions.handle(), s.state.velocities.handle(), s.state.residuals.handle()};
+    const auto bind_work = [&](size_t i, const Buffers& here, const Buffers& from, const Buffers& to)
+    {
+        binder.bind(s.limit_work[i], kernels.limit_work,
+                    {s.cloths.handle(), s.chunks.handle(), here[0], here[1], here[2], s.mesh_vertices.handle(),
+                     s.mesh_springs.handle(), s.mesh_corners.handle(), from[0], from[1], from[2], to[0], to[1], to[2],
+                     s.limit_works[i].handle(), start[0], start[2], s.membrane_corners.handle()});
+    };
+    bind_work(0, start, start, before);
+    bind_work(1, before, start, before);
+    bind_work(2, before, before, after);
+    bind_work(3, after, before, after);
+    binder.bind(s.limit_scale, kernels.limit_scale,
+                {s.chunks.handle(), s.limit_works[0].handle(), s.limit_works[1].handle(), s.limit_works[2].handle(),
+                 s.limit_works[3].handle(), s.limit_scales.handle()});
+    binder.bind(s.limit_guard, kernels.limit_guard,
+                {s.cloths.handle(), s.chunks.handle(), s.limit_scales.handle(), before[0], before[1], before[2],
+                 after[0], after[1], after[2]});
 }
 
 void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
@@ -256,6 +291,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                 {s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
     bind_holds(s, kernels, binder);
+    bind_limit_guard(s, kernels, binder);
     bind_contact(s, kernels, binder);
     for (size_t i = 0; i < 2; ++i)
         binder.bind(s.recover[i], kernels.recover,
@@ -300,7 +336,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.near_stride = near_stride(state.collider_count, state.chunk_count, model.max_buffer_bytes);
     if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 36;
+    constexpr uint32_t k_sets = 42;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_storage_buffers);
     if (!pool)
         return pool.error();

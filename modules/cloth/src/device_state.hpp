@@ -57,7 +57,10 @@ struct DeviceState
     gpu::Buffer candidate_places;    // where the lists of triangles near each vertex hold
     gpu::Buffer candidate_triangles; // their length, two radii, and the triangles
     gpu::Buffer normals;
-    gpu::Buffer partials; // statistics, one record a chunk
+    gpu::Buffer partials;                   // statistics, one record a chunk
+    std::array<gpu::Buffer, 4> limit_works; // of the strain limit, one record per chunk: see limit_work.comp
+    gpu::Buffer limit_scales;               // per cloth, of what it has changed
+    StateBuffers step_start;                // where cloths with a strain limit were when the step began
 
     gpu::BindingPool pool;
     // What goes on from the state, and from stage B where contact leaves there what it changes.
@@ -72,9 +75,12 @@ struct DeviceState
     VkDescriptorSet pins{};
     std::array<VkDescriptorSet, 2> proposed_holds{}; // of stage B, of the state
     std::array<VkDescriptorSet, 2> proposed_tethers{};
-    VkDescriptorSet strain_first{}; // state to stage B
-    VkDescriptorSet strain_back{};  // stage B to stage A
-    VkDescriptorSet strain_forth{}; // stage A to stage B
+    VkDescriptorSet strain_first{};              // state to stage B
+    VkDescriptorSet strain_back{};               // stage B to stage A
+    VkDescriptorSet strain_forth{};              // stage A to stage B
+    std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
+    VkDescriptorSet limit_scale{};
+    VkDescriptorSet limit_guard{};
     VkDescriptorSet edit{};
     std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
     VkDescriptorSet collider_reach{};

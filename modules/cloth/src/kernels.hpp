@@ -22,6 +22,9 @@ struct Kernels
     gpu::Kernel holds;
     gpu::Kernel tethers;
     gpu::Kernel limit_strain;
+    gpu::Kernel limit_work;
+    gpu::Kernel limit_scale;
+    gpu::Kernel limit_guard;
     gpu::Kernel edit;
     gpu::Kernel contact;        // with meshes and planes
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them

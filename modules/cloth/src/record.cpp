@@ -178,11 +178,8 @@ uint32_t Solver::dispatches(const Step& step) const
     const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) + (passes.holds > 0 ? 1 : 0) +
                                (passes.tethers > 0 ? 1 : 0) + (passes.features ? 1 : 0);
     uint32_t strain = 0;
-    if (passes.strain_spacing > 0)
-    {
-        const auto levels = static_cast<uint32_t>(std::bit_width(passes.strain_spacing));
-        strain = 1 + ((levels * (k_strain_passes + 1) - 1) | 1u);
-    }
+    if (passes.strain_spacing > 0) // its passes, what bounds positions, contact, and the guard
+        strain = limit_passes(passes.strain_spacing) + (passes.holds > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) + 5;
     const uint32_t substeps = State::substeps(*this, step);
     const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
     const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +

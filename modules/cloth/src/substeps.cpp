@@ -2,6 +2,7 @@
 #include "substeps.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -36,6 +37,12 @@ glm::vec4 gust_phases(const Step& step, double time)
 
 } // namespace
 
+uint32_t limit_passes(uint32_t widest_spacing)
+{
+    const auto levels = static_cast<uint32_t>(std::bit_width(widest_spacing));
+    return (levels * (k_strain_passes + 1) - 1) | 1u;
+}
+
 SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step,
                                  uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
@@ -48,6 +55,9 @@ SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& s
 
 void SubstepRecorder::record()
 {
+    const StateBuffers& start = device_.step_start;
+    if (solver_.passes.strain_spacing > 0)
+        keep_state(start.positions, start.residuals, start.velocities);
     for (uint32_t substep = 0; substep < substeps_; ++substep)
     {
         if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
@@ -57,7 +67,7 @@ void SubstepRecorder::record()
         const shared::StagePush push = make_push(substep);
         record_rk4(push, substep);
         record_verlet(push, substep);
-        record_holds(substep);
+        record_holds(substep, h_);
         if (solver_.passes.features)
             record_features(substep);
         if (commits_)
@@ -117,16 +127,15 @@ void SubstepRecorder::finish_verlet(shared::StagePush push)
                        verlet_threads(), group_, push);
 }
 
-void SubstepRecorder::record_holds(uint32_t substep)
+void SubstepRecorder::record_holds(uint32_t substep, float duration)
 {
-    const auto a_substep = 1 / static_cast<float>(substeps_);
-    shared::HoldPush push{solver_.passes.pins, solver_.passes.holds, h_, static_cast<float>(substep + 1) * a_substep,
-                          a_substep};
-    recorder_.dispatch(kernels_.holds, device_.proposed_holds[in_stage_b(substep) ? 1 : 0], push.count, group_, push);
+    const size_t from = in_stage_b(substep) ? 1 : 0;
+    shared::HoldPush push{solver_.passes.pins, solver_.passes.holds, duration, progress(substep + 1),
+                          1 / step_.duration};
+    recorder_.dispatch(kernels_.holds, device_.proposed_holds[from], push.count, group_, push);
     push.first = 0;
     push.count = solver_.passes.tethers;
-    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers[in_stage_b(substep) ? 1 : 0], push.count, group_,
-                       push);
+    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers[from], push.count, group_, push);
 }
 
 // What comes after the last substep, for the strain limit, sees all colliders at their end.
@@ -212,26 +221,74 @@ const gpu::Kernel& SubstepRecorder::contact_kernel() const
     return solver_.passes.convex ? kernels_.contact_convex : kernels_.contact;
 }
 
-// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it.
+// Attachments and contact have the last word on positions; then the guard measures what all of it has done to the
+// energy.
 void SubstepRecorder::record_strain_limit()
 {
+    record_limit_passes();
+    keep_state(device_.stage_a.positions, device_.stage_a.residuals, device_.stage_c.positions);
+    record_holds(substeps_, 0);
+    record_contact(substeps_);
+    record_limit_guard();
+}
+
+// The guard of the strain limit compares states of a step.
+void SubstepRecorder::keep_state(const gpu::Buffer& positions, const gpu::Buffer& residuals,
+                                 const gpu::Buffer& velocities)
+{
+    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    const auto copy = [&](const gpu::Buffer& from, const gpu::Buffer& to, VkDeviceSize bytes_per_vertex)
+    {
+        const VkBufferCopy region{0, 0, device_.vertices * bytes_per_vertex};
+        recorder_.context().fn.vkCmdCopyBuffer(recorder_.cmd(), from.handle(), to.handle(), 1, &region);
+    };
+    recorder_.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_copy,
+                      VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    copy(device_.state.positions, positions, sizeof(glm::vec4));
+    copy(device_.state.residuals, residuals, sizeof(glm::uvec2));
+    copy(device_.state.velocities, velocities, sizeof(glm::vec4));
+    recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+}
+
+void SubstepRecorder::record_limit_guard()
+{
+    const uint32_t threads = device_.chunk_count * group_;
+    shared::StagePush push{};
+    push.gravity = step_.gravity;
+    push.step = h_;
+    for (const VkDescriptorSet set : device_.limit_work)
+        recorder_.dispatch(kernels_.limit_work, set, threads, group_, push);
+    recorder_.dispatch(kernels_.limit_scale, device_.limit_scale, threads, group_,
+                       shared::LimitScalePush{device_.chunk_count, 1 / step_.duration});
+    recorder_.dispatch(kernels_.limit_guard, device_.limit_guard, threads, group_, std::span<const std::byte>{});
+}
+
+// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it: an even number
+// has one more.
+void SubstepRecorder::record_limit_passes()
+{
+    const uint32_t passes = limit_passes(solver_.passes.strain_spacing);
     uint32_t pass = 0;
-    const auto record_pass = [&](const shared::StrainPush& push)
+    const auto record_pass = [&](uint32_t spacing, bool between, bool first, float acceleration)
     {
         const VkDescriptorSet set = pass == 0       ? device_.strain_first
                                     : pass % 2 == 1 ? device_.strain_back
                                                     : device_.strain_forth;
-        recorder_.dispatch(kernels_.limit_strain, set, device_.chunk_count * group_, group_, push);
         ++pass;
+        const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
+                                      pass == passes ? 1u : 0u};
+        recorder_.dispatch(kernels_.limit_strain, set, device_.chunk_count * group_, group_, push);
     };
     for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
     {
         if (spacing < solver_.passes.strain_spacing)
-            record_pass({spacing, 1, 1});
+            record_pass(spacing, true, false, 1);
         float acceleration = 1;
         for (uint32_t i = 0; i < k_strain_passes; ++i)
         {
-            record_pass({spacing, 0, acceleration});
+            record_pass(spacing, false, i == 0, acceleration);
             // Golub and Varga 1961, after Wang 2015, "A Chebyshev semi-iterative approach for accelerating projective
             // and position-based dynamics".
             if (i > 0)
@@ -239,9 +296,8 @@ void SubstepRecorder::record_strain_limit()
                                       : 4 / (4 - k_strain_radius * k_strain_radius * acceleration);
         }
     }
-    if (pass % 2 == 0)
-        record_pass({1, 0, 1});
-    record_contact(substeps_);
+    if (pass < passes)
+        record_pass(1, false, false, 1);
 }
 
 } // namespace cloth

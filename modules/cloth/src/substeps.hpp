@@ -6,6 +6,9 @@
 namespace cloth
 {
 
+// Passes of the strain limit whose widest level has that spacing: an odd number.
+uint32_t limit_passes(uint32_t widest_spacing);
+
 class SubstepRecorder
 {
 public:
@@ -23,7 +26,8 @@ private:
     void record_rk4(shared::StagePush push, uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
-    void record_holds(uint32_t substep);
+    // At the substep's end, over `duration` s; over 0 springs add nothing, and bounds still hold.
+    void record_holds(uint32_t substep, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Which chunks come near corners and edges of colliders, until the next such look.
     void record_feature_reach(uint32_t substep);
@@ -32,8 +36,12 @@ private:
     void record_contact(uint32_t substep);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     void record_strain_limit();
-    // Whether a substep begins in stage B: the state goes back and forth between there and its own buffers. Where contact is
-    // to commit it ends in these, since the last one copies if their number is odd. Without contact that is Verlet's alone.
+    void record_limit_passes();
+    void record_limit_guard();
+    void keep_state(const gpu::Buffer& positions, const gpu::Buffer& residuals, const gpu::Buffer& velocities);
+    // Whether a substep begins in stage B: the state goes back and forth between there and its own buffers. Where
+    // contact is to commit it ends in these, since the last one copies if their number is odd. Without contact that is
+    // Verlet's alone.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const
     {
         return substep % 2 == 1 && (commits_ ? swaps_ && substep < substeps_ : true);

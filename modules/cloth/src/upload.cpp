@@ -111,6 +111,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     std::vector<shared::AnchorRecord> anchors;
     for (const Anchor& anchor : s.anchors)
         anchors.push_back(make_record(anchor));
+    const std::vector<shared::LimitScale> limit_scales(s.model.records.size(), shared::LimitScale{1, 1, 0, 0});
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -139,6 +140,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.anchors, 0, bytes_of(anchors)},
         {next.holds, 0, bytes_of(s.hold_lists.holds)},
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
+        {next.limit_scales, 0, bytes_of(limit_scales)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},

@@ -32,9 +32,11 @@ struct Hold
     float backstop = 0; // m, -1e6..1e6
 };
 
-// Long-range attachments: a vertex goes no farther from a pin than the way over the unstretched cloth, times (1 +
-// stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Each vertex has one to the nearest pin of each
-// of up to four groups of pins that hang together by edges.
+// Long-range attachments: a vertex goes no farther from a pin than the length of the unstretched cloth between them,
+// times (1 + stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Each vertex has one to the nearest
+// pin of each of up to four groups of pins that hang together by edges. A vertex that starts beyond goes no farther,
+// and comes back by its springs. Where two of its pins are farther apart than both tethers together, both grow in
+// proportion until they meet.
 struct Tethers
 {
     float stretch = 0; // 0..10

@@ -163,8 +163,9 @@ private:
 struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 4 if what
-                                          // is around it met a corner or an edge of a collider
+    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a
+                                          // tether, a leash or a backstop holds it, plus 4 if what is around it met a
+                                          // corner or an edge of a collider
     VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
     VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
@@ -197,7 +198,8 @@ public:
     // while an upload is due wait for it as well. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
-    // isometric bending of a mesh that was added without. Which corners and edges of colliders count follows a new
+    // isometric bending of a mesh that was added without. With a new density a cloth keeps its momentum where it
+    // becomes heavier, its velocity where it becomes lighter. Which corners and edges of colliders count follows a new
     // thickness with the next upload.
     Result<void> set_material(ClothId cloth, const ClothMaterial& material);
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;

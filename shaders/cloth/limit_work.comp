@@ -1,0 +1,98 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What a step, or the strain limit with the contact pass after it, does to the energy of each cloth: per patch, the work of
+// the elastic forces and of gravity along the displacements, and what the kinetic energy follows from.
+//
+// It runs for each of both states that the displacements lead between: the mean of the work with the forces at one and at the
+// other is exact for bending and gravity, and to the third order in the displacements for springs.
+// Reads: cloths, chunks, mesh lists, both states. Writes: one sum per workgroup.
+#include "cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // where forces are taken
+layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 5, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 6, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 7, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 9, std430) readonly buffer VelocitiesBefore { vec4 velocities_before[]; };
+layout(set = 0, binding = 10, std430) readonly buffer ResidualsBefore { uvec2 residuals_before[]; };
+layout(set = 0, binding = 11, std430) readonly buffer After { vec4 after[]; };
+layout(set = 0, binding = 12, std430) readonly buffer VelocitiesAfter { vec4 velocities_after[]; };
+layout(set = 0, binding = 13, std430) readonly buffer ResidualsAfter { uvec2 residuals_after[]; };
+layout(set = 0, binding = 14, std430) writeonly buffer Works { LimitWork works[]; };
+layout(set = 0, binding = 15, std430) readonly buffer StepStart { vec4 step_start[]; };
+layout(set = 0, binding = 16, std430) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
+layout(set = 0, binding = 17, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+
+layout(push_constant, std430) uniform Push { StagePush push; }; // without air
+
+bool VERLET; // whether the patch's cloth uses it
+#include "forces.glsl"
+
+shared LimitWork sums[gl_WorkGroupSize.x];
+
+// N: springs without their damping, bending, gravity, with the stiffness that the substeps have.
+vec3 conservative_force(ChunkVertex self, FinePosition x, float inverse_mass)
+{
+    const uint cloth = self.cloth;
+    Gather g;
+    g.x = x;
+    g.v = vec3(0);
+    g.force = g.bending = g.air = g.wind = vec3(0);
+    g.air_rate = 0;
+    g.viscosity = Viscosity(0, 0);
+    const float scale = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
+    g.bending_stiffness = scale;
+    g.bending_damping = 0;
+    if (cloths[cloth].columns > 0)
+        gather_grid(g, cloth, self, StabilityScales(scale, 0));
+    else
+        gather_mesh(g, cloth, self.local, StabilityScales(scale, 0));
+    return g.force + g.bending + push.gravity / inverse_mass;
+}
+
+LimitWork add(LimitWork a, LimitWork b)
+{
+    return LimitWork(a.work + b.work, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv, a.v_dx + b.v_dx, a.dx_dx + b.dx_dx,
+                     a.dv_dx + b.dv_dx, a.undone + b.undone, 0);
+}
+
+LimitWork work_of(ChunkVertex self)
+{
+    const uint i = self.index;
+    const vec4 x = before[i];
+    if (!self.exists || cloths[self.cloth].strain_limit == 0 || x.w == 0)
+        return LimitWork(0, 0, 0, 0, 0, 0, 0, 0);
+    const FinePosition from = FinePosition(x.xyz, unpack_residual(residuals_before[i]));
+    const FinePosition to = FinePosition(after[i].xyz, unpack_residual(residuals_after[i]));
+    const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
+    const FinePosition start = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
+    const vec3 v = velocities_before[i].xyz;
+    const vec3 dv = velocities_after[i].xyz - v;
+    const vec3 dx = displacement(from, to);
+    const float mass = 1 / x.w;
+    return LimitWork(dot(conservative_force(self, here, x.w), dx), mass * dot(v, dv), mass * dot(dv, dv),
+                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx), -mass * dot(dx, displacement(start, from)), 0);
+}
+
+void main()
+{
+    const ChunkVertex self = chunk_vertex(gl_WorkGroupID.x);
+    VERLET = (cloths[self.cloth].flags & VOILE_CLOTH_VERLET) != 0;
+    const uint thread = gl_LocalInvocationID.x;
+    sums[thread] = work_of(self);
+    barrier();
+    for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
+    {
+        if (thread < half_size)
+            sums[thread] = add(sums[thread], sums[thread + half_size]);
+        barrier();
+    }
+    if (thread == 0)
+        works[gl_WorkGroupID.x] = sums[0];
+}
