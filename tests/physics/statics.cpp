@@ -76,7 +76,8 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
             start.emplace_back(span * s, sag * (4 * s * s - 1), (row - 0.5) / links);
         }
     rig.place(id, start);
-    rig.settle(id, {.duration = 0.02f}, 400);
+    // Steps shorter than the quickest swings of the links, or their energy would never be seen to fall.
+    rig.settle(id, {.duration = 0.005f}, 1600);
     auto x = rig.positions(id);
     x.resize(links + 1);
     return x;
