@@ -85,10 +85,10 @@ const DrapeCase* find_drape_case(std::string_view name)
     return found == std::end(k_cases) ? nullptr : &*found;
 }
 
-DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_t workgroup_size)
+DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const Settings& settings)
 {
     cloth::SolverOptions options;
-    options.workgroup_size = workgroup_size;
+    options.workgroup_size = settings.workgroup_size;
     cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
     cloth::Grid grid = drape_grid(item.side);
     grid.integrator = item.integrator;
@@ -127,6 +127,12 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_
         result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));
         if (frame + 1 == k_first_timed)
             result.height = mean_height(x);
+    }
+    if (settings.passes)
+    {
+        queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record_save(cmd, start)); });
+        print_passes(queue, solver, step,
+                     [&](VkCommandBuffer cmd) { engine::take(solver.record_restore(cmd, start)); });
     }
     const std::vector<double> stretches = structural_stretches(x, item.side);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());

@@ -1,6 +1,7 @@
 // The drape scene, frame by frame: the scene on which peers were timed, with the conditions that make a run count.
 #pragma once
 
+#include "passes.hpp"
 #include "timed_queue.hpp"
 
 #include "cloth/solver.hpp"
@@ -41,6 +42,6 @@ struct DrapeMeasurement
     }
 };
 
-DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, uint32_t workgroup_size);
+DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const Settings& settings);
 
 } // namespace bench

@@ -24,6 +24,7 @@ struct Options
     std::string csv;
     uint32_t repetitions = 0; // 0: by device
     uint32_t workgroup = cloth::SolverOptions().workgroup_size;
+    bool passes = false;
 };
 
 void declare(CLI::App& app, Options& options)
@@ -45,6 +46,7 @@ void declare(CLI::App& app, Options& options)
         ->check(CLI::Range(1u, k_most));
     app.add_option("--workgroup", options.workgroup, "Threads of a workgroup, a power of two; default: the solver's")
         ->type_name("N");
+    app.add_flag("--passes", options.passes, "Print the time of each pass before the row of a case of the solver");
 }
 
 struct Chosen
@@ -120,12 +122,13 @@ void run(const Options& options)
     const bench::DeviceProbe probe = bench::probe_device(queue);
     const uint32_t repetitions = options.repetitions > 0 ? options.repetitions : device.is_cpu() ? 20 : 100;
     bench::print_device(device.info(), probe);
+    const bench::Settings settings{options.workgroup, options.passes};
     const Chosen chosen = choose(options.names, device.is_cpu());
     if (!chosen.cases.empty())
         bench::print_header();
     for (const bench::Case* item : chosen.cases)
     {
-        const bench::Measurement measurement = bench::measure(queue, *item, repetitions, options.workgroup);
+        const bench::Measurement measurement = bench::measure(queue, *item, repetitions, settings);
         bench::print_row(*item, measurement, probe);
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
@@ -143,7 +146,7 @@ void run(const Options& options)
         bench::print_drape_header();
     for (const bench::DrapeCase* item : chosen.drapes)
     {
-        const bench::DrapeMeasurement measurement = bench::measure_drape(queue, *item, options.workgroup);
+        const bench::DrapeMeasurement measurement = bench::measure_drape(queue, *item, settings);
         bench::print_drape_row(*item, measurement);
         if (csv)
             engine::take(csv->append(device.info(), probe, *item, measurement));

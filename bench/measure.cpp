@@ -196,11 +196,11 @@ double measure_visits(TimedQueue& queue, const cloth::Solver& solver, cloth::Clo
 
 } // namespace
 
-Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, uint32_t workgroup_size)
+Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, const Settings& settings)
 {
     cloth::SolverOptions options;
     options.contact_method = item.method;
-    options.workgroup_size = workgroup_size;
+    options.workgroup_size = settings.workgroup_size;
     options.mesh_layout = item.layout;
     cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
     const std::vector<cloth::ClothId> cloths = item.build(solver);
@@ -221,6 +221,9 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, u
     if (item.icosphere)
         result.visits = measure_visits(queue, solver, cloths.front(), *item.icosphere);
     const Snapshot start(queue, solver, cloths);
+    if (settings.passes)
+        print_passes(queue, solver, {.duration = k_frame, .substeps = result.substeps},
+                     [&](VkCommandBuffer cmd) { start.record_restore(cmd); });
     time_gpu(queue, solver, item, start, repetitions, result);
     check_finite(item, statistics(queue, solver), "after the measurement");
     time_recording(queue, solver, repetitions, result);

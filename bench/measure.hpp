@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases.hpp"
+#include "passes.hpp"
 #include "timed_queue.hpp"
 
 namespace bench
@@ -26,6 +27,6 @@ struct Measurement
 };
 
 // StartupError when the case cannot be made, is not in contact where it must be, or has values that are not finite.
-Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, uint32_t workgroup_size);
+Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, const Settings& settings);
 
 } // namespace bench
