@@ -1,6 +1,6 @@
 // Which vertex of a chunk a thread works on.
 //
-// The including kernel declares cloths[] and chunks[].
+// The including kernel declares chunks[].
 #ifndef VOILE_CHUNK_GLSL
 #define VOILE_CHUNK_GLSL
 
@@ -12,28 +12,31 @@ struct ChunkVertex
     uint cloth;
     uint local; // counted within the cloth
     uint index; // in the solver's buffers
+    uint columns; // of the cloth; of a mesh 0
+    uint rows;
     ivec2 place; // column and row in a grid
 };
 
 ChunkVertex chunk_vertex(uint chunk, uint thread)
 {
+    const Chunk c = chunks[chunk];
     ChunkVertex vertex;
-    const uint shift = chunks[chunk].tile_shift;
-    vertex.cloth = chunks[chunk].cloth;
-    const uint columns = cloths[vertex.cloth].columns;
-    if (columns > 0)
+    vertex.cloth = c.cloth;
+    vertex.columns = c.columns;
+    vertex.rows = c.rows;
+    if (c.columns > 0)
     {
-        vertex.place = ivec2(chunks[chunk].first + (thread & ((1u << shift) - 1)), chunks[chunk].row + (thread >> shift));
-        vertex.exists = in_grid(vertex.place, columns, cloths[vertex.cloth].rows);
-        vertex.local = uint(vertex.place.y) * columns + uint(vertex.place.x);
+        vertex.place = ivec2(c.first + (thread & ((1u << c.tile_shift) - 1)), c.row + (thread >> c.tile_shift));
+        vertex.exists = in_grid(vertex.place, c.columns, c.rows);
+        vertex.local = uint(vertex.place.y) * c.columns + uint(vertex.place.x);
     }
     else
     {
         vertex.place = ivec2(0);
-        vertex.local = chunks[chunk].first + thread;
-        vertex.exists = vertex.local < cloths[vertex.cloth].vertices;
+        vertex.local = c.first + thread;
+        vertex.exists = vertex.local < c.rows;
     }
-    vertex.index = cloths[vertex.cloth].first_vertex + vertex.local;
+    vertex.index = c.first_vertex + vertex.local;
     return vertex;
 }
 

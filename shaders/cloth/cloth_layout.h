@@ -159,13 +159,17 @@ struct MembraneCorner
 
 // What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
 // columns from column `first` on, and as many rows from `row` on as fill the group: what lies near on the cloth is
-// worked on together.
+// worked on together. What it has of its cloth is here to save a dependent load.
 struct Chunk
 {
     uint cloth;
-    uint first; // counted within the cloth
+    uint first_vertex; // of the cloth
+    uint columns;      // of the cloth; of a mesh 0
+    uint rows;         // of the cloth; of a mesh its vertices
+    uint first;        // counted within the cloth
     uint row;
     uint tile_shift;
+    uint near_features; // 1: it may meet corners and edges of colliders before the next look (feature_reach.comp)
 };
 
 // A frame that holds follow, before and after the step.

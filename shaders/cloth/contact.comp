@@ -297,7 +297,7 @@ Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
     motion.cloth = cloth;
     motion.given = false;
     flags = uint(velocity.w);
-    if (push.features != 0 && corrections[i].substep == push.substep)
+    if (push.features != 0 && chunks[gl_WorkGroupID.x].near_features != 0 && corrections[i].substep == push.substep)
     {
         motion.displacement += corrections[i].shift;
         motion.v += corrections[i].change;

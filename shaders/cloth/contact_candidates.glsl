@@ -54,6 +54,13 @@ Candidates candidates;
 // Neighbouring threads read the same word at the same time: word after word, not vertex after vertex.
 uint candidate_word(uint word) { return word * push.vertices + candidates.vertex; }
 
+// Where the list is read or made anew: for most vertices it is neither.
+void load_radii()
+{
+    candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)]);
+    candidates.least = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_LEAST)]);
+}
+
 // m, at least: how far an entry is from the middle of the ball.
 float entry_distance(uint entry)
 {
@@ -195,6 +202,7 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
         traverse(collider, box_min, box_max);
         return;
     }
+    load_radii();
     uint next = candidate_triangles[candidate_word(VOILE_CANDIDATE_ENTRIES)]; // one ahead: it comes while one is tested
     for (uint i = 0; i < candidates.count; ++i)
     {
@@ -298,8 +306,6 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
     candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
     candidates.place = place.xyz;
     candidates.cover = place.w;
-    candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_RADIUS)]);
-    candidates.least = uintBitsToFloat(candidate_triangles[candidate_word(VOILE_CANDIDATE_LEAST)]);
     candidates.made = made < push.first_substep
                           ? -1
                           : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
@@ -316,6 +322,7 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
         return;
     candidates.place = 0.5 * (from + to);
     candidates.made = push.progress_to;
+    load_radii();
     renew_candidates(0.5 * distance(from, to) + way, wanted, reach);
 }
 

@@ -4,7 +4,7 @@
 // these alone, by an indirect dispatch. One thread a vertex.
 // Reads: cloths, chunks, positions and velocities before the substep, colliders and their motions, features and their
 // hierarchy.
-// Writes: the chunks and the size of the dispatch, whose x is 0 before.
+// Writes: which chunks these are, their list and the size of the dispatch, whose x is 0 before.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "feature_layout.h"
@@ -13,7 +13,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
 
 layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(set = 0, binding = 1, std430) buffer Chunks { Chunk chunks[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
@@ -88,6 +88,9 @@ void main()
     if (is_near)
         atomicOr(near_vertices, 1);
     barrier();
-    if (gl_LocalInvocationID.x == 0 && near_vertices != 0)
+    if (gl_LocalInvocationID.x > 0)
+        return;
+    chunks[gl_WorkGroupID.x].near_features = near_vertices;
+    if (near_vertices != 0)
         near_chunks[atomicAdd(dispatch_size[0], 1)] = gl_WorkGroupID.x;
 }

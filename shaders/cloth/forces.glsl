@@ -1,4 +1,4 @@
-// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbours (no atomics, so the sum's
+// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbors (no atomics, so the sum's
 // order never changes).
 //
 // The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[], mesh_springs[],
@@ -50,11 +50,12 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     {
         // Without branches: of the vertices that are computed together, some nearly always have a fast spring.
         const float per_length = push.step / max(rest_length, 1e-9); // 0 where there is no such spring
-        const float change_squared = dot(relative_velocity, relative_velocity) * (per_length * per_length);
-        const float along = clamp(abs(rate) * per_length - k_viscous_strain, 0, g.viscosity.most);
-        const float across = clamp(change_squared - k_viscous_shear * k_viscous_shear, 0, g.viscosity.most);
+        const float sharpness = g.viscosity.sharpness;
+        const float along = clamp(fma(abs(rate), per_length * sharpness, -k_viscous_strain * sharpness), 0, 1);
+        const float across = clamp(fma(dot(relative_velocity, relative_velocity), per_length * per_length * sharpness,
+                                       -k_viscous_shear * k_viscous_shear * sharpness), 0, 1);
         // A stretched spring resists in all directions and leaves less of the reach.
-        const float share = min(rest_length * inverse_length, 1);
+        const float share = clamp(rest_length * inverse_length, 0, 1);
         const float scale = share * share * g.viscosity.scale * stiffness;
         viscosity = scale * along;
         g.force += scale * across * relative_velocity;
@@ -94,69 +95,53 @@ FinePosition position_of(uint vertex)
 // From the vertex to another one, m.
 vec3 delta_to(Gather g, uint other) { return displacement(g.x, position_of(other)); }
 
-// A neighbour on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
+// A neighbor on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
 // to it pulls with nothing, and no branch keeps loads from being issued together.
-struct Neighbour
+// `bending`: of the model's form, between the neighbor and the vertex. Returns the displacement to the neighbor, m.
+vec3 add_neighbor(inout Gather g, ChunkVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
 {
-    bool exists;
-    vec3 delta;    // m
-    vec3 velocity; // m/s, relative
-};
-
-Neighbour grid_neighbour(Gather g, uint cloth, ChunkVertex self, ivec2 offset)
-{
-    Neighbour n;
-    n.exists = in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows);
-    const uint other = n.exists ? neighbour(self.index, offset, cloths[cloth].columns) : self.index;
-    n.delta = delta_to(g, other);
-    n.velocity = stage_velocities[other].xyz - g.v;
-    return n;
+    const uint other = exists ? neighbour(self.index, offset, self.columns) : self.index;
+    const vec3 delta = delta_to(g, other);
+    const vec3 velocity = stage_velocities[other].xyz - g.v;
+    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, delta, velocity);
+    g.bending += bending * (g.bending_stiffness * delta + g.bending_damping * velocity);
+    return delta;
 }
-
-// m: the neighbor as bending sees it.
-vec3 bent(Gather g, Neighbour n) { return g.bending_stiffness * n.delta + g.bending_damping * n.velocity; }
 
 bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
 
-void add_springs(inout Gather g, SpringClass spring, Neighbour a, Neighbour b)
+// Which lines of the grid there are beside the vertex's, on either side.
+struct Beside
 {
-    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, a.delta, a.velocity);
-    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, b.delta, b.velocity);
+    bvec2 next; // ahead, behind
+    bvec2 far;
+};
+
+Beside beside(int place, uint lines)
+{
+    return Beside(bvec2(uint(place + 1) < lines, place > 0), bvec2(uint(place + 2) < lines, place > 1));
 }
 
-// One line of the grid through the vertex: its structural and bend springs, and bending by the isometric model, from the
-// energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of the line: minus its gradient over c.
-void gather_line(inout Gather g, uint cloth, ChunkVertex self, ivec2 along, SpringClass spring, SpringClass bend, float c,
-                 Neighbour ahead, Neighbour behind)
+// What the neighbors of one line have of the bending energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of
+// the line: minus its gradient is the sum of them times the displacements.
+struct LineBending
 {
-    if (c != 0 || has_springs(bend))
-    {
-        const Neighbour far_ahead = grid_neighbour(g, cloth, self, 2 * along);
-        const Neighbour far_behind = grid_neighbour(g, cloth, self, -2 * along);
-        add_springs(g, bend, far_ahead, far_behind);
-        if (far_ahead.exists)
-            g.bending -= c * (bent(g, far_ahead) - 2 * bent(g, ahead));
-        if (far_behind.exists)
-            g.bending -= c * (bent(g, far_behind) - 2 * bent(g, behind));
-        if (ahead.exists && behind.exists)
-            g.bending += 2 * c * (bent(g, ahead) + bent(g, behind));
-    }
-    add_springs(g, spring, ahead, behind);
-}
+    vec2 next;
+    float far;
+};
 
-// A cell's twist, x_diagonal - x_along_row - x_along_column + x.
-void add_twist(inout Gather g, float c, Neighbour diagonal, Neighbour along_row, Neighbour along_column)
+LineBending line_bending(Beside line, float c)
 {
-    if (diagonal.exists)
-        g.bending -= c * (bent(g, diagonal) - bent(g, along_row) - bent(g, along_column));
+    const float middle = all(line.next) ? 2 * c : 0;
+    return LineBending(vec2(middle) + 2 * c * vec2(line.far), -c);
 }
 
 // What springs along the row and along the column have of their stiffness at the grid's border.
 vec2 border_shares(uint cloth, ChunkVertex self)
 {
     const float share = cloths[cloth].border_share;
-    return vec2(self.place.y == 0 || self.place.y + 1 == int(cloths[cloth].rows) ? share : 1,
-                self.place.x == 0 || self.place.x + 1 == int(cloths[cloth].columns) ? share : 1);
+    return vec2(self.place.y == 0 || self.place.y + 1 == int(self.rows) ? share : 1,
+                self.place.x == 0 || self.place.x + 1 == int(self.columns) ? share : 1);
 }
 
 SpringClass scaled(SpringClass spring, float stiffness, float damping)
@@ -172,49 +157,59 @@ SpringClass grid_springs(uint cloth, int c, vec2 shares, StabilityScales scales)
     return scaled(cloths[cloth].springs[c], share * scales.stiffness, share * scales.damping);
 }
 
-// Eight springs a vertex, and bending from the same neighbours. The isometric model (Bergou et al. 2006, "A quadratic
+// Eight springs per vertex, and bending from the same neighbors. The isometric model (Bergou et al. 2006, "A quadratic
 // bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
-// the sum of the squared second differences along rows and columns and of twice the squared twist of the cells.
+// the sum of the squared second differences along rows and columns and of twice the squared twist of the cells,
+// x_diagonal - x_along_row - x_along_column + x. One neighbor after the other: what is kept of several takes registers.
 void gather_grid(inout Gather g, uint cloth, ChunkVertex self, StabilityScales scales)
 {
     const vec2 shares = border_shares(cloth, self);
     SpringClass springs[VOILE_SPRING_CLASSES];
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
         springs[c] = grid_springs(cloth, c, shares, scales);
-    const Neighbour east = grid_neighbour(g, cloth, self, ivec2(1, 0));
-    const Neighbour west = grid_neighbour(g, cloth, self, ivec2(-1, 0));
-    const Neighbour south = grid_neighbour(g, cloth, self, ivec2(0, 1));
-    const Neighbour north = grid_neighbour(g, cloth, self, ivec2(0, -1));
-    const Neighbour south_east = grid_neighbour(g, cloth, self, ivec2(1, 1));
-    const Neighbour north_west = grid_neighbour(g, cloth, self, ivec2(-1, -1));
-    const Neighbour north_east = grid_neighbour(g, cloth, self, ivec2(1, -1));
-    const Neighbour south_west = grid_neighbour(g, cloth, self, ivec2(-1, 1));
-    gather_line(g, cloth, self, ivec2(1, 0), springs[0], springs[4], shares.x * cloths[cloth].bending.x, east, west);
-    gather_line(g, cloth, self, ivec2(0, 1), springs[1], springs[5], shares.y * cloths[cloth].bending.y, south, north);
-    add_springs(g, springs[2], south_east, north_west);
-    add_springs(g, springs[3], north_east, south_west);
+    const vec2 c = shares * cloths[cloth].bending.xy;
     const float twist = cloths[cloth].bending.z;
-    if (twist != 0)
+    const Beside row = beside(self.place.x, self.columns);
+    const Beside column = beside(self.place.y, self.rows);
+    const LineBending row_bending = line_bending(row, c.x);
+    const LineBending column_bending = line_bending(column, c.y);
+    // Each neighbor along a line belongs to the cells on both of its sides.
+    const float row_cells = twist * (float(column.next.x) + float(column.next.y));
+    const float column_cells = twist * (float(row.next.x) + float(row.next.y));
+    const vec3 east = add_neighbor(g, self, ivec2(1, 0), row.next.x, springs[0], row_bending.next.x + row_cells);
+    const vec3 west = add_neighbor(g, self, ivec2(-1, 0), row.next.y, springs[0], row_bending.next.y + row_cells);
+    const vec3 south =
+        add_neighbor(g, self, ivec2(0, 1), column.next.x, springs[1], column_bending.next.x + column_cells);
+    const vec3 north =
+        add_neighbor(g, self, ivec2(0, -1), column.next.y, springs[1], column_bending.next.y + column_cells);
+    add_neighbor(g, self, ivec2(1, 1), row.next.x && column.next.x, springs[2], -twist);
+    add_neighbor(g, self, ivec2(-1, -1), row.next.y && column.next.y, springs[2], -twist);
+    add_neighbor(g, self, ivec2(1, -1), row.next.x && column.next.y, springs[3], -twist);
+    add_neighbor(g, self, ivec2(-1, 1), row.next.y && column.next.x, springs[3], -twist);
+    if (c.x != 0 || has_springs(springs[4]))
     {
-        add_twist(g, twist, south_east, east, south);
-        add_twist(g, twist, north_west, west, north);
-        add_twist(g, twist, north_east, east, north);
-        add_twist(g, twist, south_west, west, south);
+        add_neighbor(g, self, ivec2(2, 0), row.far.x, springs[4], row_bending.far);
+        add_neighbor(g, self, ivec2(-2, 0), row.far.y, springs[4], row_bending.far);
+    }
+    if (c.y != 0 || has_springs(springs[5]))
+    {
+        add_neighbor(g, self, ivec2(0, 2), column.far.x, springs[5], column_bending.far);
+        add_neighbor(g, self, ivec2(0, -2), column.far.y, springs[5], column_bending.far);
     }
     if (has_springs(springs[6]))
     {
-        add_springs(g, springs[6], grid_neighbour(g, cloth, self, ivec2(2, 2)),
-                    grid_neighbour(g, cloth, self, ivec2(-2, -2)));
-        add_springs(g, springs[7], grid_neighbour(g, cloth, self, ivec2(2, -2)),
-                    grid_neighbour(g, cloth, self, ivec2(-2, 2)));
+        add_neighbor(g, self, ivec2(2, 2), row.far.x && column.far.x, springs[6], 0);
+        add_neighbor(g, self, ivec2(-2, -2), row.far.y && column.far.y, springs[6], 0);
+        add_neighbor(g, self, ivec2(2, -2), row.far.x && column.far.y, springs[7], 0);
+        add_neighbor(g, self, ivec2(-2, 2), row.far.y && column.far.x, springs[7], 0);
     }
     if (feels_air(cloth))
     {
         // Of each cell around it the vertex has a quarter: half of the triangle that two sides span.
-        add_air(g, cloth, east.delta, north.delta, 0.5);
-        add_air(g, cloth, north.delta, west.delta, 0.5);
-        add_air(g, cloth, west.delta, south.delta, 0.5);
-        add_air(g, cloth, south.delta, east.delta, 0.5);
+        add_air(g, cloth, east, north, 0.5);
+        add_air(g, cloth, north, west, 0.5);
+        add_air(g, cloth, west, south, 0.5);
+        add_air(g, cloth, south, east, 0.5);
     }
 }
 
@@ -227,9 +222,16 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     const uint first_vertex = cloths[cloth].first_vertex;
     const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    // The next entry is loaded while one is computed.
+    MeshSpring next;
+    if (vertex.springs > 0)
+        next = mesh_springs[vertex.first_spring];
     for (uint s = 0; s < vertex.springs; ++s)
     {
-        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        const MeshSpring entry = next;
+        if (entry.weight == 0 && entry.bending == 0)
+            break; // nor do the others have a force
+        next = mesh_springs[vertex.first_spring + min(s + 1, vertex.springs - 1) * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
@@ -251,10 +253,14 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
     for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
         membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
+    MeshCorner next_corner;
+    if (vertex.corners > 0)
+        next_corner = mesh_corners[vertex.first_corner];
     for (uint t = 0; t < vertex.corners; ++t)
     {
         const uint entry = vertex.first_corner + t * MESH_STRIDE;
-        const MeshCorner corner = mesh_corners[entry];
+        const MeshCorner corner = next_corner;
+        next_corner = mesh_corners[vertex.first_corner + min(t + 1, vertex.corners - 1) * MESH_STRIDE];
         const uint b = first_vertex + corner.b;
         const uint c = first_vertex + corner.c;
         const FinePosition x_b = position_of(b);
@@ -283,7 +289,7 @@ vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
                                    cloths[cloth].decay, push.step);
     g.bending_stiffness = scales.stiffness;
     g.bending_damping = scales.damping * cloths[cloth].bending_time;
-    if (cloths[cloth].columns > 0)
+    if (self.columns > 0)
         gather_grid(g, cloth, self, scales);
     else
         gather_mesh(g, cloth, self.local, scales);

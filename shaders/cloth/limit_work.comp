@@ -49,7 +49,7 @@ vec3 conservative_force(ChunkVertex self, FinePosition x, float inverse_mass)
     const float scale = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
     g.bending_stiffness = scale;
     g.bending_damping = 0;
-    if (cloths[cloth].columns > 0)
+    if (self.columns > 0)
         gather_grid(g, cloth, self, StabilityScales(scale, 0));
     else
         gather_mesh(g, cloth, self.local, StabilityScales(scale, 0));

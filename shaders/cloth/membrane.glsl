@@ -35,7 +35,7 @@ void add_direction(inout FabricMatrix stress, Gather g, SpringClass spring, Fabr
     {
         // As in add_spring, for a rest length of 1. Here what goes along suffices; what acts across would add spin.
         const float change = abs(stretch_rate) * stretch * push.step;
-        const float viscosity = clamp(change - k_viscous_strain, 0, g.viscosity.most);
+        const float viscosity = clamp((change - k_viscous_strain) * g.viscosity.sharpness, 0, 1);
         tension += min(1 / squared, 1) * g.viscosity.scale * viscosity * spring.stiffness * stretch_rate;
     }
     stress.warp += tension * d.x * d.x;

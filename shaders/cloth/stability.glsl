@@ -42,8 +42,8 @@ StabilityScales stability_scales(float omega_squared, float decay, float h)
 
 struct Viscosity
 {
-    float scale; // s, up to the substep
-    float most;  // of scale * stiffness
+    float scale;     // s, a fraction of the substep
+    float sharpness; // a change of length beyond what springs may have in a substep, times this, is the fraction of `scale`
 };
 
 // How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach; less
@@ -54,7 +54,8 @@ Viscosity viscosity_of(StabilityScales scales, float omega_squared, float flat_o
     const float load = verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h);
     const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);
     const float strength = scales.stiffness * flat_omega_squared * h * h;
-    return Viscosity(load * load * h, min(0.05, 0.4 * max(1 - flat_load, 0) / max(strength, 1e-30)));
+    const float most = min(0.05, 0.4 * max(1 - flat_load, 0) / max(strength, 1e-30)); // of load^2 h
+    return Viscosity(load * load * h * most, 1 / max(most, 1e-6));
 }
 
 // The scale of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic

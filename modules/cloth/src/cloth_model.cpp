@@ -404,7 +404,8 @@ void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workg
     const uint32_t height = workgroup_size / width;
     for (uint32_t row = 0; row < record.rows; row += height)
         for (uint32_t column = 0; column < record.columns; column += width)
-            chunks.push_back({cloth, column, row, static_cast<uint32_t>(std::countr_zero(width))});
+            chunks.push_back({cloth, record.first_vertex, record.columns, record.rows, column, row,
+                              static_cast<uint32_t>(std::countr_zero(width)), 0});
 }
 
 } // namespace
@@ -435,7 +436,7 @@ Chunks make_chunks(const Model& model, uint32_t workgroup_size)
                 add_tiles(record, cloth, workgroup_size, result.chunks);
             else
                 for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
-                    result.chunks.push_back({cloth, first, 0, 0});
+                    result.chunks.push_back({cloth, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
         }
         if (integrator == Integrator::rk4)
             result.rk4 = static_cast<uint32_t>(result.chunks.size());

@@ -22,7 +22,7 @@ static_assert(sizeof(shared::MeshVertex) == 16);
 static_assert(sizeof(shared::MeshSpring) == 16);
 static_assert(sizeof(shared::MeshCorner) == 8);
 static_assert(sizeof(shared::MembraneCorner) == 24);
-static_assert(sizeof(shared::Chunk) == 16);
+static_assert(sizeof(shared::Chunk) == 32);
 static_assert(sizeof(shared::ColliderRecord) == 96);
 static_assert(offsetof(shared::ColliderRecord, shape) == 64);
 static_assert(sizeof(shared::ColliderMotion) == 80);
