@@ -76,7 +76,7 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
             start.emplace_back(span * s, sag * (4 * s * s - 1), (row - 0.5) / links);
         }
     rig.place(id, start);
-    rig.settle(id, {.duration = 0.02f}, 400);
+    rig.settle(id, {.duration = 0.02f}, 400, 1e-9);
     auto x = rig.positions(id);
     x.resize(links + 1);
     return x;
