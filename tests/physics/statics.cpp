@@ -124,8 +124,8 @@ CaseResult catenary(Detail detail)
         const double u = catenary_parameter(span);
         result.measurements.push_back({"sag at span " + short_number(span), std::to_string(links) + " links", -lowest,
                                        (std::cosh(u) - 1) / (2 * std::sinh(u)), 0.004});
-        plot.curves.push_back(catenary_curve(span));
         plot.curves.push_back(curve);
+        plot.curves.push_back(catenary_curve(span)); // on top of the dots
     }
     result.plots.push_back(plot);
     return result;
