@@ -6,6 +6,7 @@
 #include "cloth/solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace tests
@@ -47,6 +48,20 @@ inline cloth::Grid stretched_sheet(uint32_t columns, uint32_t rows)
     return grid;
 }
 
+// Values that were read back, all of them finite and at least one. A NaN is lost in std::max and in whatever is counted
+// by a comparison, and a loop over nothing checks nothing: either fails the test here.
+inline std::vector<glm::vec4> checked(std::vector<glm::vec4> values)
+{
+    if (values.empty())
+        FAIL_CHECK("there are no vertices to read");
+    const auto finite = [](const glm::vec4& v)
+    { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    const auto bad = std::find_if_not(values.begin(), values.end(), finite);
+    if (bad != values.end())
+        FAIL_CHECK("vertex " << bad - values.begin() << " of " << values.size() << " is not finite");
+    return values;
+}
+
 class ClothHarness : public GpuFixture
 {
 public:
@@ -70,25 +85,27 @@ public:
     cloth::Statistics statistics()
     {
         run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
-        return solver.statistics(0);
+        const cloth::Statistics found = solver.statistics(0);
+        CHECK(found.nan_vertices == expected_nan_vertices); // their energy is 0, and nothing penetrates
+        return found;
     }
 
     std::vector<glm::vec4> positions(cloth::ClothId cloth)
     {
         const cloth::VertexStreams streams = solver.vertices(cloth);
-        return read<glm::vec4>(streams.positions, streams.vertices, streams.offset);
+        return checked(read<glm::vec4>(streams.positions, streams.vertices, streams.offset));
     }
 
     std::vector<glm::vec4> velocities(cloth::ClothId cloth)
     {
         const cloth::VertexStreams streams = solver.vertices(cloth);
-        return read<glm::vec4>(streams.velocities, streams.vertices, streams.offset);
+        return checked(read<glm::vec4>(streams.velocities, streams.vertices, streams.offset));
     }
 
     std::vector<glm::vec4> normals(cloth::ClothId cloth)
     {
         const cloth::VertexStreams streams = solver.vertices(cloth);
-        return read<glm::vec4>(streams.normals, streams.vertices, streams.offset);
+        return checked(read<glm::vec4>(streams.normals, streams.vertices, streams.offset));
     }
 
     // One value per vertex, in place of what the buffer holds.
@@ -99,9 +116,9 @@ public:
             [&](VkCommandBuffer cmd)
             {
                 for (size_t first = 0; first < values.size(); first += k_most)
-                    solver.context().fn.vkCmdUpdateBuffer(
-                        cmd, buffer, offset + first * sizeof(glm::vec4),
-                        std::min(k_most, values.size() - first) * sizeof(glm::vec4), values.data() + first);
+                    solver.context().fn.vkCmdUpdateBuffer(cmd, buffer, offset + first * sizeof(glm::vec4),
+                                                          std::min(k_most, values.size() - first) * sizeof(glm::vec4),
+                                                          values.data() + first);
             });
     }
     void set_positions(cloth::ClothId cloth, const std::vector<glm::vec4>& values)
@@ -116,6 +133,7 @@ public:
     }
 
     cloth::Solver solver;
+    uint32_t expected_nan_vertices = 0; // in the statistics; positions() and the like take none
 };
 
 // ||a - b|| / ||b|| over all components.

@@ -1,4 +1,5 @@
 // What changes while a cloth is there: materials, reset, teleport, velocity, and snapshots to the bit.
+#include "close_to.hpp"
 #include "cloth_harness.hpp"
 
 #include <algorithm>
@@ -60,15 +61,15 @@ TEST_CASE("a material changes while the cloth hangs, in the same buffers")
         return lengthening(harness.positions(id));
     };
     const double weight = 0.2 * 9.81; // a square metre
-    CHECK(settled() == doctest::Approx(weight / (2 * 50)).epsilon(0.01));
+    CHECK(settled() == tests::close_to(weight / (2 * 50), 1.5e-4));
     engine::take(harness.solver.set_material(id, stretchy(100)));
     CHECK_FALSE(harness.solver.needs_upload());
-    CHECK(settled() == doctest::Approx(weight / (2 * 100)).epsilon(0.01));
+    CHECK(settled() == tests::close_to(weight / (2 * 100), 1.5e-3));
     cloth::Fabric heavy = stretchy(100);
     heavy.areal_density = 0.6f;
     engine::take(harness.solver.set_material(id, heavy));
-    CHECK(settled() == doctest::Approx(3 * weight / (2 * 100)).epsilon(0.01));
-    CHECK(1 / harness.positions(id)[40].w == doctest::Approx(0.6f / 64));
+    CHECK(settled() == tests::close_to(3 * weight / (2 * 100), 0.01));
+    CHECK(1 / harness.positions(id)[40].w == tests::close_to(0.6f / 64, 1e-7));
     CHECK(harness.positions(id)[0].w == 0); // still held
     CHECK(harness.solver.vertices(id).positions == buffer);
 }
@@ -132,7 +133,7 @@ TEST_CASE("a cloth is put back to its start, moved at once and given a velocity"
     engine::take(harness.solver.transform(id, glm::mat4(1.f)));
     harness.step(still);
     for (const glm::vec4& v : harness.velocities(id))
-        CHECK(v.y == doctest::Approx(3).epsilon(1e-3));
+        CHECK(v.y == tests::close_to(3, 2e-4));
     CHECK_FALSE(harness.solver.transform(id, glm::mat4(NAN)).ok());
     CHECK_FALSE(harness.solver.set_velocity(id, glm::vec3(INFINITY)).ok());
 }

@@ -1,4 +1,5 @@
 // Sequences of meshes: what is read, where vertices are between two files, and what is refused.
+#include "close_to.hpp"
 #include "samples/viewer/frame_sequence.hpp"
 #include "test_folder.hpp"
 
@@ -30,7 +31,7 @@ TEST_CASE("vertices go along straight lines from file to file, and stay at the l
     REQUIRE(loaded);
     const viewer::MeshSequence& sequence = loaded.value();
     CHECK(sequence.frames() == 3);
-    CHECK(sequence.duration() == doctest::Approx(0.2));
+    CHECK(sequence.duration() == tests::close_to(0.2, 1e-7));
     CHECK(sequence.first().positions.size() == 4);
     CHECK(sequence.first().triangles.size() == 2);
     CHECK(sequence.first().normals[0] == glm::vec3(0, 1, 0));
@@ -46,9 +47,9 @@ TEST_CASE("vertices go along straight lines from file to file, and stay at the l
     };
     CHECK(corner(-1) == 0.6f);
     CHECK(corner(0) == 0.6f);
-    CHECK(corner(0.05) == doctest::Approx(1.3));
-    CHECK(corner(0.1) == doctest::Approx(2));
-    CHECK(corner(0.175) == doctest::Approx(1.25));
+    CHECK(corner(0.05) == tests::close_to(1.3, 1e-7));
+    CHECK(corner(0.1) == tests::close_to(2, 1e-7));
+    CHECK(corner(0.175) == tests::close_to(1.25, 1e-7));
     CHECK(corner(0.2) == 1.f);
     CHECK(corner(100) == 1.f);
     folder.write("one_0.obj", quad(1)); // a sequence of one file stands still

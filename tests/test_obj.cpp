@@ -1,6 +1,7 @@
 // OBJ in and out.
 #include "engine/assets/obj.hpp"
 
+#include "close_to.hpp"
 #include "engine/assets/file.hpp"
 #include "engine/assets/shapes.hpp"
 #include "mesh_checks.hpp"
@@ -75,7 +76,7 @@ TEST_CASE("polygons are cut, concave ones within their outline")
                                "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12 13\n");
     CHECK(loaded.mesh.triangles.size() == 7);
     CHECK(loaded.report.polygons_triangulated == 3);
-    CHECK(total_area(loaded.mesh) == doctest::Approx(2. + 1. + 5.)); // more if cut outside
+    CHECK(total_area(loaded.mesh) == tests::close_to(2. + 1. + 5., 1e-7)); // more if cut outside
     CHECK(loaded.mesh.normals == std::vector<glm::vec3>(13, {0, 1, 0}));
 }
 
@@ -92,7 +93,7 @@ TEST_CASE("a polygon of more corners than fit in a byte")
     }
     const Loaded loaded = load(text + face + "\n");
     CHECK(loaded.mesh.triangles.size() == k_corners - 2);
-    CHECK(total_area(loaded.mesh) == doctest::Approx(3.14159).epsilon(1e-3));
+    CHECK(total_area(loaded.mesh) == tests::close_to(3.14159, 3e-4));
 }
 
 TEST_CASE("negative indices count back from the line they stand on")
@@ -223,9 +224,9 @@ TEST_CASE("computed normals do not depend on how a flat face is cut")
         load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 0\nv 1 0 1\nv 0 1 1\n"
              "f 1 2 5\nf 1 5 3\nf 1 4 2\nf 4 6 2\nf 1 3 4\nf 3 7 4\n"); // xy has two triangles at 1, the others one
     const glm::vec3 normal = loaded.mesh.normals[0];
-    CHECK(std::abs(normal.x) == doctest::Approx(1. / std::sqrt(3.)).epsilon(1e-6));
-    CHECK(std::abs(normal.y) == doctest::Approx(std::abs(normal.x)).epsilon(1e-6));
-    CHECK(std::abs(normal.z) == doctest::Approx(std::abs(normal.x)).epsilon(1e-6));
+    CHECK(std::abs(normal.x) == tests::close_to(1. / std::sqrt(3.), 8e-8));
+    CHECK(std::abs(normal.y) == tests::close_to(std::abs(normal.x), 8e-8));
+    CHECK(std::abs(normal.z) == tests::close_to(std::abs(normal.x), 8e-8));
 }
 
 TEST_CASE("computed normals of a sphere are close to radial")
@@ -407,7 +408,7 @@ TEST_CASE("meshes found in the wild load")
                 report.degenerate_triangles, " degenerate, ", report.duplicate_triangles, " duplicate");
         CHECK(mesh.value().triangles.size() > 100);
         for (const glm::vec3& normal : mesh.value().normals)
-            REQUIRE(glm::length(normal) == doctest::Approx(1.f).epsilon(1e-5));
+            REQUIRE(glm::length(normal) == tests::close_to(1.f, 1e-5));
         for (const glm::uvec3& t : mesh.value().triangles)
             REQUIRE(std::max({t.x, t.y, t.z}) < mesh.value().positions.size());
     }

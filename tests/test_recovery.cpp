@@ -1,5 +1,6 @@
 // Recovery: what begins inside a closed mesh comes out of it, whole and without a blow, wherever it is and however it
 // got there. Inside is what double precision says.
+#include "close_to.hpp"
 #include "cloth_harness.hpp"
 
 #include "cloth/mesh_checks.hpp"
@@ -77,33 +78,34 @@ float fastest(const std::vector<glm::vec4>& velocities)
     return speed;
 }
 
-// m/s. What is inside goes out at 1.2 m/s at most; what that pulls and drops, some swings and a fall of a second later,
-// reaches 6.8.
-constexpr float k_calm = 8;
-// The spire's last vertex leaves the sheet stretched by 38 %, and a corner snaps back with 12.9 m/s.
-constexpr float k_snap = 15;
+// m/s: how much faster something is than what has fallen since the start.
+float beyond_fall(float speed, int frames)
+{
+    return speed - 9.81f * static_cast<float>(frames) / 60;
+}
+
+// m/s beyond a fall. What is inside goes out at 1.2 m/s at most; what that pulls on and drops swings.
+constexpr float k_calm = 8; // measured: 5.7 of a sheet that a ball stands through, 5.4 off a spire
 
 // Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside
 // then.
-void comes_out(ClothHarness& harness, cloth::ClothId id, const cloth::MeshDistance& exact, int frames, int more,
-               float most_speed = k_calm)
+void comes_out(ClothHarness& harness, cloth::ClothId id, const cloth::MeshDistance& exact, int frames, int more)
 {
     CHECK(count_inside(exact, harness.positions(id)) > 0);
     float top = 0;
     int frame = 0;
+    const auto step = [&]
+    {
+        harness.step({});
+        top = std::max(top, beyond_fall(fastest(harness.velocities(id)), ++frame));
+    };
     while (frame < frames && count_inside(exact, harness.positions(id)) > 0)
-    {
-        harness.step({});
-        top = std::max(top, fastest(harness.velocities(id)));
-        ++frame;
-    }
-    for (int i = 0; i < more; ++i)
-    {
-        harness.step({});
-        top = std::max(top, fastest(harness.velocities(id)));
-    }
-    MESSAGE("out after " << frame << " frames, at most " << top << " m/s");
-    CHECK(top < most_speed);
+        step();
+    const int out = frame;
+    while (frame < out + more)
+        step();
+    MESSAGE("out after " << out << " frames, at most " << top << " m/s beyond a fall");
+    CHECK(top < k_calm);
     CHECK(count_inside(exact, harness.positions(id)) == 0);
     CHECK(harness.statistics().penetrating_vertices == 0);
     CHECK(harness.statistics().nan_vertices == 0);
@@ -142,8 +144,8 @@ TEST_CASE("a sheet that a solid stands through comes out of it and rests")
             (void)engine::take(harness.solver.add_collider(cloth::PlaneCollider{.offset = -0.3f}));
             harness.upload();
             comes_out(harness, id, exact, 90, 30);
-            CHECK(harness.statistics().kinetic_energy < 0.1f);
-            CHECK(harness.statistics().max_stretch < 0.1f);
+            CHECK(harness.statistics().kinetic_energy < 0.05f); // J; measured: 0.012
+            CHECK(harness.statistics().max_stretch < 0.1f);     // measured: 0.043
         }
 }
 
@@ -192,7 +194,7 @@ TEST_CASE("a mesh cloth comes off a sharp spire, and out of parts that lie in ea
         const cloth::ClothId id = engine::take(harness.solver.add_cloth(description));
         (void)engine::take(harness.solver.add_collider(collider(mesh)));
         harness.upload();
-        comes_out(harness, id, exact, 60, 10, mesh.triangles.size() == 4 ? k_snap : k_calm);
+        comes_out(harness, id, exact, 60, 10);
     }
 }
 
@@ -259,8 +261,9 @@ TEST_CASE("cloth comes out of solids that move, turn and deform meanwhile")
                 REQUIRE(harness.solver.deform_collider(with, now.positions));
             }
             harness.step({});
-            top = std::max(top, fastest(harness.velocities(id)));
+            top = std::max(top, beyond_fall(fastest(harness.velocities(id)), frame));
         }
+        MESSAGE("at most " << top << " m/s beyond a fall");
         const auto exact = engine::take(cloth::MeshDistance::create(collider(now)));
         CHECK(count_inside(exact, harness.positions(id), motion) == 0);
         CHECK(top < k_calm);
@@ -277,7 +280,7 @@ TEST_CASE("a solid that jumps away leaves what was inside it, and does not throw
     harness.step({});
     REQUIRE(harness.solver.move_collider(with, moved({30, 0, 0})));
     harness.step({}, 2);
-    CHECK(fastest(harness.velocities(id)) < 5);
+    CHECK(fastest(harness.velocities(id)) < 3); // m/s; measured: 0.7
 }
 
 TEST_CASE("pins, other layers and what has two sides stay inside")
@@ -313,7 +316,7 @@ TEST_CASE("pins, other layers and what has two sides stay inside")
         for (const uint32_t i : {0u, 14u, 15u, 35u})
             CHECK((glm::distance(before[i], after[i]) < (c.pinned ? 1e-30f : 1e-6f)) == c.stays);
         if (!c.stays)
-            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == doctest::Approx(0.02).epsilon(0.05));
+            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == tests::close_to(0.02, 1e-4));
     }
 }
 

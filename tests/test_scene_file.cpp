@@ -1,4 +1,5 @@
 // Scene files: what is read from them, and how scenes are found. tests/test_scene_errors.cpp has what is refused.
+#include "close_to.hpp"
 #include "scene_text.hpp"
 #include "test_folder.hpp"
 #include "test_paths.hpp"
@@ -233,9 +234,9 @@ TEST_CASE("the reference scene is that of the report")
     const auto& grid = std::get<viewer::GridEntry>(scene.cloths[0].form);
     CHECK(grid.columns == 128);
     CHECK(grid.rows == 128);
-    CHECK(grid.size.x / 127.f == doctest::Approx(0.08));
+    CHECK(grid.size.x / 127.f == tests::close_to(0.08, 8e-8));
     CHECK(scene.cloths[0].transform.translate.y == 4.8f);
-    CHECK(scene.cloths[0].transform.translate.x == doctest::Approx(5.08));
+    CHECK(scene.cloths[0].transform.translate.x == tests::close_to(5.08, 7e-8));
     CHECK(scene.cloths[0].material.preset == "reference");
     CHECK(scene.cloths[0].integrator == viewer::Integrator::rk4);
     CHECK(scene.colliders.size() == 2);

@@ -2,6 +2,7 @@
 #include "samples/scenes/gem.hpp"
 #include "samples/scenes/heart.hpp"
 
+#include "close_to.hpp"
 #include "mesh_checks.hpp"
 
 #include <doctest/doctest.h>
@@ -126,8 +127,8 @@ TEST_CASE("the drape heart is closed, wound outwards and of even triangles")
     CHECK(signed_volume(heart) > 0);
     CHECK(edge_ratio(heart) < 10);
     const engine::Bounds box = engine::bounds(heart);
-    CHECK(box.min.y == doctest::Approx(-0.6).epsilon(1e-6));
-    CHECK(box.max.y == doctest::Approx(0.74).epsilon(0.01));
+    CHECK(box.min.y == tests::close_to(-0.6, 1e-7));
+    CHECK(box.max.y == tests::close_to(0.74, 0.01));
 }
 
 TEST_CASE("the drape heart's vertices satisfy its equation")
@@ -155,7 +156,7 @@ TEST_CASE("the ground is a flat grid that faces up")
     const engine::Bounds box = engine::bounds(ground);
     check_near(box.min, {5.08 - 50., 0., 5.08 - 50.}, 1e-5);
     check_near(box.max, {5.08 + 50., 0., 5.08 + 50.}, 1e-5);
-    CHECK(total_area(ground) == doctest::Approx(10000.).epsilon(1e-5)); // nothing covered twice
+    CHECK(total_area(ground) == tests::close_to(10000., 1e-9)); // nothing covered twice
     for (const glm::uvec3& t : ground.triangles)
     {
         const glm::vec3 a = ground.positions[t.x];
@@ -174,7 +175,7 @@ TEST_CASE("the jelly begins as the gem, and keeps its faces and its volume")
     {
         const engine::Mesh jelly = scenes::make_jelly(static_cast<double>(frame) / scenes::k_jelly_rate);
         CHECK(jelly.triangles == gem.triangles);
-        CHECK(signed_volume(jelly) == doctest::Approx(signed_volume(gem)).epsilon(0.01)); // faces stay flat
+        CHECK(signed_volume(jelly) == tests::close_to(signed_volume(gem), 6e-7)); // faces stay flat
         CHECK(engine::bounds(jelly).min.y > 0);
         lowest = std::min(lowest, double{engine::bounds(jelly).max.y});
     }

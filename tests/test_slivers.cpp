@@ -96,7 +96,7 @@ TEST_CASE("a sliver sets neither the substeps nor the stiffness of its mesh")
             {
                 CAPTURE(i);
                 const cloth::Stability stability = harness.solver.stability(sheets.ids[i], step);
-                CHECK(stability.needed < 2.5 * plain); // a vertex in the middle of an edge alone makes it 2
+                CHECK(stability.needed < 2.5 * plain); // measured: 2.2; a vertex in the middle of an edge makes it 2
                 CHECK(stability.stiffness_share == 1);
                 CHECK(harness.solver.mesh_report(sheets.ids[i]).softened_edges >= 3);
                 CHECK(harness.solver.mesh_report(sheets.ids[i]).softened_edges <= 5);
@@ -136,12 +136,12 @@ TEST_CASE("a sheet hangs with a sliver as it does without")
     harness.step({.duration = 0.04f, .air_density = 1000}, 10);
     harness.step({.duration = 0.04f, .air_density = 30}, 4);
     const double stretch = displacement(harness, sheets, hanging);
-    CHECK(stretch > 4e-4);
+    CHECK(stretch > 3.5e-4); // m; measured: 4.0e-4
     for (size_t i = 1; i < sheets.ids.size(); ++i)
     {
         CAPTURE(i);
         REQUIRE(harness.solver.stability(sheets.ids[i], {.duration = 0.04f}).stiffness_share == 1);
-        CHECK(distance_to_plain(harness, sheets, i) < 3e-3 * stretch);
+        CHECK(distance_to_plain(harness, sheets, i) < 2.5e-3 * stretch); // measured: 6e-4
     }
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("a sheet sags with a sliver as it does without")
     for (size_t i = 1; i < sheets.ids.size(); ++i)
     {
         CAPTURE(i);
-        CHECK(distance_to_plain(harness, sheets, i) < 1e-3 * sag);
+        CHECK(distance_to_plain(harness, sheets, i) < 1e-3 * sag); // measured: 3e-4
     }
 }
 

@@ -1,4 +1,5 @@
 // Additions beside a cloth that moves already: what an upload keeps, and what goes on while one is due.
+#include "close_to.hpp"
 #include "cloth_harness.hpp"
 #include "collider_scenes.hpp"
 
@@ -147,7 +148,7 @@ TEST_CASE("colliders come to rest and go on while an upload is due")
             for (size_t i = 0; i < 2; ++i)
             {
                 CAPTURE(i);
-                CHECK(height(i) - heights[i] == doctest::Approx(y).epsilon(0.01));
+                CHECK(height(i) - heights[i] == tests::close_to(y, 1e-5));
             }
         };
         if (!late)
@@ -179,7 +180,7 @@ TEST_CASE("what the host changes of an uploaded cloth takes effect while an uplo
     engine::take(harness.solver.reset(id));
     engine::take(harness.solver.set_velocity(id, {2, 0, 0}));
     harness.step({.gravity = glm::vec3(0)});
-    CHECK(harness.positions(id)[20].x - start[20].x == doctest::Approx(2 * k_frame).epsilon(0.01));
+    CHECK(harness.positions(id)[20].x - start[20].x == tests::close_to(2 * k_frame, 5e-7));
     CHECK(harness.positions(id)[0].w > 0);
 
     const auto before = harness.positions(id);
@@ -188,7 +189,7 @@ TEST_CASE("what the host changes of an uploaded cloth takes effect while an uplo
     CHECK(glm::vec3(harness.positions(id)[0]) == glm::vec3(before[0]));
     CHECK(harness.positions(id)[0].w == 0);
     CHECK(harness.positions(id)[20].x > before[20].x);
-    CHECK(harness.velocities(other)[5].x == doctest::Approx(7).epsilon(0.01));
+    CHECK(harness.velocities(other)[5].x == tests::close_to(7, 1e-6));
 
     // What is let go while an upload is due falls once that is done.
     (void)engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 6)));
@@ -213,10 +214,10 @@ TEST_CASE("a material takes effect while an upload is due")
     heavy.areal_density *= 4;
     engine::take(harness.solver.set_material(id, heavy));
     harness.step({});
-    CHECK(harness.positions(id)[9].w == doctest::Approx(lightest / 4));
+    CHECK(harness.positions(id)[9].w == tests::close_to(lightest / 4, 1e-7));
     harness.upload();
     harness.step({});
-    CHECK(harness.positions(id)[9].w == doctest::Approx(lightest / 4));
+    CHECK(harness.positions(id)[9].w == tests::close_to(lightest / 4, 1e-7));
 }
 
 TEST_CASE("a cloth that is not uploaded yet has no vertices on the device")

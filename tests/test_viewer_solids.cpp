@@ -1,5 +1,6 @@
 // Solids of scene files in a run: where their transforms put them, how they move, which cloth they meet, and that the
 // picture and the exact checks know it.
+#include "close_to.hpp"
 #include "viewer_scenes.hpp"
 
 #include "engine/assets/obj.hpp"
@@ -52,7 +53,7 @@ TEST_CASE("a transform scales and places every shape")
     const SceneResult edge = runs.run(scene(R"({"box": {"min": [-0.2, -0.2, -0.5], "max": [0.2, 0.2, 0.5]},
                                            "transform": {"rotate": [0, 0, 45], "translate": [0, 0.25, 0]}})"),
                                       30);
-    CHECK(bounds(edge).max.y == doctest::Approx(0.25 + 0.2 * std::sqrt(2)).epsilon(0.02));
+    CHECK(bounds(edge).max.y == tests::close_to(0.25 + 0.2 * std::sqrt(2), 0.02));
     CHECK(edge.deepest < 1e-5);
 }
 
@@ -69,7 +70,7 @@ TEST_CASE("solids move, and the exact checks hold cloth against where they are")
         engine::take(engine::save_obj(runs.folder() / "ball.obj", engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
         const SceneResult result = runs.run(scene(shape + lift), 40);
         // It has sunk 0.3 m: at the place of time 0 nearly all of the cloth would be inside.
-        CHECK(bounds(result).max.y == doctest::Approx(0.2).epsilon(0.03));
+        CHECK(bounds(result).max.y == tests::close_to(0.2, 0.03));
         CHECK(result.deepest < 1e-5);
         if (shape.find("mesh") != std::string::npos)
             CHECK(runs.run(scene(shape + lift), 40, "").deepest < 1e-5);
@@ -129,7 +130,7 @@ TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
     const std::string text =
         scene(R"({"mesh": "ball.obj", "motion": {"velocity": [0, -0.45, 0]}, "layers": [4]})", R"(, "layers": [4])");
     const SceneResult result = runs.run(text, 40, "--verify --collider " + (runs.folder() / "box.obj").string());
-    CHECK(bounds(result).max.y == doctest::Approx(0.2).epsilon(0.03));
+    CHECK(bounds(result).max.y == tests::close_to(0.2, 0.03));
     CHECK(result.deepest < 1e-5);
 }
 
@@ -167,7 +168,7 @@ TEST_CASE("--debug shows boxes that move with their mesh, contacts where cloth t
     CHECK(find(start, contacts).x == 0); // it has not fallen far enough
     CHECK(find(later, contacts).x > 8);
     // 17 frames at 1.2 m/s are 0.34 m: at 4.1 m and 40 degrees, 61 pixels a metre or a little more.
-    CHECK(find(later, boxes).y - find(start, boxes).y == doctest::Approx(0.34 * 62).epsilon(0.15));
+    CHECK(find(later, boxes).y - find(start, boxes).y == tests::close_to(0.34 * 62, 0.15));
     CHECK(find(runs.picture(text, 18, "--debug boxes:5"), boxes).x > find(later, boxes).x);
     CHECK(find(runs.picture(text, 1, "--debug normals --validate"), normals).x > 30);
 }

@@ -35,11 +35,14 @@ struct Measurement
     double target = 0;
     double low = 0;
     double high = 0;   // of a band; 0: not a band
-    double change = 0; // of a band: how much both resolutions may differ
+    double change = 0; // how much both resolutions may differ; 0: not looked at
+    bool known = true; // false: there is nothing to hold the value against
 
     [[nodiscard]] bool band() const { return high > 0; }
     [[nodiscard]] double error() const
     {
+        if (!known)
+            return 0;
         if (band())
             return value < low ? low - value : value > high ? value - high : 0;
         return exact == 0 ? std::abs(value) : std::abs(value / exact - 1);

@@ -151,7 +151,8 @@ CaseResult free_fall(Detail detail)
         fabric.damping_ratio = 0.5f;
         fabric.shear_stiffness = 100;
         const bool rk4 = integrator == cloth::Integrator::rk4;
-        const Target target = rk4 ? Target{3.5e-6, 8e-6} : Target{9e-6, 5e-5};
+        // The roundings of the velocity in each of 618 and 1236 substeps, of either sign, alike for all vertices.
+        const Target target = rk4 ? Target{8e-6, 5e-5} : Target{9e-6, 5e-5};
         cloth::Grid grid;
         grid.integrator = integrator;
         grid.columns = grid.rows = side;
@@ -187,7 +188,7 @@ CaseResult order(Detail detail)
         }
         const bool rk4 = integrator == cloth::Integrator::rk4;
         const double exact = rk4 ? 4 : 2;
-        const Target target = rk4 ? Target{0.002, 0.03} : Target{0.04, 0.008};
+        const Target target = rk4 ? Target{0.002, 0.015} : Target{0.04, 0.008};
         result.measurements.push_back({std::string("slope, ") + name_of(integrator),
                                        std::to_string(first) + " and " + std::to_string(2 * first) + " steps/s",
                                        std::log2(curve.y[1] / curve.y[2]), exact, target.at(detail)});
@@ -208,7 +209,7 @@ CaseResult spring_pair(Detail detail)
         // After four exact periods the phase tells by how much the period is off.
         const PairState end = swing(pair, integrator, 4 * exact, 4 * substeps);
         const bool rk4 = integrator == cloth::Integrator::rk4;
-        const Target target = rk4 ? Target{1e-5, 6e-7} : Target{2e-3, 5e-4};
+        const Target target = rk4 ? Target{1e-5, 5.5e-7} : Target{2e-3, 5e-4};
         const double phase = std::atan2(-end.velocity / pair.omega(), end.stretch);
         result.measurements.push_back({std::string("period, s, ") + name_of(integrator),
                                        std::to_string(substeps) + " steps a period",

@@ -25,11 +25,15 @@ std::string text(const char* format, double value)
 
 std::string exact_of(const Measurement& m)
 {
-    return m.band() ? text("%.4g", m.low) + " to " + text("%.4g", m.high) : text("%.5g", m.exact);
+    return !m.known   ? "not known"
+           : m.band() ? text("%.4g", m.low) + " to " + text("%.4g", m.high)
+                      : text("%.5g", m.exact);
 }
 
 std::string error_of(const Measurement& m)
 {
+    if (!m.known)
+        return "";
     if (m.band())
         return m.error() == 0 ? "inside" : text("%.3g", m.error()) + " outside";
     return m.exact == 0 ? text("%.2g", m.error()) : text("%.2g", 100 * m.error()) + " %";
@@ -37,9 +41,12 @@ std::string error_of(const Measurement& m)
 
 std::string target_of(const Measurement& m)
 {
-    return m.band()       ? "inside, change at most " + text("%.3g", m.change)
-           : m.exact == 0 ? text("%.2g", m.target)
-                          : text("%.3g", 100 * m.target) + " %";
+    const std::string value = !m.known       ? ""
+                              : m.band()     ? "inside"
+                              : m.exact == 0 ? text("%.2g", m.target)
+                                             : text("%.3g", 100 * m.target) + " %";
+    const std::string change = m.change > 0 ? "change at most " + text("%.3g", m.change) : "";
+    return value.empty() || change.empty() ? value + change : value + ", " + change;
 }
 
 // Returns how many targets were missed.
@@ -53,7 +60,7 @@ long write_table(std::ostream& out, const physics::CaseResult& coarse, const phy
     {
         const Measurement& c = coarse.measurements[i];
         const Measurement& f = fine.measurements[i];
-        const bool met = f.good() && (!f.band() || std::abs(f.value - c.value) <= f.change);
+        const bool met = f.good() && (f.change == 0 || std::abs(f.value - c.value) <= f.change);
         missed += met ? 0 : 1;
         out << "| " << f.quantity << " | " << exact_of(f) << " | " << text("%.5g", c.value) << " (" << c.resolution
             << ") | " << error_of(c) << " | " << text("%.5g", f.value) << " (" << f.resolution << ") | " << error_of(f)

@@ -4,6 +4,8 @@
 #include "gpu/recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace physics
 {
@@ -47,7 +49,11 @@ std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const cloth::VertexStreams& s
     std::vector<glm::dvec3> result;
     for (const glm::vec4& v :
          engine::download_values<glm::vec4>(device(), buffer, streams.offset, size_t{streams.vertices}))
+    {
+        if (!std::isfinite(v.x + v.y + v.z))
+            throw std::runtime_error("a vertex is not finite");
         result.emplace_back(v);
+    }
     return result;
 }
 
@@ -102,26 +108,29 @@ void Rig::stop(cloth::ClothId cloth)
         });
 }
 
-uint32_t Rig::settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest)
+void Rig::settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest)
 {
     double highest = 0;
     double before = 0;
     for (uint32_t steps = 1; steps <= most; ++steps)
     {
-        this->step(step);
+        // Of different durations: equal ones may meet a mode at its turning points alone, where a stop takes nothing.
+        cloth::Step part = step;
+        part.duration *= 0.5f + 0.5f * static_cast<float>(std::fmod(0.618034 * steps, 1.0));
+        this->step(part);
         const double energy = kinetic_energy();
         highest = std::max(highest, energy);
         if (energy < before)
         {
             if (before < rest * highest)
-                return steps;
+                return;
             stop(cloth);
             before = 0;
         }
         else
             before = energy;
     }
-    return most;
+    throw std::runtime_error("a cloth did not come to rest");
 }
 
 } // namespace physics

@@ -30,9 +30,10 @@ public:
     void stop(cloth::ClothId cloth);
 
     // Kinetic damping (Cundall 1976): steps, and stops the cloth whenever its kinetic energy has passed a peak, until a
-    // peak is less than `rest` of the highest one. Returns how many steps it took, `most` if it did not come to rest.
-    // Nothing is added to the forces, so what it comes to rest in is the static solution.
-    uint32_t settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest = 1e-9);
+    // peak is less than `rest` of the highest one; throws if that takes more than `most` steps. Nothing is added to the
+    // forces, so what it comes to rest in is the static solution. The steps last between half of and all of the
+    // duration that is given.
+    void settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest = 1e-8);
 
     cloth::Solver solver;
 

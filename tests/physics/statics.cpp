@@ -77,7 +77,7 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
         }
     rig.place(id, start);
     // Steps shorter than the quickest swings of the links, or their energy would never be seen to fall.
-    rig.settle(id, {.duration = 0.005f}, 1600);
+    rig.settle(id, {.duration = 0.005f}, 1600, 1e-9);
     auto x = rig.positions(id);
     x.resize(links + 1);
     return x;
@@ -125,8 +125,8 @@ CaseResult catenary(Detail detail)
         const double u = catenary_parameter(span);
         result.measurements.push_back({"sag at span " + short_number(span), std::to_string(links) + " links", -lowest,
                                        (std::cosh(u) - 1) / (2 * std::sinh(u)), 0.004});
-        plot.curves.push_back(catenary_curve(span));
         plot.curves.push_back(curve);
+        plot.curves.push_back(catenary_curve(span)); // on top of the dots
     }
     result.plots.push_back(plot);
     return result;

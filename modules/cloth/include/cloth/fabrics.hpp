@@ -14,21 +14,23 @@ namespace cloth
 //
 //           areal density  stretch  shear      bending  friction
 //   silk    read           typical  typical    typical  typical
-//   cotton  typical        typical  typical    typical  typical
-//   wool    typical        read     typical    typical  typical
+//   cotton  read           typical  typical    read     typical
+//   wool    read           read     read       read     typical
 //   denim   read           read     read       read     typical
 //   leather typical        typical  estimated  chosen   typical
 //
-// Leather's bending is chosen to give measured drape coefficients; its shear follows from its stretch as in a felt.
-// Wool's stretch is that of one plain worsted of 0.168 kg/m^2. Of all five:
+// Wool's stretch and shear are those of another plain worsted, of 0.168 kg/m^2. Denim's stretch and shear are those of
+// other denims than its density and bending. Leather's bending is chosen to give measured drape coefficients; its shear
+// follows from its stretch as in a felt. docs/physics.md holds the drape coefficients against what was measured, as far
+// as that is known. Of all five:
 // - stretch stiffness is the secant at about 5 N/m, the loads of hanging and draping;
-// - bending stiffness is what a cantilever has (KES B plus its friction), in the isometric model;
+// - bending stiffness is what a cantilever has, the friction between yarns included, in the isometric model;
 // - friction is of the fabric on itself; measured values depend on pressure and direction;
 // - damping and air drag are Fabric's defaults;
 // - thickness is the distance that contact keeps, 2 to 5 mm, and not the fabric's own, which fabrics.cpp names.
 Fabric silk();    // light and limp: crepe de chine, charmeuse
-Fabric cotton();  // shirting
-Fabric wool();    // winter suiting
+Fabric cotton();  // broadcloth, for shirts
+Fabric wool();    // tropical worsted, for summer suits
 Fabric denim();   // washed, 11 oz
 Fabric leather(); // sheep garment leather
 

@@ -76,7 +76,8 @@ struct Fabric
     float bending_stiffness = 1e-5f;                    // N m, 0..1e3
     float damping_ratio = 0.02f;                        // of each spring's critical damping, 0..1
     float thickness = 0.005f;                           // m, 1e-5..10
-    float static_friction = 0.5f;                       // kinetic_friction..100
+    float static_friction = 0.5f;                       // Coulomb, kinetic_friction..100; falls to the kinetic one
+                                                        // while the slip speed rises to 1 mm/s
     float kinetic_friction = 0.4f;                      // >= 0
     float air_drag_normal = 1.28f;                      // C_n, 0..100; a flat plate's
     float air_drag_tangential = 0.05f;                  // C_t, 0..100
