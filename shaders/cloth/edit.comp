@@ -18,17 +18,21 @@ layout(push_constant, std430) uniform Push { EditPush push; };
 
 #include "fine_position.glsl"
 
-// A product of floats with what its rounding leaves, and a sum likewise, give the position its residual.
+// Products of floats and their sums, with what their rounding leaves, which is added up by itself: beside large numbers it would
+// be lost.
 FinePosition moved_by(mat4 transform, FinePosition p)
 {
-    FinePosition result = FinePosition(transform[3].xyz, mat3(transform) * p.residual);
+    vec3 x = transform[3].xyz;
+    vec3 residual = mat3(transform) * p.residual;
     for (int axis = 0; axis < 3; ++axis)
     {
         precise const vec3 product = transform[axis].xyz * p.x[axis];
         precise const vec3 rest = fma(transform[axis].xyz, vec3(p.x[axis]), -product);
-        result = moved(FinePosition(result.x, result.residual + rest), product);
+        const FinePosition sum = moved(FinePosition(x, vec3(0)), product);
+        x = sum.x;
+        residual += sum.residual + rest;
     }
-    return result;
+    return moved(FinePosition(x, vec3(0)), residual);
 }
 
 void main()

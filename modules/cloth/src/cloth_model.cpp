@@ -1,6 +1,8 @@
 // What grids and meshes have in common: validation, the record that follows from a material, the state at the start.
 #include "model.hpp"
 
+#include "rounding.hpp"
+
 #include "stability.hpp"
 
 #include <algorithm>
@@ -286,7 +288,7 @@ namespace
 // What a float position leaves of a place, as fine_position.glsl packs it.
 glm::uvec2 residual_of(const glm::dvec3& place)
 {
-    const glm::vec3 x(place);
+    const glm::vec3 x = rounded(place);
     const float largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     const float step = std::ldexp(1.0F, std::max(std::ilogb(largest), -87) - 39);
     const glm::dvec3 steps = glm::min(glm::round((place - glm::dvec3(x)) / double{step}), 32767.0);

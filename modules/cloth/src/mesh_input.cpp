@@ -3,6 +3,7 @@
 
 #include "mesh_parts.hpp"
 #include "model.hpp"
+#include "rounding.hpp"
 
 #include <algorithm>
 
@@ -24,13 +25,26 @@ Result<void> validate(const MeshCollider& collider)
     return check_friction(collider.name, collider.friction);
 }
 
-std::vector<glm::vec3> to_world(const MeshCollider& collider)
+std::vector<glm::dvec3> to_world(const MeshCollider& collider)
 {
-    std::vector<glm::vec3> world;
+    const glm::dmat4 transform(collider.transform);
+    std::vector<glm::dvec3> world;
     world.reserve(collider.positions.size());
     for (const glm::vec3& p : collider.positions)
-        world.emplace_back(collider.transform * glm::vec4(p, 1));
+        world.emplace_back(transform * glm::dvec4(p, 1));
     return world;
+}
+
+glm::dvec3 middle_of(std::span<const glm::dvec3> positions)
+{
+    glm::dvec3 min = positions.front();
+    glm::dvec3 max = positions.front();
+    for (const glm::dvec3& p : positions)
+    {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    return 0.5 * (min + max);
 }
 
 // A triangle whose normal vanishes in float has no side to push to.
@@ -62,11 +76,15 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
     if (auto valid = validate(collider); !valid)
         return valid.error();
     MeshInput mesh;
-    mesh.positions = to_world(collider);
+    const std::vector<glm::dvec3> world = to_world(collider);
+    mesh.positions.assign(world.begin(), world.end());
     if (auto range = check_positions(subject("collider", collider.name), mesh.positions,
                                      "its transform takes position ", " to ");
         !range)
         return range.error();
+    mesh.origin = rounded(middle_of(world));
+    std::transform(world.begin(), world.end(), mesh.positions.begin(),
+                   [&](const glm::dvec3& p) { return glm::vec3(p - glm::dvec3(mesh.origin)); });
     mesh.triangles.reserve(collider.triangles.size());
     std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
                  [&](const glm::uvec3& t) { return has_area(mesh.positions, t); });
