@@ -24,7 +24,7 @@ voile_add_test(test_verlet SOURCES test_verlet.cpp LIBRARIES voile::cloth voile:
 voile_add_test(test_static_friction SOURCES test_static_friction.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_energy SOURCES test_energy.cpp test_energy_random.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_stability SOURCES test_stability.cpp test_slivers.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_fabric SOURCES test_fabric.cpp test_air.cpp test_far.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_fabric SOURCES test_fabric.cpp test_air.cpp test_far.cpp test_far_contact.cpp LIBRARIES voile::cloth voile::engine)
 if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
     voile_add_test(test_frame SOURCES test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()

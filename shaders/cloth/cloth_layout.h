@@ -210,7 +210,8 @@ struct TetherRecord
     float lengths[VOILE_TETHERS]; // m
 };
 
-// A collider where it was added.
+// A collider where it was added, in its own space: the world as it was then (of a box: the box's), seen from `origin`. So
+// that what contact computes is as precise far from the world's origin as near to it.
 struct ColliderRecord
 {
     uint kind;
@@ -225,18 +226,19 @@ struct ColliderRecord
     uint layers;         // bits; it meets cloths that have one of them
     uint nodes;          // of a mesh that does not deform, from first_node on
     uint padding;
-    vec4 shape;  // plane: unit normal, offset; sphere: centre, radius; capsule: an end, radius; box: centre
-    vec4 second; // capsule: the other end; box: half of its size
+    vec4 shape;  // plane: unit normal, offset; sphere: w, radius; capsule: half of its axis, radius; box: half of its size
+    vec3 origin; // m, in the world of a collider that has not moved; of a ball, a capsule and a box the center
+    float extent; // m, that a mesh has at most along an axis from there
 };
 
-// How a collider goes through the step.
+// How a collider goes through the step. Its origin goes straight.
 struct ColliderMotion
 {
     vec4 rotation_from; // unit quaternions, world from the collider's space
     vec4 rotation_to;
-    vec3 center;     // m, in the collider's space; it goes straight
+    vec3 origin;     // m, in the world at the step's start, rounded
     uint first_from; // of a mesh that deforms: its first vertex at the start of the step
-    vec3 place_from; // m, of the centre in the world
+    vec3 place_from; // m, of the origin, from there
     uint first_to;   // and at its end
     vec3 place_to;
     uint padding;
@@ -276,6 +278,7 @@ struct ContactPush
     uint near_stride;   // words per chunk of near colliders; 0: there are no lists
     uint recovery;      // the word of the dispatch's size that tells whether any vertex is inside
     uint in_place;      // 1: what contact changes it writes into the proposed state; 0: all goes into the earlier one
+    float mesh_extent;  // m, that a mesh has at most along an axis from its origin
 };
 
 // Push constants of the look at which colliders are near.
@@ -324,6 +327,7 @@ struct HoldPush
 struct DeformPush
 {
     mat4 transform;  // the collider's space from the mesh's
+    vec3 origin;     // m, of that space in the world
     uint first_word; // of the input
     uint stride;     // words
     uint first_from; // where the vertices are now

@@ -1,10 +1,12 @@
-// Where a moving collider is at a time of the step. Its own space is the world as it was when the collider was added, so that
-// neither shape nor hierarchy changes when it moves: queries go there and answers come back.
+// Where a collider is at a time of the step. Its own space is the world as it was when the collider was added, seen from its
+// origin, so that neither shape nor hierarchy changes when it moves: queries go there and answers come back.
 //
-// The including kernel declares collider_motions[] and a constant COLLIDERS_MOVE: 0 where none moves, and what serves moving
-// ones is left out.
+// The including kernel declares colliders[], collider_motions[] and a constant COLLIDERS_MOVE: 0 where none moves, and what
+// serves moving ones is left out.
 #ifndef VOILE_COLLIDER_POSE_GLSL
 #define VOILE_COLLIDER_POSE_GLSL
+
+#include "fine_position.glsl"
 
 bool is_moved(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COLLIDER_MOVED) != 0; }
 bool is_deforming(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COLLIDER_DEFORMS) != 0; }
@@ -12,25 +14,39 @@ bool is_deforming(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COL
 struct Pose
 {
     vec4 rotation; // unit quaternion, world from the collider's space
-    vec3 center;   // m, in the collider's space
-    vec3 place;    // m, of the centre in the world
+    vec3 place;    // m, of the origin, from ColliderMotion::origin
 };
 
 vec3 rotate(vec4 q, vec3 v) { return v + 2 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 vec3 rotate_back(vec4 q, vec3 v) { return rotate(vec4(-q.xyz, q.w), v); }
 
-// `progress` of the step, 0 to 1. The centre goes straight; the turning is that of the chord between both quaternions.
+// `progress` of the step, 0 to 1. The origin goes straight; the turning is that of the chord between both quaternions.
 Pose pose_at(uint collider, float progress)
 {
     const ColliderMotion motion = collider_motions[collider];
     Pose pose;
-    pose.rotation = normalize(mix(motion.rotation_from, motion.rotation_to, progress));
-    pose.center = motion.center;
-    pose.place = mix(motion.place_from, motion.place_to, progress);
+    // Not by mix(), whose rounding would shake what stands still.
+    pose.rotation = normalize(motion.rotation_from + progress * (motion.rotation_to - motion.rotation_from));
+    pose.place = motion.place_from + progress * (motion.place_to - motion.place_from);
     return pose;
 }
 
-vec3 to_collider(Pose pose, vec3 p) { return rotate_back(pose.rotation, p - pose.place) + pose.center; }
-vec3 to_world(Pose pose, vec3 p) { return rotate(pose.rotation, p - pose.center) + pose.place; }
+// m, of a position from the collider's origin as the step starts, rounded: floats are fine there.
+vec3 from_origin(uint c, uint flags, FinePosition p)
+{
+    precise const vec3 offset = p.x - (is_moved(flags) ? collider_motions[c].origin : colliders[c].origin) + p.residual;
+    return offset;
+}
+
+// Between what is told from there and the collider's space.
+vec3 to_collider(Pose pose, vec3 p) { return rotate_back(pose.rotation, p - pose.place); }
+vec3 to_world(Pose pose, vec3 p) { return rotate(pose.rotation, p) + pose.place; }
+
+// Where a position is in the collider's space.
+vec3 into_collider(uint c, uint flags, FinePosition p, float progress)
+{
+    const vec3 offset = from_origin(c, flags, p);
+    return is_moved(flags) ? to_collider(pose_at(c, progress), offset) : offset;
+}
 
 #endif

@@ -47,6 +47,7 @@ shared uint first_word;
 shared uint end_word;
 
 Box grown(Box box, float margin) { return Box(box.min - margin, box.max + margin); }
+Box shifted(Box box, vec3 displacement) { return Box(box.min + displacement, box.max + displacement); }
 Box joined(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
 // Where the chunk's vertices can be until the next look.
@@ -73,14 +74,12 @@ Box box_of_chunk(ChunkVertex self)
 // Of a collider that is no plane, in its own space.
 Box local_box(ColliderRecord collider)
 {
-    const vec3 shape = collider.shape.xyz;
-    const vec3 second = collider.second.xyz;
     if (collider.kind == VOILE_COLLIDER_SPHERE)
-        return grown(Box(shape, shape), collider.shape.w);
+        return Box(-collider.shape.www, collider.shape.www);
     if (collider.kind == VOILE_COLLIDER_CAPSULE)
-        return grown(Box(min(shape, second), max(shape, second)), collider.shape.w);
+        return Box(-abs(collider.shape.xyz) - collider.shape.w, abs(collider.shape.xyz) + collider.shape.w);
     if (collider.kind == VOILE_COLLIDER_BOX)
-        return Box(shape - second, shape + second);
+        return Box(-collider.shape.xyz, collider.shape.xyz);
     if (!is_deforming(collider.flags))
         return Box(collider.box_min, collider.box_max);
     const PaddedBox root = padded_boxes[collider.first_node];
@@ -101,11 +100,14 @@ bool touches(uint c, ColliderRecord collider, Box box)
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return true;
     Box around = local_box(collider);
-    if (is_moved(collider.flags))
+    if (!is_moved(collider.flags))
+        around = shifted(around, collider.origin);
+    else
     {
         const ColliderMotion motion = collider_motions[c];
-        const float radius = length(max(abs(around.min - motion.center), abs(around.max - motion.center)));
-        around = grown(Box(min(motion.place_from, motion.place_to), max(motion.place_from, motion.place_to)), radius);
+        const float radius = length(max(abs(around.min), abs(around.max)));
+        const Box sweep = Box(min(motion.place_from, motion.place_to), max(motion.place_from, motion.place_to));
+        around = grown(shifted(sweep, motion.origin), radius);
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
         around = grown(around, turning_reach(motion, length(farthest)));
     }

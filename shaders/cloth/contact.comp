@@ -52,17 +52,17 @@ layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
-// m: what lies nearer together than this, near x, is the same to a few roundings of a coordinate.
+// m: what lies nearer together than this, near x of a collider's space, is the same to a few roundings of a coordinate.
 float rounding(vec3 x)
 {
     return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
 }
 
 // m: a vertex that is nearer to the offset surface than this rests on it. Rounding moves both, more so where triangles are
-// long.
-float contact_slop(vec3 x, float thickness)
+// long; of a plane it counts along its normal.
+float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 {
-    return max(rounding(x), 5e-4 * thickness);
+    return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
 }
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
@@ -76,17 +76,16 @@ float contact_slop(vec3 x, float thickness)
 #include "fine_position.glsl"
 #include "friction.glsl"
 
-// As floats tell it. What residuals add is loaded where the vertex is written: most vertices touch nothing and are not.
 struct Motion
 {
-    vec3 from;         // m, before the substep
+    FinePosition from; // before the substep
     vec3 displacement; // m, since then
     vec3 v;            // m/s
     uint cloth;
-    bool given; // contact says where the vertex is, from where it was; else it has moved it by some way
 };
 
-vec3 position_of(Motion motion) { return motion.from + motion.displacement; }
+// As a float tells it.
+vec3 position_of(Motion motion) { return motion.from.x + motion.displacement; }
 
 // What contact needs of the vertex's cloth.
 struct ClothContact
@@ -111,13 +110,14 @@ Passage passage_of(uint c, uint flags, Motion motion)
 {
     Passage result;
     result.moves = is_moved(flags);
-    result.from = motion.from;
-    result.to = position_of(motion);
+    result.from = from_origin(c, flags, motion.from);
+    precise const vec3 to = result.from + motion.displacement;
+    result.to = to;
     if (result.moves)
     {
         result.start = pose_at(c, push.progress_from);
         result.end = pose_at(c, push.progress_to);
-        result.from = to_collider(result.start, motion.from);
+        result.from = to_collider(result.start, result.from);
         result.to = to_collider(result.end, result.to);
     }
     return result;
@@ -150,7 +150,8 @@ float lift_of(Contact contact, float thickness)
 }
 
 // `n`: world, unit, away from the surface; `lift`: m along it; `way`: m, of the surface in this substep.
-void respond(inout Motion motion, vec3 n, float lift, vec3 way, float thickness, float static_friction,
+// `slop`: m, see contact_slop.
+void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, float static_friction,
              float kinetic_friction)
 {
     motion.displacement += lift * n;
@@ -168,8 +169,7 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float thickness,
         // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
         // To the bit: roundings that add up would stretch stiff cloth until it slips.
         const float height = dot(motion.displacement - way, n);
-        motion.displacement = way + (abs(height) > contact_slop(motion.from, thickness) ? height : 0) * n;
-        motion.given = true;
+        motion.displacement = way + (abs(height) > slop ? height : 0) * n;
         motion.v -= v_t;
         return;
     }
@@ -207,7 +207,6 @@ void leave(inout Motion motion, Depenetration depenetration)
     own -= min(dot(own, out_of_it) + VOILE_INSIDE_BACK * speed, 0) * out_of_it;
     motion.v = surface + own;
     motion.displacement = push.step * (motion.v + depenetration.velocity);
-    motion.given = true;
 }
 
 // Where the way of the vertex leads through a surface after all.
@@ -216,7 +215,6 @@ void keep_out(inout Motion motion, Passage passage, Contact contact)
     const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
     const vec3 n = world_direction(passage, contact.direction);
     motion.displacement = way;
-    motion.given = true;
     motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
 }
 
@@ -227,7 +225,8 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
     const Passage passage = passage_of(c, collider.flags, motion);
     const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
     // A vertex that rests lies on the offset surface within rounding, and touches it on either side of that.
-    const float reach = last ? 0 : cloth.thickness + contact_slop(motion.from, cloth.thickness);
+    const float slop = contact_slop(collider, passage.from, cloth.thickness);
+    const float reach = last ? 0 : cloth.thickness + slop;
     const Contact contact = find_contact(c, collider, last ? VOILE_METHOD_PATH_ALONE : METHOD, passage.from, passage.to,
                                          normal, reach);
     if (!contact.found)
@@ -246,7 +245,7 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
     const vec3 way = surface_way(passage, passage.to - contact.gap * contact.direction, contact.way);
     if (contact.start < 0)
         motion.v -= dot(motion.v - way / push.step, n) * n; // it comes out without a velocity of its own
-    respond(motion, n, lift_of(contact, cloth.thickness), way, cloth.thickness,
+    respond(motion, n, lift_of(contact, cloth.thickness), way, slop,
             pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
@@ -254,7 +253,7 @@ void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meet
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
-    return walk_colliders(gl_WorkGroupID.x, min(motion.from, to), max(motion.from, to));
+    return walk_colliders(gl_WorkGroupID.x, min(motion.from.x, to), max(motion.from.x, to));
 }
 
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
@@ -291,11 +290,10 @@ Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
 {
     const vec4 velocity = proposed_velocities[i];
     Motion motion;
-    motion.from = positions[i].xyz;
-    motion.displacement = proposed - motion.from;
+    motion.from = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    motion.displacement = displacement(motion.from, FinePosition(proposed, unpack_residual(proposed_residuals[i])));
     motion.v = velocity.xyz;
     motion.cloth = cloth;
-    motion.given = false;
     flags = uint(velocity.w);
     if (push.features != 0 && corrections[i].substep == push.substep)
     {
@@ -314,17 +312,10 @@ Depenetration depenetration_of(uint i)
     return depenetrations[i];
 }
 
-FinePosition final_position(uint i, Motion motion)
-{
-    const FinePosition from = FinePosition(motion.from, unpack_residual(residuals[i]));
-    const vec3 left_out = motion.given ? vec3(0) : unpack_residual(proposed_residuals[i]) - from.residual;
-    return moved(from, motion.displacement + left_out);
-}
-
 // `flags` of the velocity, VOILE_VERTEX_...
 void commit(uint i, Motion motion, uint flags)
 {
-    const FinePosition to = final_position(i, motion);
+    const FinePosition to = moved(motion.from, motion.displacement);
     const vec4 position = vec4(to.x, proposed_positions[i].w);
     const vec4 velocity = vec4(motion.v, flags);
     const vec4 change = vec4(motion.v - proposed_velocities[i].xyz, 0);
@@ -381,7 +372,7 @@ void main()
             leave(motion, depenetration);
             changed = true;
         }
-        find_candidates(i, motion.from, position_of(motion), motion.v, contact.thickness);
+        find_candidates(i, motion.from, motion.displacement, motion.v, contact.thickness);
         if (meet_all(motion, contact, depenetration.solid - 1).touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;

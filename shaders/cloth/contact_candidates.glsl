@@ -167,10 +167,11 @@ void traverse(ColliderRecord collider, vec3 box_min, vec3 box_max)
 // The middle of what the list covers in the space of collider c.
 vec3 covered_middle(uint c, uint flags)
 {
-    return is_moved(flags) ? to_collider(pose_at(c, candidates.made), candidates.place) : candidates.place;
+    return into_collider(c, flags, FinePosition(candidates.place, vec3(0)), candidates.made);
 }
 
-// m, the radius of a ball like the list's that has all that lies on the way from `from` to `to` or within `reach` of its end.
+// m, the radius of a ball like the list's that has all that lies on the way from `from` to `to` or within `reach` of its end;
+// these are in the space of collider c.
 float needed_cover(uint c, uint flags, vec3 from, vec3 to, float reach)
 {
     if (candidates.made < 0 && (is_moved(flags) || is_deforming(flags)))
@@ -206,27 +207,29 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
 }
 
 // Whether every mesh that moves is either covered or out of reach. `way`: m, the farthest that one carries its surface here.
-bool serves_moving(vec3 from, vec3 to, float reach, inout float way)
+bool serves_moving(FinePosition from, vec3 displacement, float reach, inout float way)
 {
     if (COLLIDERS_MOVE == 0)
         return true;
     bool serves = true;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from, to), max(from, to));
+    const vec3 to = from.x + displacement;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from.x, to), max(from.x, to));
     uint c;
     while (next_collider(walk, c))
     {
         const uint flags = colliders[c].flags;
         if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH)
             continue;
-        vec3 a = from;
-        vec3 b = to;
+        vec3 a = from_origin(c, flags, from);
+        vec3 b = a + displacement;
         float gone = 0;
         if (is_moved(flags))
         {
+            const vec3 end = b;
             const Pose start = pose_at(c, push.progress_from);
-            a = to_collider(start, from);
-            b = to_collider(pose_at(c, push.progress_to), to);
-            gone = distance(to_world(start, b), to);
+            a = to_collider(start, a);
+            b = to_collider(pose_at(c, push.progress_to), end);
+            gone = distance(to_world(start, b), end);
         }
         const vec3 box_min = min(a, b) - reach;
         const vec3 box_max = max(a, b) + reach;
@@ -286,14 +289,21 @@ void renew_candidates(float own_way, float margin, float reach)
     candidate_triangles[candidate_word(VOILE_CANDIDATE_LEAST)] = floatBitsToUint(candidates.least);
 }
 
-// Takes the vertex's list, or makes a new one where it does not cover the way from `from` to `to`.
-void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thickness)
+// m, how far the path from `from` leads from a place of the world.
+float way_from(vec3 place, FinePosition from, vec3 displacement)
+{
+    const vec3 offset = from.x - place + from.residual;
+    return max(length(offset), length(offset + displacement));
+}
+
+// Takes the vertex's list, or makes a new one where it does not cover the displacement, m, from `from`.
+void find_candidates(uint vertex, FinePosition from, vec3 displacement, vec3 velocity, float thickness)
 {
     candidates.vertex = vertex;
     candidates.collect = false;
     const vec4 place = candidate_places[vertex]; // w: m, the radius of the ball; < 0: there is no list
     const uint head = candidate_triangles[candidate_word(VOILE_CANDIDATE_HEAD)];
-    const float reach = VOILE_CANDIDATE_REACH * thickness + rounding(to);
+    const float reach = VOILE_CANDIDATE_REACH * thickness + rounding(vec3(push.mesh_extent));
     const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
     candidates.place = place.xyz;
@@ -305,18 +315,18 @@ void find_candidates(uint vertex, vec3 from, vec3 to, vec3 velocity, float thick
                           : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
     const float margin = place.w - reach; // below 0 where the cloth has become thicker
     const float used = push.renew == 1 ? 0.5 * margin : margin;
-    const bool serves = distance(from, place.xyz) <= used && distance(to, place.xyz) <= used;
+    const bool serves = way_from(place.xyz, from, displacement) <= used;
     float way = 0;
-    const bool serves_all = serves_moving(from, to, reach, way);
+    const bool serves_all = serves_moving(from, displacement, reach, way);
     const float speed = length(velocity) + way / push.step;
     const float wanted = max(VOILE_CANDIDATE_MARGIN * thickness, 2 * speed * push.renewal_time);
     // What had no room in a list when the vertex was fast, or too near, has some when it rests.
     const bool may_fit = push.renew == 1 && candidates.count > VOILE_CANDIDATES;
     if (serves && serves_all && !may_fit)
         return;
-    candidates.place = 0.5 * (from + to);
+    candidates.place = from.x + 0.5 * displacement;
     candidates.made = push.progress_to;
-    renew_candidates(0.5 * distance(from, to) + way, wanted, reach);
+    renew_candidates(way_from(candidates.place, from, displacement) + way, wanted, reach);
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Colliders with a formula: half space, sphere, capsule, box, each in its own space.
+// Colliders with a formula: half space, sphere, capsule, box, each in its own space, the last three around its origin.
 #ifndef VOILE_CONVEX_GLSL
 #define VOILE_CONVEX_GLSL
 
@@ -15,16 +15,15 @@ ConvexSurface rounded_surface(vec3 offset, float radius)
     return ConvexSurface(distance - radius, distance > 1e-9 ? offset / distance : vec3(0, 1, 0));
 }
 
-ConvexSurface capsule_surface(vec3 a, vec3 b, float radius, vec3 p)
+// `end`: of the capsule's axis, whose other one is opposite.
+ConvexSurface capsule_surface(vec3 end, float radius, vec3 p)
 {
-    const vec3 axis = b - a;
-    const float t = clamp(dot(p - a, axis) / max(dot(axis, axis), 1e-30), 0, 1);
-    return rounded_surface(p - a - t * axis, radius);
+    const float t = clamp(dot(p, end) / max(dot(end, end), 1e-30), -1, 1);
+    return rounded_surface(p - t * end, radius);
 }
 
-ConvexSurface box_surface(vec3 center, vec3 half_size, vec3 p)
+ConvexSurface box_surface(vec3 half_size, vec3 offset)
 {
-    const vec3 offset = p - center;
     const vec3 outside = abs(offset) - half_size;
     const vec3 side = vec3(offset.x < 0 ? -1 : 1, offset.y < 0 ? -1 : 1, offset.z < 0 ? -1 : 1);
     if (any(greaterThan(outside, vec3(0))))
@@ -47,10 +46,10 @@ ConvexSurface plane_surface(ColliderRecord collider, vec3 p)
 ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
 {
     if (collider.kind == VOILE_COLLIDER_SPHERE)
-        return rounded_surface(p - collider.shape.xyz, collider.shape.w);
+        return rounded_surface(p, collider.shape.w);
     if (collider.kind == VOILE_COLLIDER_CAPSULE)
-        return capsule_surface(collider.shape.xyz, collider.second.xyz, collider.shape.w, p);
-    return box_surface(collider.shape.xyz, collider.second.xyz, p);
+        return capsule_surface(collider.shape.xyz, collider.shape.w, p);
+    return box_surface(collider.shape.xyz, p);
 }
 
 // Where a straight path first meets a solid.
@@ -83,11 +82,10 @@ Entry sphere_entry(vec3 offset, vec3 span, float radius)
     return time <= 1 ? Entry(time, normalize(offset + time * span)) : k_no_entry;
 }
 
-Entry capsule_entry(vec3 a, vec3 b, float radius, vec3 from, vec3 span)
+Entry capsule_entry(vec3 end, float radius, vec3 offset, vec3 span)
 {
-    const float size = distance(a, b);
-    const vec3 axis = (b - a) / max(size, 1e-30);
-    const vec3 offset = from - a;
+    const float size = length(end);
+    const vec3 axis = end / max(size, 1e-30);
     const vec3 across = offset - dot(offset, axis) * axis;
     const vec3 span_across = span - dot(span, axis) * axis;
     const float time = rounded_entry(across, span_across, radius);
@@ -95,10 +93,8 @@ Entry capsule_entry(vec3 a, vec3 b, float radius, vec3 from, vec3 span)
         return k_no_entry;
     // Nobody enters past an end but through that end's half sphere.
     const float along = dot(offset + time * span, axis);
-    if (along < 0)
-        return sphere_entry(offset, span, radius);
-    if (along > size)
-        return sphere_entry(from - b, span, radius);
+    if (abs(along) > size)
+        return sphere_entry(along > 0 ? offset - end : offset + end, span, radius);
     return Entry(time, normalize(across + time * span_across));
 }
 
@@ -136,20 +132,19 @@ float sphere_exit(vec3 offset, vec3 direction, float radius)
     return nearest + sqrt(max(radius * radius - dot(closest, closest), 0));
 }
 
-float capsule_exit(vec3 a, vec3 b, float radius, vec3 from, vec3 direction)
+float capsule_exit(vec3 end, float radius, vec3 offset, vec3 direction)
 {
-    const float size = distance(a, b);
-    const vec3 axis = (b - a) / max(size, 1e-30);
-    const vec3 offset = from - a;
+    const float size = length(end);
+    const vec3 axis = end / max(size, 1e-30);
     const float along = dot(offset, axis);
     const float slope = dot(direction, axis);
     const vec3 across = direction - slope * axis;
     const float speed = length(across);
     const float side = sphere_exit(offset - along * axis, across / max(speed, 1e-30), radius) / max(speed, 1e-30);
-    const float end = along + side * slope;
-    if (end >= 0 && end <= size)
+    const float leaves = along + side * slope;
+    if (abs(leaves) <= size)
         return side;
-    return sphere_exit(end < 0 ? offset : from - b, direction, radius);
+    return sphere_exit(leaves < 0 ? offset + end : offset - end, direction, radius);
 }
 
 float box_exit(vec3 half_size, vec3 offset, vec3 direction)
@@ -162,23 +157,21 @@ float box_exit(vec3 half_size, vec3 offset, vec3 direction)
 // m: how far it is from inside a solid to its surface in a unit direction.
 float convex_exit(ColliderRecord collider, vec3 from, vec3 direction)
 {
-    const vec3 offset = from - collider.shape.xyz;
     if (collider.kind == VOILE_COLLIDER_SPHERE)
-        return sphere_exit(offset, direction, collider.shape.w);
+        return sphere_exit(from, direction, collider.shape.w);
     if (collider.kind == VOILE_COLLIDER_CAPSULE)
-        return capsule_exit(collider.shape.xyz, collider.second.xyz, collider.shape.w, from, direction);
-    return box_exit(collider.second.xyz, offset, direction);
+        return capsule_exit(collider.shape.xyz, collider.shape.w, from, direction);
+    return box_exit(collider.shape.xyz, from, direction);
 }
 
 // Of the kinds that have another side, for paths that start outside.
 Entry convex_entry(ColliderRecord collider, vec3 from, vec3 to)
 {
-    const vec3 offset = from - collider.shape.xyz;
     if (collider.kind == VOILE_COLLIDER_SPHERE)
-        return sphere_entry(offset, to - from, collider.shape.w);
+        return sphere_entry(from, to - from, collider.shape.w);
     if (collider.kind == VOILE_COLLIDER_CAPSULE)
-        return capsule_entry(collider.shape.xyz, collider.second.xyz, collider.shape.w, from, to - from);
-    return box_entry(collider.second.xyz, offset, to - from);
+        return capsule_entry(collider.shape.xyz, collider.shape.w, from, to - from);
+    return box_entry(collider.shape.xyz, from, to - from);
 }
 
 #endif

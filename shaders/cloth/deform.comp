@@ -19,7 +19,7 @@ void main()
         return;
     const uint word = push.first_word + i * push.stride;
     vec3 p = (push.transform * vec4(words[word], words[word + 1], words[word + 2], 1)).xyz;
-    if (any(isnan(p)) || any(greaterThan(abs(p), vec3(VOILE_MOST_COORDINATE))))
+    if (any(isnan(p)) || any(greaterThan(abs(p + push.origin), vec3(VOILE_MOST_COORDINATE))))
         p = deforming_positions[push.first_from + i].xyz;
     deforming_positions[push.first_to + i] = vec4(p, 0);
 }

@@ -9,7 +9,7 @@
 // and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the
 // last word.
 // Reads: the chunks that are near (feature_reach.comp), cloths, chunks, mesh lists, colliders and their motions, features and
-// their hierarchy, positions before the substep, proposed state.
+// their hierarchy, positions before the substep, proposed state, residuals of both.
 // Writes: corrections of vertices that meet something, which the contact pass adds to the proposed state; predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -34,6 +34,8 @@ layout(set = 0, binding = 12, std430) readonly buffer FeatureNodes { BvhNode bvh
 layout(set = 0, binding = 13, std430) readonly buffer Features { Feature features[]; };
 layout(set = 0, binding = 14, std430) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
 layout(set = 0, binding = 15, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(set = 0, binding = 16, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
 
@@ -71,13 +73,15 @@ void visit_collider(uint c, vec2 fabric_friction, uint part, uint parts)
     const FeatureSet set = feature_sets[c];
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
+    collider_index = c;
+    collider_flags = collider.flags;
     collider_moves = is_moved(collider.flags);
     if (collider_moves)
     {
         pose_from = pose_at(c, push.progress_from);
         pose_to = pose_at(c, push.progress_to);
     }
-    piece.a = traveller(self.earlier, self.place, self.velocity);
+    piece.a = traveller(self.earlier, self.place, self.velocity, self.inverse_mass);
     // Most vertices are told by their own place alone that they are far from everything.
     const float loose = VOILE_MOST_STRETCH * set.edge;
     const vec3 low = min(piece.a.from, piece.a.to) - loose;
@@ -102,15 +106,16 @@ void visit_colliders(uint part, uint parts)
 {
     const uint i = self.vertex.index;
     const uint cloth = self.vertex.cloth;
-    self.earlier = earlier_positions[i].xyz;
-    self.place = proposed_positions[i];
+    self.earlier = earlier_position(i);
+    self.place = proposed_position(i);
+    self.inverse_mass = proposed_positions[i].w;
     self.velocity = proposed_velocities[i].xyz;
     self.thickness = cloths[cloth].thickness;
-    if (self.place.w == 0)
+    if (self.inverse_mass == 0)
         return;
     const vec2 fabric_friction = vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
-    ColliderWalk walk = walk_colliders(near_chunks[gl_WorkGroupID.x], min(self.earlier, self.place.xyz),
-                                       max(self.earlier, self.place.xyz));
+    ColliderWalk walk = walk_colliders(near_chunks[gl_WorkGroupID.x], min(self.earlier.x, self.place.x),
+                                       max(self.earlier.x, self.place.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, fabric_friction, part, parts);

@@ -1,7 +1,7 @@
 // The triangles and edges around a vertex of a cloth, one after the other, and where they go in a substep.
 //
-// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[] and
-// proposed_velocities[], and includes chunk.glsl, collider_pose.glsl and mesh.glsl before.
+// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[], the residuals
+// of both and proposed_velocities[], and includes chunk.glsl, collider_pose.glsl and mesh.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 
@@ -12,14 +12,17 @@ const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1
 struct Self
 {
     ChunkVertex vertex;
-    vec3 earlier; // m, before the substep
-    vec4 place;   // proposed; w: inverse mass
+    FinePosition earlier; // before the substep
+    FinePosition place;   // proposed
+    float inverse_mass;
     vec3 velocity;
     float thickness;
 };
 Self self;
 
 // The collider that is being looked at, in whose space places are.
+uint collider_index;
+uint collider_flags;
 bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
@@ -33,9 +36,20 @@ struct Traveller
     float inverse_mass;
 };
 
-Traveller traveller(vec3 earlier, vec4 place, vec3 velocity)
+FinePosition earlier_position(uint index)
 {
-    Traveller result = Traveller(earlier, place.xyz, velocity, place.w);
+    return FinePosition(earlier_positions[index].xyz, unpack_residual(earlier_residuals[index]));
+}
+
+FinePosition proposed_position(uint index)
+{
+    return FinePosition(proposed_positions[index].xyz, unpack_residual(proposed_residuals[index]));
+}
+
+Traveller traveller(FinePosition earlier, FinePosition place, vec3 velocity, float inverse_mass)
+{
+    Traveller result = Traveller(from_origin(collider_index, collider_flags, earlier),
+                                 from_origin(collider_index, collider_flags, place), velocity, inverse_mass);
     if (collider_moves)
     {
         result.from = to_collider(pose_from, result.from);
@@ -46,7 +60,8 @@ Traveller traveller(vec3 earlier, vec4 place, vec3 velocity)
 
 Traveller traveller(uint index)
 {
-    return traveller(earlier_positions[index].xyz, proposed_positions[index], proposed_velocities[index].xyz);
+    return traveller(earlier_position(index), proposed_position(index), proposed_velocities[index].xyz,
+                     proposed_positions[index].w);
 }
 
 // How many triangles there may be around the vertex.

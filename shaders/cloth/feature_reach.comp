@@ -54,12 +54,13 @@ void look(uint c, uint cloth, vec3 place, float margin)
 {
     const FeatureSet set = feature_sets[c];
     const uint flags = colliders[c].flags;
-    vec3 from = place;
-    vec3 to = place;
+    // The residual is far less than the cloth's edges.
+    vec3 from = from_origin(c, flags, FinePosition(place, vec3(0)));
+    vec3 to = from;
     if (is_moved(flags))
     {
-        from = to_collider(pose_at(c, push.progress_from), place);
-        to = to_collider(pose_at(c, push.progress_to), place);
+        from = to_collider(pose_at(c, push.progress_from), to);
+        to = to_collider(pose_at(c, push.progress_to), to);
         margin += 0.5 * distance(from, to); // on the arc between them
     }
     const float reach = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;

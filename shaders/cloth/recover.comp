@@ -9,7 +9,7 @@
 // nearest place of the surface has one. Of it, what is along the cloth's normal counts most: sheets go out in one piece,
 // and are not torn apart in the middle. The contact pass takes the vertex along in each substep: in jumps of a whole step
 // neighbors would part so far that springs throw them.
-// Reads: cloths, chunks, positions, normals, colliders and their motions, hierarchies. Writes: depenetrations of all vertices;
+// Reads: cloths, chunks, positions, residuals, normals, colliders and their motions, hierarchies. Writes: depenetrations of all vertices;
 // if any is inside, the size of the next step's dispatch and the votes of cloths.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -38,6 +38,7 @@ layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 
 layout(set = 0, binding = 12, std430) buffer NextVotes { uint next_votes[]; }; // one per cloth
 layout(set = 0, binding = 13, std430) readonly buffer LastVotes { uint last_votes[]; };
 layout(set = 0, binding = 14, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
 
@@ -71,9 +72,9 @@ bool is_solid(ColliderRecord collider)
     return is_convex(collider) || (collider.flags & k_solid_flags) == k_solid_flags;
 }
 
-// Where a point of the world is in a collider's space at the step's start, and back.
-vec3 into_collider(uint c, uint flags, vec3 x) { return is_moved(flags) ? to_collider(pose_at(c, 0), x) : x; }
-vec3 out_of_collider(uint c, uint flags, vec3 x) { return is_moved(flags) ? to_world(pose_at(c, 0), x) : x; }
+// Of a direction, between the world and a collider's space at the step's start.
+vec3 turned_into(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate_back(pose_at(c, 0).rotation, v) : v; }
+vec3 turned_out_of(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate(pose_at(c, 0).rotation, v) : v; }
 
 bool is_inside(uint c, ColliderRecord collider, vec3 local)
 {
@@ -82,24 +83,26 @@ bool is_inside(uint c, ColliderRecord collider, vec3 local)
     return is_solid(collider) && in_box(collider, local) && line_winding(c, collider, local, 1) > 0;
 }
 
-// Whether a collider is in the way from a vertex to the place where it would come out: it is under another surface there,
-// or another side of an open mesh.
-bool obstructs(uint c, ColliderRecord collider, vec3 from, vec3 to)
+// Whether a collider is in the way of a vertex that would come out by a displacement, m: it is under another surface there, or
+// on another side of an open mesh.
+bool obstructs(uint c, ColliderRecord collider, FinePosition from, vec3 displacement)
 {
-    const vec3 end = into_collider(c, collider.flags, to);
+    const vec3 start = into_collider(c, collider.flags, from, 0);
+    const vec3 end = start + turned_into(c, collider.flags, displacement);
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return plane_surface(collider, end).distance < 0;
     if (is_solid(collider))
         return is_inside(c, collider, end);
-    return crosses(c, collider, into_collider(c, collider.flags, from), end, false);
+    return crosses(c, collider, start, end, false);
 }
 
-bool leads_out(vec3 from, vec3 to, uint layers)
+bool leads_out(FinePosition from, vec3 displacement, uint layers)
 {
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from, to), max(from, to));
+    const vec3 to = from.x + displacement;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from.x, to), max(from.x, to));
     uint c;
     while (next_collider(walk, c))
-        if ((colliders[c].layers & layers) != 0 && obstructs(c, colliders[c], from, to))
+        if ((colliders[c].layers & layers) != 0 && obstructs(c, colliders[c], from, displacement))
             return false;
     return true;
 }
@@ -138,7 +141,7 @@ vec2 line_exits(uint c, ColliderRecord collider, vec3 local, int axis)
 
 // Of the ways that lead out of all colliders, or, where none does, of all.
 // `width`: m, of the solid there, along the axis along which it is thinnest.
-Field field_at(uint c, ColliderRecord collider, vec3 x, vec3 local, float thickness, uint layers, out float width)
+Field field_at(uint c, ColliderRecord collider, FinePosition x, vec3 local, float thickness, uint layers, out float width)
 {
     width = 3e38;
     Field all_ways = Field(vec3(0), 0);
@@ -152,8 +155,8 @@ Field field_at(uint c, ColliderRecord collider, vec3 x, vec3 local, float thickn
             vec3 direction = vec3(0);
             direction[axis] = way == 0 ? 1 : -1;
             add(all_ways, direction, exits[way]);
-            const vec3 end = local + (exits[way] + 0.01 * thickness) * direction;
-            if (leads_out(x, out_of_collider(c, collider.flags, end), layers))
+            const vec3 displacement = (exits[way] + 0.01 * thickness) * direction;
+            if (leads_out(x, turned_out_of(c, collider.flags, displacement), layers))
                 add(free_ways, direction, exits[way]);
         }
     }
@@ -187,14 +190,13 @@ float way_out(uint c, ColliderRecord collider, vec3 local, vec3 direction, float
 
 // What is left of the way at full speed is shared out evenly between the last two steps: whole ones would end beside the offset
 // surface.
-Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collider, vec3 local)
+Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collider, FinePosition x, vec3 local)
 {
     const float thickness = cloths[cloth].thickness;
     const uint layers = cloths[cloth].layers;
-    const bool moved = is_moved(collider.flags);
-    const vec3 normal = moved ? rotate_back(pose_at(c, 0).rotation, normals[i].xyz) : normals[i].xyz;
+    const vec3 normal = turned_into(c, collider.flags, normals[i].xyz);
     float width;
-    const Field field = field_at(c, collider, positions[i].xyz, local, thickness, layers, width);
+    const Field field = field_at(c, collider, x, local, thickness, layers, width);
     const float size = length(field.sum);
     // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
     const bool alone = width < spacing(cloth) && size > 0;
@@ -202,24 +204,23 @@ Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collid
     const float most = VOILE_OUT_SPEED * push.step;
     const float way = way_out(c, collider, local, direction, thickness, 2 * most);
     const float reach = way < most ? way : way < 2 * most ? 0.5 * way : most;
-    const vec3 out_of_it = moved ? rotate(pose_at(c, 0).rotation, direction) : direction;
-    return Depenetration(reach / push.step * out_of_it, c + 1);
+    return Depenetration(reach / push.step * turned_out_of(c, collider.flags, direction), c + 1);
 }
 
 Depenetration find_depenetration(uint i, uint cloth)
 {
-    const vec4 x = positions[i];
+    const FinePosition x = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
     const uint layers = cloths[cloth].layers;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x.xyz, x.xyz);
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x.x, x.x);
     uint c;
-    while (x.w > 0 && next_collider(walk, c))
+    while (positions[i].w > 0 && next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if (!is_solid(collider) || (collider.layers & layers) == 0)
             continue;
-        const vec3 local = into_collider(c, collider.flags, x.xyz);
+        const vec3 local = into_collider(c, collider.flags, x, 0);
         if (is_inside(c, collider, local))
-            return depenetration_of(i, cloth, c, collider, local);
+            return depenetration_of(i, cloth, c, collider, x, local);
     }
     return Depenetration(vec3(0), 0);
 }

@@ -105,17 +105,17 @@ float depth_in(uint c, ColliderRecord collider, vec3 place)
     return is_in_mesh(c, collider, place) ? nearest_distance(c, collider, place, 3e38) : 0;
 }
 
-void measure_penetration(vec3 x, uint layers, inout StatisticsRecord record)
+void measure_penetration(FinePosition p, uint layers, inout StatisticsRecord record)
 {
     solid_at_end = true;
     float depth = 0;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x, x);
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, p.x, p.x);
     uint c;
     while (next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if ((collider.layers & layers) != 0)
-            depth = max(depth, depth_in(c, collider, is_moved(collider.flags) ? to_collider(pose_at(c, 1), x) : x));
+            depth = max(depth, depth_in(c, collider, into_collider(c, collider.flags, p, 1)));
     }
     record.deepest_penetration = depth;
     record.penetrating_vertices = depth > 0 ? 1 : 0;
@@ -147,7 +147,7 @@ void main()
                 measure_grid_springs(self, record);
             else
                 measure_mesh_springs(cloth, self.local, record);
-            measure_penetration(x.xyz, cloths[cloth].layers, record);
+            measure_penetration(position_of(i), cloths[cloth].layers, record);
             if (push.colliders > 0)
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;

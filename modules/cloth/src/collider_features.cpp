@@ -36,13 +36,12 @@ bool is_thin(float radius, const FeatureScale& scale)
 
 std::vector<Feature> box_features(const shared::ColliderRecord& record)
 {
-    const glm::vec3 centre(record.shape);
-    const glm::vec3 half(record.second);
+    const glm::vec3 half(record.shape);
     std::vector<Feature> features;
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        const glm::vec3 place = centre + sign * half;
+        const glm::vec3 place = sign * half;
         features.push_back({place, 0, place, std::sqrt(1 / 3.f), glm::normalize(sign), 0});
         for (int axis = 0; axis < 3; ++axis)
         {
@@ -68,7 +67,7 @@ std::vector<Feature> features_of(const Model& model, const shared::ColliderRecor
 {
     if (scale.edge == 0)
         return {};
-    const glm::vec3 place(record.shape);
+    const glm::vec3 end(record.shape); // of a capsule
     const float radius = record.shape.w;
     switch (record.kind)
     {
@@ -78,12 +77,12 @@ std::vector<Feature> features_of(const Model& model, const shared::ColliderRecor
         return box_features(record);
     case VOILE_COLLIDER_SPHERE:
         if (is_thin(radius, scale))
-            return {round_feature(place, place, radius)};
+            return {round_feature(glm::vec3(0), glm::vec3(0), radius)};
         return {};
     case VOILE_COLLIDER_CAPSULE:
         if (is_thin(radius, scale))
-            return {round_feature(place, place, radius), round_feature(place, glm::vec3(record.second), radius),
-                    round_feature(glm::vec3(record.second), glm::vec3(record.second), radius)};
+            return {round_feature(-end, -end, radius), round_feature(-end, end, radius),
+                    round_feature(end, end, radius)};
         return {};
     default:
         return {};

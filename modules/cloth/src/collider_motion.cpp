@@ -1,6 +1,8 @@
 // How colliders move: poses of the host's as the GPU reads them.
 #include "collider_motion.hpp"
 
+#include "rounding.hpp"
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
@@ -11,33 +13,17 @@ namespace cloth
 namespace
 {
 
-glm::quat rotation_of(const glm::mat4& rigid)
+glm::dquat rotation_of(const glm::dmat4& rigid)
 {
-    return glm::normalize(glm::quat_cast(glm::mat3(rigid)));
+    return glm::normalize(glm::quat_cast(glm::dmat3(rigid)));
 }
 
-glm::vec4 components(const glm::quat& q)
+glm::vec4 components(const glm::dquat& q)
 {
-    return {q.x, q.y, q.z, q.w};
+    return glm::dvec4(q.x, q.y, q.z, q.w);
 }
 
 } // namespace
-
-glm::vec3 center_of(const shared::ColliderRecord& record)
-{
-    const glm::vec3 shape(record.shape);
-    switch (record.kind)
-    {
-    case VOILE_COLLIDER_MESH:
-        return 0.5f * (record.box_min + record.box_max);
-    case VOILE_COLLIDER_PLANE:
-        return record.shape.w * shape;
-    case VOILE_COLLIDER_CAPSULE:
-        return 0.5f * (shape + glm::vec3(record.second));
-    default:
-        return shape;
-    }
-}
 
 bool is_rigid(const glm::mat4& transform)
 {
@@ -58,18 +44,22 @@ bool is_rigid(const glm::mat4& transform)
 shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose,
                                    std::span<const Deformation> deformations)
 {
-    const glm::mat4 from = pose.from * model.placements[collider];
-    const glm::mat4 to = pose.to * model.placements[collider];
-    const glm::quat rotation_from = rotation_of(from);
-    glm::quat rotation_to = rotation_of(to);
+    // In double: floats of what is far from the origin are coarse.
+    const glm::dmat4 placement(model.placements[collider]);
+    const glm::dmat4 from = glm::dmat4(pose.from) * placement;
+    const glm::dmat4 to = glm::dmat4(pose.to) * placement;
+    const glm::dquat rotation_from = rotation_of(from);
+    glm::dquat rotation_to = rotation_of(to);
     if (glm::dot(rotation_from, rotation_to) < 0)
         rotation_to = -rotation_to; // the shorter way
     shared::ColliderMotion motion{};
     motion.rotation_from = components(rotation_from);
     motion.rotation_to = components(rotation_to);
-    motion.center = center_of(model.colliders[collider]);
-    motion.place_from = glm::vec3(from * glm::vec4(motion.center, 1));
-    motion.place_to = glm::vec3(to * glm::vec4(motion.center, 1));
+    const glm::dvec4 origin(model.origins[collider], 1);
+    const glm::dvec3 place_from(from * origin);
+    motion.origin = rounded(place_from);
+    motion.place_from = place_from - glm::dvec3(motion.origin);
+    motion.place_to = glm::dvec3(to * origin) - glm::dvec3(motion.origin);
     for (size_t i = 0; i < model.deforming.size(); ++i)
         if (model.deforming[i].collider == collider)
         {

@@ -30,9 +30,6 @@ inline bool is_moving(const shared::ColliderRecord& collider)
     return (collider.flags & (VOILE_COLLIDER_MOVED | VOILE_COLLIDER_DEFORMS)) != 0;
 }
 
-// The point of a collider that goes straight when it moves, in the collider's space.
-glm::vec3 center_of(const shared::ColliderRecord& record);
-
 // Whether a transform turns and moves without scale or reflection: finite, columns of unit length and at right angles
 // within 1e-4.
 bool is_rigid(const glm::mat4& transform);

@@ -1,6 +1,7 @@
 // Colliders with a formula: validation and records. Meshes are in mesh_collider.cpp.
 #include "collider_motion.hpp"
 #include "model.hpp"
+#include "rounding.hpp"
 
 #include <cmath>
 
@@ -67,13 +68,28 @@ shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, cons
     return record;
 }
 
-ColliderId Model::append(const shared::ColliderRecord& record, const glm::mat4& placement)
+// m: what floats may take from where a collider is. Beyond it has the finer position of those that move.
+constexpr double k_most_origin_error = 1e-5;
+
+ColliderId Model::append(const shared::ColliderRecord& record, const glm::dvec3& origin, const glm::mat4& placement)
 {
     colliders.push_back(record);
     placements.push_back(placement);
-    if (placement != glm::mat4(1))
+    origins.push_back(origin);
+    colliders.back().origin = rounded(origin);
+    if (placement != glm::mat4(1) || glm::distance(origin, glm::dvec3(rounded(origin))) > k_most_origin_error)
         colliders.back().flags |= VOILE_COLLIDER_MOVED;
     return {static_cast<uint32_t>(colliders.size() - 1)};
+}
+
+void Model::place_plane(const Plane& plane, const glm::dvec3& point)
+{
+    shared::ColliderRecord& record = colliders[plane.collider];
+    const glm::dvec3 normal(record.shape);
+    const auto offset = static_cast<double>(plane.offset);
+    record.origin = rounded(point - (glm::dot(normal, point) - offset) * normal);
+    origins[plane.collider] = record.origin;
+    record.shape.w = static_cast<float>(offset - glm::dot(normal, glm::dvec3(record.origin)));
 }
 
 Result<ColliderId> Model::add(const PlaneCollider& collider)
@@ -85,8 +101,10 @@ Result<ColliderId> Model::add(const PlaneCollider& collider)
     if (!checks.status())
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
-    record.shape = glm::vec4(glm::normalize(collider.normal), collider.offset);
-    return append(record, glm::mat4(1));
+    record.shape = glm::vec4(glm::normalize(collider.normal), 0);
+    const ColliderId id = append(record, glm::dvec3(0));
+    place_plane(planes.emplace_back(Plane{id.index, collider.offset}), glm::dvec3(0));
+    return id;
 }
 
 Result<ColliderId> Model::add(const SphereCollider& collider)
@@ -97,8 +115,8 @@ Result<ColliderId> Model::add(const SphereCollider& collider)
     if (!checks.status())
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_SPHERE, collider.layers, collider.friction);
-    record.shape = glm::vec4(collider.center, collider.radius);
-    return append(record, glm::mat4(1));
+    record.shape = glm::vec4(glm::vec3(0), collider.radius);
+    return append(record, collider.center);
 }
 
 Result<ColliderId> Model::add(const CapsuleCollider& collider)
@@ -110,9 +128,10 @@ Result<ColliderId> Model::add(const CapsuleCollider& collider)
     if (!checks.status())
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_CAPSULE, collider.layers, collider.friction);
-    record.shape = glm::vec4(collider.from, collider.radius);
-    record.second = glm::vec4(collider.to, 0);
-    return append(record, glm::mat4(1));
+    const glm::dvec3 from(collider.from);
+    const glm::dvec3 to(collider.to);
+    record.shape = glm::dvec4(0.5 * (to - from), collider.radius);
+    return append(record, 0.5 * (from + to));
 }
 
 Result<ColliderId> Model::add(const BoxCollider& collider)
@@ -130,9 +149,10 @@ Result<ColliderId> Model::add(const BoxCollider& collider)
     if (!checks.status())
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_BOX, collider.layers, collider.friction);
-    record.shape = glm::vec4(0.5f * (collider.min + collider.max), 0);
-    record.second = glm::vec4(0.5f * (collider.max - collider.min), 0);
-    return append(record, collider.transform);
+    const glm::dvec3 min(collider.min);
+    const glm::dvec3 max(collider.max);
+    record.shape = glm::dvec4(0.5 * (max - min), 0);
+    return append(record, 0.5 * (min + max), collider.transform);
 }
 
 } // namespace cloth

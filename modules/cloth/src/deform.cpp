@@ -21,7 +21,11 @@ uint32_t stride_of(const Deformation& deformation)
 void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh,
                      const Deformation& deformation)
 {
-    const shared::DeformPush push{mesh.transform,
+    const glm::vec3 origin = solver.model.colliders[mesh.collider].origin;
+    glm::dmat4 transform(mesh.transform);
+    transform[3] -= glm::dvec4(origin, 0);
+    const shared::DeformPush push{glm::mat4(transform),
+                                  origin,
                                   static_cast<uint32_t>(input_offset(mesh) / sizeof(float)),
                                   stride_of(deformation) / static_cast<uint32_t>(sizeof(float)),
                                   mesh.first(deformation.now),

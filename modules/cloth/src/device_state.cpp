@@ -227,7 +227,8 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                      s.feature_corrections.handle(), s.feature_chunks.handle(), p.predicted.handle(),
                      s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(),
                      s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
-                     s.features.handle(), p.earlier.positions.handle(), s.near_colliders.handle()});
+                     s.features.handle(), p.earlier.positions.handle(), s.near_colliders.handle(),
+                     p.state.residuals.handle(), p.earlier.residuals.handle()});
     }
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
@@ -299,7 +300,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
                      s.normals.handle(), s.colliders.handle(), s.collider_motions.handle(), s.nodes.handle(),
                      s.triangles.handle(), s.padded_boxes.handle(), s.padded_leaves.handle(),
                      s.deforming_positions.handle(), s.recovery_votes[i].handle(), s.recovery_votes[1 - i].handle(),
-                     s.near_colliders.handle()});
+                     s.near_colliders.handle(), s.state.residuals.handle()});
     binder.bind(s.deform, kernels.deform, {s.deforming_input.handle(), s.deforming_positions.handle()});
     binder.bind(s.refit, kernels.refit.leaves,
                 {s.padded_leaves.handle(), s.deforming_positions.handle(), s.padded_boxes.handle()});

@@ -74,13 +74,13 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
 }
 
 // m, at most: how far a pose takes what lies within `radius` of `center`.
-float way_of(const glm::mat4& from, const glm::mat4& to, const glm::vec3& center, float radius)
+float way_of(const glm::mat4& from, const glm::mat4& to, const glm::dvec3& center, double radius)
 {
-    const glm::mat4 change = to - from;
-    float squares = 0;
+    const glm::dmat4 change = glm::dmat4(to) - glm::dmat4(from);
+    double squares = 0;
     for (int column = 0; column < 3; ++column)
-        squares += glm::dot(glm::vec3(change[column]), glm::vec3(change[column]));
-    return glm::length(glm::vec3(change * glm::vec4(center, 1))) + std::sqrt(squares) * radius;
+        squares += glm::dot(glm::dvec3(change[column]), glm::dvec3(change[column]));
+    return static_cast<float>(glm::length(glm::dvec3(change * glm::dvec4(center, 1))) + std::sqrt(squares) * radius);
 }
 
 // Of anchors, and of colliders that have no box, what lies within a metre of their origin counts.
@@ -88,14 +88,14 @@ float farthest_motion(const Solver::State& solver)
 {
     float farthest = 0;
     for (const Anchor& anchor : solver.anchors)
-        farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::vec3(0), 1));
+        farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::dvec3(0), 1));
     for (size_t i = 0; i < solver.colliders.size(); ++i)
     {
         const ColliderPose& pose = solver.colliders[i];
         const shared::ColliderRecord& record = solver.model.colliders[i];
         const bool has_box = record.kind == VOILE_COLLIDER_MESH;
-        const glm::vec3 center = has_box ? 0.5f * (record.box_min + record.box_max) : glm::vec3(0);
-        const float radius = has_box ? 0.5f * glm::distance(record.box_min, record.box_max) : 1;
+        const glm::dvec3 center = has_box ? solver.model.origins[i] : glm::dvec3(0);
+        const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
         farthest = std::max(farthest, way_of(pose.from, pose.to, center, radius));
     }
     return farthest;
@@ -162,6 +162,9 @@ void Solver::State::update_passes()
     passes.convex =
         any_collider([](const auto& collider)
                      { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
+    passes.mesh_extent = 0;
+    for (const shared::ColliderRecord& collider : present)
+        passes.mesh_extent = std::max(passes.mesh_extent, collider.extent);
     passes.features = device->feature_count > 0;
     passes.recover =
         options.recovery &&

@@ -34,10 +34,13 @@ std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t l
     const shared::ColliderRecord& record = model.colliders[collider.index];
     if (record.kind != VOILE_COLLIDER_MESH || (record.flags & VOILE_COLLIDER_DEFORMS) != 0)
         return {};
-    if (level == 0)
-        return {{record.box_min, record.box_max}};
     std::vector<BoundingBox> boxes;
-    collect(&model.nodes[record.first_node], 0, level, boxes);
+    if (level == 0)
+        boxes.push_back({record.box_min, record.box_max});
+    else
+        collect(&model.nodes[record.first_node], 0, level, boxes);
+    for (BoundingBox& box : boxes)
+        box = {box.min + record.origin, box.max + record.origin};
     return boxes;
 }
 

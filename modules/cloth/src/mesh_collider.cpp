@@ -11,6 +11,18 @@
 namespace cloth
 {
 
+namespace
+{
+
+// m, that a mesh has at most along an axis from its origin.
+float extent_of(const shared::ColliderRecord& mesh)
+{
+    const glm::vec3 extent = glm::max(glm::abs(mesh.box_min), glm::abs(mesh.box_max));
+    return std::max({extent.x, extent.y, extent.z});
+}
+
+} // namespace
+
 ColliderId Model::append_deforming(shared::ColliderRecord record, const MeshInput& mesh, const glm::mat4& transform)
 {
     const PaddedTree tree = build_padded_tree(mesh.positions, mesh.triangles);
@@ -18,15 +30,17 @@ ColliderId Model::append_deforming(shared::ColliderRecord record, const MeshInpu
     record.first_node = aligned_first_box(padded_boxes);
     record.first_triangle = static_cast<uint32_t>(padded_leaves.size());
     record.triangles = tree.triangles;
-    record.box_min = record.box_max = mesh.positions.front();
-    for (const glm::vec3& p : mesh.positions)
-    {
-        record.box_min = glm::min(record.box_min, p);
-        record.box_max = glm::max(record.box_max, p);
-    }
+    record.box_min = record.box_max = mesh.positions[mesh.triangles.front().x];
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            record.box_min = glm::min(record.box_min, mesh.positions[t[corner]]);
+            record.box_max = glm::max(record.box_max, mesh.positions[t[corner]]);
+        }
+    record.extent = extent_of(record);
     padded_boxes = record.first_node + static_cast<uint32_t>(tree.boxes());
     padded_leaves.insert(padded_leaves.end(), tree.leaves.begin(), tree.leaves.end());
-    const ColliderId id = append(record, glm::mat4(1));
+    const ColliderId id = append(record, mesh.origin);
     deforming.push_back({id.index, static_cast<uint32_t>(mesh.positions.size()),
                          static_cast<uint32_t>(deforming_positions.size()), transform});
     for (int half = 0; half < 2; ++half)
@@ -91,7 +105,8 @@ Result<ColliderId> Model::add(const MeshCollider& collider)
     record.box_max = glm::max(root.left_max, root.right_max);
     nodes.insert(nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
     triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
-    return append(record, glm::mat4(1));
+    record.extent = extent_of(record);
+    return append(record, mesh.value().origin);
 }
 
 } // namespace cloth

@@ -153,31 +153,34 @@ bool MeshDistance::has_sides() const
 MeshDistance::Nearest MeshDistance::nearest(const glm::dvec3& point) const
 {
     Nearest result;
-    const auto found = nearest_point(state_->bvh, point, std::numeric_limits<double>::infinity());
+    const glm::dvec3 origin(state_->mesh.origin);
+    const glm::dvec3 local = point - origin;
+    const auto found = nearest_point(state_->bvh, local, std::numeric_limits<double>::infinity());
     if (!found) // only where the point is not finite
         return result;
     const TriangleNormals& normals = state_->normals[found->triangle];
     const auto feature = static_cast<size_t>(found->feature);
-    result.point = found->point;
+    result.point = found->point + origin;
     result.on_boundary = normals.boundary[feature];
-    const bool behind = glm::dot(point - found->point, normals.normals[feature]) < 0;
+    const bool behind = glm::dot(local - found->point, normals.normals[feature]) < 0;
     result.signed_distance = behind ? -found->distance : found->distance;
     return result;
 }
 
 double MeshDistance::winding_number(const glm::dvec3& point) const
 {
+    const glm::dvec3 local = point - glm::dvec3(state_->mesh.origin);
     if (state_->mesh.closed)
-        return line_winding(state_->bvh, point);
+        return line_winding(state_->bvh, local);
     double angles = 0;
     for (const shared::BvhTriangle& t : state_->bvh.triangles)
-        angles += solid_angle(glm::dvec3(t.a) - point, glm::dvec3(t.b) - point, glm::dvec3(t.c) - point);
+        angles += solid_angle(glm::dvec3(t.a) - local, glm::dvec3(t.b) - local, glm::dvec3(t.c) - local);
     return angles / (4 * std::numbers::pi);
 }
 
 std::optional<double> MeshDistance::crossing(const glm::dvec3& from, const glm::dvec3& to) const
 {
-    const auto hit = nearest_hit(state_->bvh, from, to - from, 1);
+    const auto hit = nearest_hit(state_->bvh, from - glm::dvec3(state_->mesh.origin), to - from, 1);
     return hit ? std::optional<double>(hit->t) : std::nullopt;
 }
 

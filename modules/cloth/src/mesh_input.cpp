@@ -3,6 +3,7 @@
 
 #include "mesh_parts.hpp"
 #include "model.hpp"
+#include "rounding.hpp"
 
 #include <algorithm>
 
@@ -24,20 +25,37 @@ Result<void> validate(const MeshCollider& collider)
     return check_friction(collider.name, collider.friction);
 }
 
-std::vector<glm::vec3> to_world(const MeshCollider& collider)
+std::vector<glm::dvec3> to_world(const MeshCollider& collider)
 {
-    std::vector<glm::vec3> world;
+    const glm::dmat4 transform(collider.transform);
+    std::vector<glm::dvec3> world;
     world.reserve(collider.positions.size());
     for (const glm::vec3& p : collider.positions)
-        world.emplace_back(collider.transform * glm::vec4(p, 1));
+        world.emplace_back(transform * glm::dvec4(p, 1));
     return world;
 }
 
 // A triangle whose normal vanishes in float has no side to push to.
-bool has_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t)
+bool has_area(const std::vector<glm::dvec3>& positions, const glm::uvec3& t)
 {
-    const glm::vec3 n = glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
+    const glm::vec3 a(positions[t.y] - positions[t.x]);
+    const glm::vec3 b(positions[t.z] - positions[t.x]);
+    const glm::vec3 n = glm::cross(a, b);
     return glm::dot(n, n) > 1e-30f;
+}
+
+// Of what is part of a triangle: vertices without one may be anywhere.
+glm::dvec3 middle_of(const std::vector<glm::dvec3>& positions, std::span<const glm::uvec3> triangles)
+{
+    glm::dvec3 min = positions[triangles.front().x];
+    glm::dvec3 max = min;
+    for (const glm::uvec3& t : triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            min = glm::min(min, positions[t[corner]]);
+            max = glm::max(max, positions[t[corner]]);
+        }
+    return 0.5 * (min + max);
 }
 
 } // namespace
@@ -62,17 +80,21 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
     if (auto valid = validate(collider); !valid)
         return valid.error();
     MeshInput mesh;
-    mesh.positions = to_world(collider);
+    const std::vector<glm::dvec3> world = to_world(collider);
+    mesh.positions.assign(world.begin(), world.end());
     if (auto range = check_positions(subject("collider", collider.name), mesh.positions,
                                      "its transform takes position ", " to ");
         !range)
         return range.error();
     mesh.triangles.reserve(collider.triangles.size());
     std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
-                 [&](const glm::uvec3& t) { return has_area(mesh.positions, t); });
+                 [&](const glm::uvec3& t) { return has_area(world, t); });
     if (mesh.triangles.empty())
         return invalid("collider", collider.name,
                        "none of its " + std::to_string(collider.triangles.size()) + " triangles has an area");
+    mesh.origin = rounded(middle_of(world, mesh.triangles));
+    std::transform(world.begin(), world.end(), mesh.positions.begin(),
+                   [&](const glm::dvec3& p) { return glm::vec3(p - glm::dvec3(mesh.origin)); });
 
     const std::vector<uint32_t> welded = weld(mesh.positions);
     mesh.closed = is_closed(welded, mesh.triangles);

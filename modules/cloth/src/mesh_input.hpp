@@ -9,11 +9,12 @@
 namespace cloth
 {
 
-// A collider's mesh in world space, without triangles that have no area; the parts of a closed one are turned outwards
-// (mesh_parts.hpp).
+// A collider's mesh in the world, seen from `origin`, without triangles that have no area; the parts of a closed one
+// are turned outwards (mesh_parts.hpp).
 struct MeshInput
 {
-    std::vector<glm::vec3> positions; // m
+    glm::vec3 origin{0.f};            // m, in the world: the middle of the mesh, rounded
+    std::vector<glm::vec3> positions; // m, from there
     std::vector<glm::uvec3> triangles;
     bool closed = false;
 };

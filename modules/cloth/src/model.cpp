@@ -24,7 +24,7 @@ static_assert(sizeof(shared::MeshCorner) == 8);
 static_assert(sizeof(shared::MembraneCorner) == 24);
 static_assert(sizeof(shared::Chunk) == 16);
 static_assert(sizeof(shared::ColliderRecord) == 96);
-static_assert(offsetof(shared::ColliderRecord, shape) == 64);
+static_assert(offsetof(shared::ColliderRecord, origin) == 80);
 static_assert(sizeof(shared::ColliderMotion) == 80);
 static_assert(offsetof(shared::ColliderMotion, place_to) == 64);
 static_assert(sizeof(shared::StagePush) == 72);

@@ -45,9 +45,16 @@ struct DeformingMesh
     uint32_t collider = 0;
     uint32_t vertices = 0;
     uint32_t first_vertex = 0; // in deforming_positions; as many again follow them
-    glm::mat4 transform{1.f};  // the collider's space from the mesh's
+    glm::mat4 transform{1.f};  // world from the mesh's space
 
     [[nodiscard]] uint32_t first(uint32_t half) const { return first_vertex + half * vertices; }
+};
+
+// A plane as it was added: normal . x = offset.
+struct Plane
+{
+    uint32_t collider = 0;
+    float offset = 0; // m
 };
 
 // Bytes from one vertex to the next in what the host gives for a deforming mesh, at most.
@@ -67,8 +74,10 @@ struct Model
     std::vector<shared::MembraneCorner> membrane_corners; // one for each of these
     std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
     std::vector<shared::ColliderRecord> colliders;
-    std::vector<glm::mat4> placements;    // of the colliders: world from their own space when they were added; rigid
-    std::vector<DeformingMesh> deforming; // in the order of their colliders
+    std::vector<glm::mat4> placements;    // of the colliders: the world when they were added, of boxes from their space
+    std::vector<glm::dvec3> origins;      // of the colliders, m, before their placement: records are told from there
+    std::vector<Plane> planes;            // in the order of their colliders
+    std::vector<DeformingMesh> deforming; // likewise
     std::vector<glm::vec4> deforming_positions;
     std::vector<shared::PaddedLeaf> padded_leaves;
     uint32_t padded_boxes = 0;
@@ -87,7 +96,10 @@ struct Model
     Result<ColliderId> add(const SphereCollider& collider);
     Result<ColliderId> add(const CapsuleCollider& collider);
     Result<ColliderId> add(const BoxCollider& collider);
-    ColliderId append(const shared::ColliderRecord& record, const glm::mat4& placement);
+    ColliderId append(const shared::ColliderRecord& record, const glm::dvec3& origin,
+                      const glm::mat4& placement = glm::mat4(1));
+    // Puts the origin of a plane where it is nearest to `point`, m, both before its placement.
+    void place_plane(const Plane& plane, const glm::dvec3& point);
     ColliderId append_deforming(shared::ColliderRecord record, const MeshInput& mesh, const glm::mat4& transform);
     [[nodiscard]] uint64_t bytes_with_deforming(const MeshInput& mesh) const;
 };

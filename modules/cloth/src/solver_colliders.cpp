@@ -24,7 +24,7 @@ Bvh bvh_of(const Model& model, uint32_t collider)
     return bvh;
 }
 
-// The nearest place of a collider's surface, both in the collider's space.
+// The nearest place of a collider's surface, both in the collider's space, as its record has it.
 using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
 
 glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& x)
@@ -34,15 +34,14 @@ glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const gl
     return a + std::clamp(t, 0.0, 1.0) * axis;
 }
 
-glm::dvec3 on_sphere(const glm::dvec3& center, double radius, const glm::dvec3& x)
+glm::dvec3 on_ball(const glm::dvec3& center, double radius, const glm::dvec3& x)
 {
     const double distance = glm::distance(x, center);
     return distance > 0 ? center + radius / distance * (x - center) : center + glm::dvec3(0, radius, 0);
 }
 
-glm::dvec3 on_box(const glm::dvec3& center, const glm::dvec3& half_size, const glm::dvec3& x)
+glm::dvec3 on_box(const glm::dvec3& half_size, const glm::dvec3& offset)
 {
-    const glm::dvec3 offset = x - center;
     const glm::dvec3 outside = glm::abs(offset) - half_size;
     glm::dvec3 place = glm::clamp(offset, -half_size, half_size);
     if (glm::all(glm::lessThan(outside, glm::dvec3(0))))
@@ -50,25 +49,24 @@ glm::dvec3 on_box(const glm::dvec3& center, const glm::dvec3& half_size, const g
         const int axis = outside.x >= outside.y && outside.x >= outside.z ? 0 : outside.y >= outside.z ? 1 : 2;
         place[axis] = offset[axis] < 0 ? -half_size[axis] : half_size[axis];
     }
-    return center + place;
+    return place;
 }
 
 FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
 {
     const shared::ColliderRecord& record = model.colliders[collider];
     const glm::dvec3 shape(record.shape);
-    const glm::dvec3 second(record.second);
     const auto size = static_cast<double>(record.shape.w);
     switch (record.kind)
     {
     case VOILE_COLLIDER_PLANE:
         return [=](const glm::dvec3& x) { return x - (glm::dot(shape, x) - size) * shape; };
     case VOILE_COLLIDER_SPHERE:
-        return [=](const glm::dvec3& x) { return on_sphere(shape, size, x); };
+        return [=](const glm::dvec3& x) { return on_ball(glm::dvec3(0), size, x); };
     case VOILE_COLLIDER_CAPSULE:
-        return [=](const glm::dvec3& x) { return on_sphere(nearest_on_segment(shape, second, x), size, x); };
+        return [=](const glm::dvec3& x) { return on_ball(nearest_on_segment(-shape, shape, x), size, x); };
     case VOILE_COLLIDER_BOX:
-        return [=](const glm::dvec3& x) { return on_box(shape, second, x); };
+        return [=](const glm::dvec3& x) { return on_box(shape, x); };
     default:
         return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
         {
@@ -88,8 +86,9 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     if (!is_rigid(motion))
         return Error{"collider " + std::to_string(collider.index) +
                      (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
-    const glm::vec3 center = center_of(s.model.colliders[collider.index]);
-    const glm::vec3 moved(motion * s.model.placements[collider.index] * glm::vec4(center, 1));
+    const glm::dvec4 center =
+        glm::dmat4(s.model.placements[collider.index]) * glm::dvec4(s.model.origins[collider.index], 1);
+    const glm::vec3 moved(glm::dvec3(glm::dmat4(motion) * center));
     if (auto range = check("collider " + std::to_string(collider.index), "its center", moved, k_most_coordinate, " m");
         !range)
         return range;
@@ -123,13 +122,15 @@ Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId col
     const FindSurface find = surface_finder(s.model, collider.index, limit);
     const glm::dmat4 placement(s.model.placements[collider.index]);
     const glm::dmat4 back = glm::inverse(placement);
+    const glm::dvec3 origin = s.model.origins[collider.index];
     const shared::ClothRecord& record = s.model.records[cloth.index];
     std::vector<Hold> holds;
     for (uint32_t i = 0; i < record.vertices; ++i)
     {
-        const glm::dvec3 x(back * glm::dvec4(glm::dvec3(s.model.start[record.first_vertex + i]), 1));
+        const glm::dvec3 world(s.model.start[record.first_vertex + i]);
+        const glm::dvec3 x = glm::dvec3(back * glm::dvec4(world, 1)) - origin;
         if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
-            holds.push_back({.vertex = i, .place = glm::vec3(placement * glm::dvec4(*place, 1))});
+            holds.push_back({.vertex = i, .place = glm::vec3(placement * glm::dvec4(*place + origin, 1))});
     }
     if (holds.empty())
         return invalid("cloth", name(cloth),

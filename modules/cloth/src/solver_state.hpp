@@ -39,6 +39,7 @@ struct Passes
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
     bool recover = false;        // colliders with an inside, out of which vertices are brought
+    float mesh_extent = 0;       // m, that a collider's mesh has at most along an axis from its origin
 };
 
 struct Anchor

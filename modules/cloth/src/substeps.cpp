@@ -207,6 +207,7 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.recovers = solver_.passes.recover ? 1 : 0;
     push.near_stride = device_.near_stride;
     push.recovery = recovery_word(solver_.recovery_step);
+    push.mesh_extent = solver_.passes.mesh_extent;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     recorder_.dispatch(contact_kernel(), device_.contact[in_stage_b(substep) ? 1 : 0], device_.chunk_count * group_,
                        group_, push);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace cloth
 {
@@ -68,6 +69,47 @@ private:
     std::vector<Copy> copies_;
 };
 
+struct Extent
+{
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+
+    void join(const Extent& other)
+    {
+        min = glm::min(min, other.min);
+        max = glm::max(max, other.max);
+    }
+};
+
+std::vector<Extent> cloth_extents(const Model& model)
+{
+    std::vector<Extent> extents(model.records.size());
+    for (size_t c = 0; c < extents.size(); ++c)
+        for (uint32_t i = 0; i < model.records[c].vertices; ++i)
+        {
+            const glm::dvec3 x(model.start[model.records[c].first_vertex + i]);
+            extents[c].join({x, x});
+        }
+    return extents;
+}
+
+// Planes have their origins near where the cloths that meet them start.
+void place_planes(Model& model, std::span<const ColliderPose> poses)
+{
+    const std::vector<Extent> extents = model.planes.empty() ? std::vector<Extent>() : cloth_extents(model);
+    for (const Plane& plane : model.planes)
+    {
+        Extent all;
+        for (size_t c = 0; c < extents.size(); ++c)
+            if ((model.records[c].layers & model.colliders[plane.collider].layers) != 0)
+                all.join(extents[c]);
+        if (all.min.x > all.max.x)
+            continue;
+        const glm::dvec4 middle(0.5 * (all.min + all.max), 1);
+        model.place_plane(plane, glm::dvec3(glm::inverse(glm::dmat4(poses[plane.collider].to)) * middle));
+    }
+}
+
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 0)
 {
@@ -105,6 +147,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
+    place_planes(s.model, s.colliders);
     std::vector<shared::ColliderMotion> motions;
     for (uint32_t i = 0; i < s.colliders.size(); ++i)
         motions.push_back(make_motion(s.model, i, s.colliders[i], s.deformations));

@@ -146,8 +146,9 @@ struct MeshCollider
 };
 
 // The hierarchies of the mesh colliders that were added last are kept for all solvers of the process: up to this many
-// bytes together, about 85 a triangle; those used longest ago go first. A mesh is the same if its triangles in world
-// space are, to the bit. 0 keeps none and frees what there is. From any thread, at any time.
+// bytes together, about 85 a triangle; those used longest ago go first. A mesh is the same if its triangles, in the
+// world's axes and seen from its middle, are, to the bit. 0 keeps none and frees what there is. From any thread, at any
+// time.
 constexpr uint64_t k_default_hierarchy_cache_limit = uint64_t{256} << 20;
 void set_hierarchy_cache_limit(uint64_t bytes);
 
@@ -156,7 +157,9 @@ struct PlaneCollider
 {
     std::string name = "plane";
     glm::vec3 normal{0, 1, 0}; // unit length
-    float offset = 0;          // m, -1e6..1e6; normal . x = offset on the plane
+    float offset = 0;          // m, -1e6..1e6; normal . x = offset on the plane. An inclined one is as precise at a
+                               // cloth as at the origin if the cloth is near the middle of those that it meets, where
+                               // they started
     std::optional<Friction> friction{};
     uint32_t layers = 1;
 };

@@ -10,6 +10,13 @@ namespace cloth
 
 // Positions, along each axis of the world: vertices of cloths and colliders where they are added, deform or are moved
 // to, centers of colliders, origins of anchors. A cloth may leave the range as it moves.
+//
+// Cloth and contact are computed from finer positions than floats: up to 16 km from the origin a scene does what it
+// does there to 0.1 %; at 130 km positions are known to 1e-7 m, enough that nothing falls through and all is finite.
+// What is given in floats is where these say: 1 mm apart at 10 km. So give what is far by a transform, or add it near
+// the origin and move it: rotations, sizes and the vertices of a mesh stay exact then. What is left of rounding lets
+// stiff cloth slip early on an incline: cotton of 5 cm spacing where static friction exceeds the slope by less than 1.3
+// % at 8 km and 2.7 % at 16 km, and by more the smaller the spacing is.
 constexpr float k_most_coordinate = 1e6f; // m, either way
 
 // A cloth's velocity at its start or as it is set, along each axis.
