@@ -30,12 +30,13 @@ ColliderId Model::append_deforming(shared::ColliderRecord record, const MeshInpu
     record.first_node = aligned_first_box(padded_boxes);
     record.first_triangle = static_cast<uint32_t>(padded_leaves.size());
     record.triangles = tree.triangles;
-    record.box_min = record.box_max = mesh.positions.front();
-    for (const glm::vec3& p : mesh.positions)
-    {
-        record.box_min = glm::min(record.box_min, p);
-        record.box_max = glm::max(record.box_max, p);
-    }
+    record.box_min = record.box_max = mesh.positions[mesh.triangles.front().x];
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            record.box_min = glm::min(record.box_min, mesh.positions[t[corner]]);
+            record.box_max = glm::max(record.box_max, mesh.positions[t[corner]]);
+        }
     record.extent = extent_of(record);
     padded_boxes = record.first_node + static_cast<uint32_t>(tree.boxes());
     padded_leaves.insert(padded_leaves.end(), tree.leaves.begin(), tree.leaves.end());

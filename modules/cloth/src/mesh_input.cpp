@@ -48,10 +48,26 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> positions)
 }
 
 // A triangle whose normal vanishes in float has no side to push to.
-bool has_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t)
+bool has_area(const std::vector<glm::dvec3>& positions, const glm::uvec3& t)
 {
-    const glm::vec3 n = glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
+    const glm::vec3 a(positions[t.y] - positions[t.x]);
+    const glm::vec3 b(positions[t.z] - positions[t.x]);
+    const glm::vec3 n = glm::cross(a, b);
     return glm::dot(n, n) > 1e-30f;
+}
+
+// Of what is part of a triangle: vertices without one may be anywhere.
+glm::dvec3 middle_of(const std::vector<glm::dvec3>& positions, std::span<const glm::uvec3> triangles)
+{
+    glm::dvec3 min = positions[triangles.front().x];
+    glm::dvec3 max = min;
+    for (const glm::uvec3& t : triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            min = glm::min(min, positions[t[corner]]);
+            max = glm::max(max, positions[t[corner]]);
+        }
+    return 0.5 * (min + max);
 }
 
 } // namespace
@@ -87,10 +103,13 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
                    [&](const glm::dvec3& p) { return glm::vec3(p - glm::dvec3(mesh.origin)); });
     mesh.triangles.reserve(collider.triangles.size());
     std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
-                 [&](const glm::uvec3& t) { return has_area(mesh.positions, t); });
+                 [&](const glm::uvec3& t) { return has_area(world, t); });
     if (mesh.triangles.empty())
         return invalid("collider", collider.name,
                        "none of its " + std::to_string(collider.triangles.size()) + " triangles has an area");
+    mesh.origin = rounded(middle_of(world, mesh.triangles));
+    std::transform(world.begin(), world.end(), mesh.positions.begin(),
+                   [&](const glm::dvec3& p) { return glm::vec3(p - glm::dvec3(mesh.origin)); });
 
     const std::vector<uint32_t> welded = weld(mesh.positions);
     mesh.closed = is_closed(welded, mesh.triangles);
