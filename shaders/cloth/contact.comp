@@ -76,18 +76,12 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 #include "fine_position.glsl"
 #include "friction.glsl"
 
-// m: within this of the world's origin, along each axis, floats are fine enough for queries. Residuals are loaded where the
-// vertex is written, then: most touch nothing and are not.
-#define VOILE_FLOATS_SUFFICE 8.0
-
 struct Motion
 {
     FinePosition from; // before the substep
     vec3 displacement; // m, since then
     vec3 v;            // m/s
     uint cloth;
-    bool fine;  // residuals are in `from` and in the displacement
-    bool given; // contact says where the vertex is, from where it was; else it has moved it by some way
 };
 
 // As a float tells it.
@@ -176,7 +170,6 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, floa
         // To the bit: roundings that add up would stretch stiff cloth until it slips.
         const float height = dot(motion.displacement - way, n);
         motion.displacement = way + (abs(height) > slop ? height : 0) * n;
-        motion.given = true;
         motion.v -= v_t;
         return;
     }
@@ -214,7 +207,6 @@ void leave(inout Motion motion, Depenetration depenetration)
     own -= min(dot(own, out_of_it) + VOILE_INSIDE_BACK * speed, 0) * out_of_it;
     motion.v = surface + own;
     motion.displacement = push.step * (motion.v + depenetration.velocity);
-    motion.given = true;
 }
 
 // Where the way of the vertex leads through a surface after all.
@@ -223,7 +215,6 @@ void keep_out(inout Motion motion, Passage passage, Contact contact)
     const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
     const vec3 n = world_direction(passage, contact.direction);
     motion.displacement = way;
-    motion.given = true;
     motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
 }
 
@@ -294,24 +285,13 @@ Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
     return meeting;
 }
 
-void add_residuals(inout Motion motion, uint i)
-{
-    motion.from.residual = unpack_residual(residuals[i]);
-    if (!motion.given)
-        motion.displacement += unpack_residual(proposed_residuals[i]) - motion.from.residual;
-}
-
 // What integration proposes, corrected by features where they have met the vertex in this substep; `flags` of the velocity.
 Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
 {
     const vec4 velocity = proposed_velocities[i];
     Motion motion;
-    motion.from = FinePosition(positions[i].xyz, vec3(0));
-    motion.displacement = proposed - motion.from.x;
-    motion.fine = any(greaterThan(abs(proposed), vec3(VOILE_FLOATS_SUFFICE)));
-    motion.given = false;
-    if (motion.fine)
-        add_residuals(motion, i);
+    motion.from = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    motion.displacement = displacement(motion.from, FinePosition(proposed, unpack_residual(proposed_residuals[i])));
     motion.v = velocity.xyz;
     motion.cloth = cloth;
     flags = uint(velocity.w);
@@ -335,8 +315,6 @@ Depenetration depenetration_of(uint i)
 // `flags` of the velocity, VOILE_VERTEX_...
 void commit(uint i, Motion motion, uint flags)
 {
-    if (!motion.fine)
-        add_residuals(motion, i);
     const FinePosition to = moved(motion.from, motion.displacement);
     const vec4 position = vec4(to.x, proposed_positions[i].w);
     const vec4 velocity = vec4(motion.v, flags);

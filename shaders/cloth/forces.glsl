@@ -222,11 +222,16 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     const uint first_vertex = cloths[cloth].first_vertex;
     const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    // The next entry is loaded while one is computed.
+    MeshSpring next;
+    if (vertex.springs > 0)
+        next = mesh_springs[vertex.first_spring];
     for (uint s = 0; s < vertex.springs; ++s)
     {
-        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        const MeshSpring entry = next;
         if (entry.weight == 0 && entry.bending == 0)
             break; // nor do the others have a force
+        next = mesh_springs[vertex.first_spring + min(s + 1, vertex.springs - 1) * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
@@ -248,10 +253,14 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
     for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
         membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
+    MeshCorner next_corner;
+    if (vertex.corners > 0)
+        next_corner = mesh_corners[vertex.first_corner];
     for (uint t = 0; t < vertex.corners; ++t)
     {
         const uint entry = vertex.first_corner + t * MESH_STRIDE;
-        const MeshCorner corner = mesh_corners[entry];
+        const MeshCorner corner = next_corner;
+        next_corner = mesh_corners[vertex.first_corner + min(t + 1, vertex.corners - 1) * MESH_STRIDE];
         const uint b = first_vertex + corner.b;
         const uint c = first_vertex + corner.c;
         const FinePosition x_b = position_of(b);

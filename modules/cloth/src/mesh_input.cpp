@@ -35,6 +35,18 @@ std::vector<glm::dvec3> to_world(const MeshCollider& collider)
     return world;
 }
 
+glm::dvec3 middle_of(std::span<const glm::dvec3> positions)
+{
+    glm::dvec3 min = positions.front();
+    glm::dvec3 max = positions.front();
+    for (const glm::dvec3& p : positions)
+    {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    return 0.5 * (min + max);
+}
+
 // A triangle whose normal vanishes in float has no side to push to.
 bool has_area(const std::vector<glm::dvec3>& positions, const glm::uvec3& t)
 {
@@ -86,6 +98,9 @@ Result<MeshInput> prepare_mesh(const MeshCollider& collider)
                                      "its transform takes position ", " to ");
         !range)
         return range.error();
+    mesh.origin = rounded(middle_of(world));
+    std::transform(world.begin(), world.end(), mesh.positions.begin(),
+                   [&](const glm::dvec3& p) { return glm::vec3(p - glm::dvec3(mesh.origin)); });
     mesh.triangles.reserve(collider.triangles.size());
     std::copy_if(collider.triangles.begin(), collider.triangles.end(), std::back_inserter(mesh.triangles),
                  [&](const glm::uvec3& t) { return has_area(world, t); });
