@@ -199,7 +199,7 @@ TEST_CASE("inside a mesh is where it winds around a vertex, at any depth")
                 distance = std::abs(exact.nearest(glm::dvec3(p)).signed_distance);
             } while (distance < 1e-5);
             const double winding = winding_number(c.mesh, glm::dvec3(p));
-            CHECK(std::abs(exact.winding_number(glm::dvec3(p)) - winding) < 1e-9);
+            CHECK(std::abs(exact.winding_number(glm::dvec3(p)) - winding) < 1e-7); // 2e-8: its corners are floats
             if (!c.has_inside || winding < 0.5)
                 continue;
             ++inside;

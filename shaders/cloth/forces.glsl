@@ -229,8 +229,6 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     for (uint s = 0; s < vertex.springs; ++s)
     {
         const MeshSpring entry = next;
-        if (entry.weight == 0 && entry.bending == 0)
-            break; // nor do the others have a force
         next = mesh_springs[vertex.first_spring + min(s + 1, vertex.springs - 1) * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbour & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbour & VOILE_OPPOSITE_BIT) != 0;

@@ -157,9 +157,6 @@ void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::
         }
     for (size_t i = 0; i < mesh.vertices.size(); ++i)
     {
-        // Entries without a force, those of the membrane's edges, are for the strain limit: the last ones.
-        std::ranges::stable_partition(springs[i], [](const shared::MeshSpring& entry)
-                                      { return entry.weight != 0 || entry.bending != 0; });
         mesh.vertices[i] = {static_cast<uint32_t>(mesh.springs.size()), static_cast<uint32_t>(springs[i].size()),
                             static_cast<uint32_t>(mesh.corners.size()), static_cast<uint32_t>(corners[i].size())};
         mesh.springs.insert(mesh.springs.end(), springs[i].begin(), springs[i].end());
