@@ -123,8 +123,9 @@ struct ClothRecord
 };
 
 // A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[]
-// and of MeshCorner[] and MembraneCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a workgroup the first
-// entries of its vertices stand side by side, then their second ones, so that a workgroup's reads coalesce.
+// and of MeshCorner[] and MembraneCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a
+// workgroup the first entries of its vertices stand side by side, then their second ones, so that a workgroup's reads
+// coalesce.
 struct MeshVertex
 {
     uint first_spring;

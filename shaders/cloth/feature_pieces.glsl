@@ -1,7 +1,7 @@
 // The triangles and edges around a vertex of a cloth, one after the other, and where they go in a substep.
 //
-// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[], the residuals
-// of both and proposed_velocities[], and includes chunk.glsl, collider_pose.glsl and mesh.glsl before.
+// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[], the
+// residuals of both and proposed_velocities[], and includes chunk.glsl, collider_pose.glsl and mesh.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 

@@ -1,8 +1,8 @@
 // The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbors (no atomics, so the sum's
 // order never changes).
 //
-// The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[], mesh_springs[],
-// mesh_corners[], membrane_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
+// The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[],
+// mesh_springs[], mesh_corners[], membrane_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
