@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace
 {
@@ -173,4 +174,23 @@ TEST_CASE("a snapshot brings the state back to the bit, also by way of the host"
             CHECK_FALSE(other.assign(std::span(kept).first(16)).ok());
         }
     }
+}
+
+TEST_CASE("a snapshot that nothing was saved in, or that is not finite, is refused")
+{
+    ClothHarness harness;
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(hanging(stretchy(50))));
+    harness.upload();
+    cloth::Snapshot snapshot = engine::take(harness.solver.create_snapshot());
+    const auto before = harness.positions(id);
+    harness.run(
+        [&](VkCommandBuffer cmd) {
+            CHECK(harness.solver.record_restore(cmd, snapshot).error().message == "snapshot: nothing was saved in it");
+        });
+    CHECK(same_bits(harness.positions(id), before));
+    std::vector<std::byte> bytes(snapshot.bytes().size(), std::byte{0});
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(bytes.data() + 2 * sizeof(glm::vec4), &nan, sizeof(nan));
+    CHECK(snapshot.assign(bytes).error().message == "snapshot: vertex 2 is not finite");
+    CHECK_FALSE(harness.solver.record_restore(VK_NULL_HANDLE, snapshot).ok());
 }

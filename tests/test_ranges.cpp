@@ -239,6 +239,11 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
     CHECK(grid([](auto& g) { g.transform[3].z = k_nan; }) == "cloth \"cloth\": its transform is not finite");
     CHECK(grid([](auto& g) { g.transform[3].w = 2; }) == "cloth \"cloth\": its transform's last row is not 0 0 0 1");
 
+    CHECK(grid([](auto& g) { g.integrator = static_cast<cloth::Integrator>(9); }) ==
+          "cloth \"cloth\": integrator is 9, must be rk4 or verlet");
+    CHECK(grid([](auto& g) { g.material = cloth::Fabric{.bending_model = static_cast<cloth::BendingModel>(7)}; }) ==
+          "cloth \"cloth\": fabric: bending_model is 7, must be springs or isometric");
+
     const cloth::ClothId id = engine::take(solver.add_cloth(flat_sheet(3, 1, 0)));
     CHECK(reason(solver.set_velocity(id, {1e20f, 0, 0})) ==
           "cloth \"cloth\": velocity is (1e+20, 0, 0) m/s, each must be -10000 to 10000");
@@ -270,6 +275,10 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
           "collider \"sphere\": static_friction is 200, must be 0 to 100");
     const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     const std::vector<glm::uvec3> triangle{{0, 1, 2}};
+    const std::vector<glm::vec2> coordinates{{0, 0}, {k_nan, 0}, {0, 1}};
+    CHECK(reason(solver.add_cloth(
+              cloth::MeshCloth{.positions = corners, .triangles = triangle, .texture_coordinates = coordinates})) ==
+          "cloth \"cloth\": texture coordinate 1 is nan 0.000000, must be within 1e6");
     CHECK(refused(cloth::MeshCollider{
               .positions = corners, .triangles = triangle, .transform = glm::scale(glm::mat4(1), glm::vec3(1e18f))}) ==
           "collider \"mesh\": its transform takes position 1 to (1e+18, 0, 0), each must be -1e+06 to 1e+06 m");

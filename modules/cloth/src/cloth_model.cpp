@@ -318,6 +318,8 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
     if (auto velocity = check(subject("cloth", cloth.name), "velocity", cloth.velocity, k_most_speed, " m/s");
         !velocity)
         return velocity;
+    if (cloth.integrator != Integrator::rk4 && cloth.integrator != Integrator::verlet)
+        return bad("integrator is " + std::to_string(static_cast<int>(cloth.integrator)) + ", must be rk4 or verlet");
     if (auto material = std::visit([](const auto& m) { return validate(m); }, cloth.material); !material)
         return bad(material.error().message);
     for (const uint32_t held : cloth.held)

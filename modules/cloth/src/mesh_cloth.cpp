@@ -11,6 +11,8 @@ namespace cloth
 namespace
 {
 
+constexpr float k_most_texture_coordinate = 1e6f;
+
 Result<void> validate_shape(const MeshCloth& cloth)
 {
     const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
@@ -21,6 +23,11 @@ Result<void> validate_shape(const MeshCloth& cloth)
     if (!cloth.texture_coordinates.empty() && cloth.texture_coordinates.size() != cloth.positions.size())
         return bad(std::to_string(cloth.texture_coordinates.size()) + " texture coordinates for " +
                    std::to_string(cloth.positions.size()) + " positions");
+    for (size_t i = 0; i < cloth.texture_coordinates.size(); ++i)
+        if (const glm::vec2 uv = cloth.texture_coordinates[i];
+            !(std::abs(uv.x) <= k_most_texture_coordinate && std::abs(uv.y) <= k_most_texture_coordinate))
+            return bad("texture coordinate " + std::to_string(i) + " is " + std::to_string(uv.x) + " " +
+                       std::to_string(uv.y) + ", must be within 1e6");
     return {};
 }
 
@@ -87,8 +94,9 @@ Result<ClothId> Model::add(const MeshCloth& description)
 {
     if (auto valid = validate_shape(description); !valid)
         return valid.error();
-    const ClothInput input{description.name,     description.transform, description.velocity,
-                           description.material, description.held,      description.inverse_masses};
+    const ClothInput input{description.name,          description.transform,  description.velocity,
+                           description.material,      description.integrator, description.held,
+                           description.inverse_masses};
     const size_t first = positions.size();
     const size_t count = description.positions.size();
     if (auto valid = validate(input, count); !valid)

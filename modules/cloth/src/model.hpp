@@ -129,6 +129,7 @@ struct ClothInput
     const glm::mat4& transform;
     const glm::vec3& velocity;
     const ClothMaterial& material;
+    Integrator integrator;
     std::span<const uint32_t> held;
     std::span<const float> inverse_masses;
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
 
 namespace cloth
 {
@@ -11,6 +13,7 @@ struct Snapshot::Contents
 {
     gpu::Buffer buffer; // one stream after the other
     uint32_t vertices = 0;
+    bool filled = false;
 };
 
 Snapshot::Snapshot(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
@@ -24,14 +27,45 @@ std::span<const std::byte> Snapshot::bytes() const
     return contents_->buffer.mapped();
 }
 
+namespace
+{
+
+// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other.
+Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices)
+{
+    const auto load = [&](size_t offset)
+    {
+        float value = 0;
+        std::memcpy(&value, bytes.data() + offset, sizeof(value));
+        return value;
+    };
+    const size_t residuals = vertices * sizeof(glm::vec4);
+    const size_t velocities = residuals + vertices * sizeof(glm::uvec2);
+    for (size_t i = 0; i < vertices; ++i)
+    {
+        bool finite = std::isfinite(load(residuals + i * sizeof(glm::uvec2) + sizeof(uint32_t))); // what they count in
+        for (size_t k = 0; k < 4; ++k)
+            finite = finite && std::isfinite(load((4 * i + k) * sizeof(float))) &&
+                     std::isfinite(load(velocities + (4 * i + k) * sizeof(float)));
+        if (!finite)
+            return Error{"snapshot: vertex " + std::to_string(i) + " is not finite"};
+    }
+    return {};
+}
+
+} // namespace
+
 Result<void> Snapshot::assign(std::span<const std::byte> bytes)
 {
     const std::span<std::byte> mapped = contents_->buffer.mapped();
     if (bytes.size() != mapped.size())
         return Error{"snapshot: " + std::to_string(bytes.size()) + " bytes, this solver's state has " +
                      std::to_string(mapped.size())};
+    if (auto finite = check_finite(bytes, contents_->vertices); !finite)
+        return finite;
     std::copy(bytes.begin(), bytes.end(), mapped.begin());
     contents_->buffer.flush();
+    contents_->filled = true;
     return {};
 }
 
@@ -98,6 +132,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
+    snapshot.contents_->filled = true;
     state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;
@@ -117,6 +152,8 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
+    if (!snapshot.contents_->filled)
+        return Error{"snapshot: nothing was saved in it"};
     state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;

@@ -65,8 +65,8 @@ struct MeshCloth
     std::string name = "cloth";
     std::span<const glm::vec3> positions{};           // m, in the mesh's space
     std::span<const glm::uvec3> triangles{};          // indices into positions, counter-clockwise seen from outside
-    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, one a position. Empty: the mesh seen along that of
-                                                      // its own axes along which it is thinnest
+    std::span<const glm::vec2> texture_coordinates{}; // m of fabric, -1e6..1e6, one a position. Empty: the mesh seen
+                                                      // along that of its own axes along which it is thinnest
     glm::mat4 transform{1.f};                         // world from mesh; affine. The shape at rest is what it makes
     glm::vec3 velocity{0.f};                          // m/s, -1e4..1e4 along each axis, of every vertex at the start
     ClothMaterial material{};

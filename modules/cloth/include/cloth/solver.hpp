@@ -148,7 +148,7 @@ public:
 
     // What record_save copied, once its command buffer has completed.
     [[nodiscard]] std::span<const std::byte> bytes() const;
-    // Takes what bytes() of another one gave. Errors: another number of bytes.
+    // Takes what bytes() of another one gave. Errors: another number of bytes; a vertex that is not finite.
     Result<void> assign(std::span<const std::byte> bytes);
 
 private:
@@ -271,7 +271,7 @@ public:
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
     // The state of all cloths, saved and brought back to the bit. Materials, holds and anchors are the host's and are
-    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices.
+    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
