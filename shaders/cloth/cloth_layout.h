@@ -297,6 +297,9 @@ struct ColliderReachPush
     uint near_stride;
 };
 
+// Votes of a cloth's vertices inside of colliders: of sides, the sum of directions in the world, and how many these are.
+#define VOILE_VOTE_WORDS 5
+
 // How a vertex comes out of a collider that it was inside of at the start of the step.
 struct Depenetration
 {

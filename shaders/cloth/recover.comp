@@ -9,8 +9,8 @@
 // nearest place of the surface has one. Of it, what is along the cloth's normal counts most: sheets go out in one piece,
 // and are not torn apart in the middle. The contact pass takes the vertex along in each substep: in jumps of a whole step
 // neighbors would part so far that springs throw them.
-// Reads: cloths, chunks, positions, residuals, normals, colliders and their motions, hierarchies. Writes: depenetrations of all vertices;
-// if any is inside, the size of the next step's dispatch and the votes of cloths.
+// Reads: cloths, chunks, positions, residuals, normals, colliders and their motions, hierarchies, votes of the last step.
+// Writes: depenetrations of all vertices; if any is inside, the size of the next step's dispatch and the votes of cloths.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
 #include "padded_layout.h"
@@ -35,7 +35,7 @@ layout(set = 0, binding = 9, std430) readonly buffer PaddedBoxes { PaddedBox pad
 layout(set = 0, binding = 10, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
-layout(set = 0, binding = 12, std430) buffer NextVotes { uint next_votes[]; }; // one per cloth
+layout(set = 0, binding = 12, std430) buffer NextVotes { uint next_votes[]; }; // of each cloth
 layout(set = 0, binding = 13, std430) readonly buffer LastVotes { uint last_votes[]; };
 layout(set = 0, binding = 14, std430) readonly buffer NearColliders { uint near_colliders[]; };
 layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
@@ -59,6 +59,7 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #define VOILE_FIRST_BIAS 0.02 // before there was a vote
 // Votes are integers, whose sum has no order.
 #define VOILE_VOTE 1024
+#define VOILE_TOGETHER 1.0 // weight of the mean of directions, to that of the vertex's own
 const uint k_solid_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
 
 bool is_convex(ColliderRecord collider)
@@ -169,13 +170,32 @@ vec3 direction_out(uint cloth, Field field, vec3 normal)
 {
     const float along = dot(field.sum, normal);
     const vec3 across = field.sum - along * normal;
-    const int vote = int(last_votes[cloth]);
+    const int vote = int(last_votes[VOILE_VOTE_WORDS * cloth]);
     const float bias = vote == 0 ? VOILE_FIRST_BIAS : VOILE_BIAS * sign(vote);
     const float side = along + bias * field.size;
-    atomicAdd(next_votes[cloth], uint(int(VOILE_VOTE * side / field.size)));
+    atomicAdd(next_votes[VOILE_VOTE_WORDS * cloth], uint(int(VOILE_VOTE * side / field.size)));
     const vec3 sum = side * normal + VOILE_ACROSS * across;
     const float size = length(sum);
     return size > 0 ? sum / size : vec3(0, 1, 0);
+}
+
+// What a vertex goes by besides the field: the way that the cloth's vertices went in the last step. Where parts of a sheet
+// would go out on different sides, they would tear it between them.
+vec3 together(uint cloth, uint c, uint flags, vec3 direction)
+{
+    const uint word = VOILE_VOTE_WORDS * cloth;
+    const vec3 sum = vec3(int(last_votes[word + 1]), int(last_votes[word + 2]), int(last_votes[word + 3]));
+    const float count = max(float(last_votes[word + 4]), 1);
+    const vec3 mean = turned_into(c, flags, sum / (VOILE_VOTE * count)); // of unit vectors: shorter where they differ
+    const vec3 way = direction + VOILE_TOGETHER * mean;
+    const float size = length(way);
+    const vec3 chosen = size > 1e-3 ? way / size : direction;
+    const ivec3 vote = ivec3(VOILE_VOTE * turned_out_of(c, flags, chosen));
+    atomicAdd(next_votes[word + 1], uint(vote.x));
+    atomicAdd(next_votes[word + 2], uint(vote.y));
+    atomicAdd(next_votes[word + 3], uint(vote.z));
+    atomicAdd(next_votes[word + 4], 1);
+    return chosen;
 }
 
 // m: how far it is in a unit direction to the offset surface; `reach` if it is at least that.
@@ -200,7 +220,8 @@ Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collid
     const float size = length(field.sum);
     // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
     const bool alone = width < spacing(cloth) && size > 0;
-    const vec3 direction = alone ? field.sum / size : direction_out(cloth, field, normal);
+    const vec3 direction =
+        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal));
     const float most = VOILE_OUT_SPEED * push.step;
     const float way = way_out(c, collider, local, direction, thickness, 2 * most);
     const float reach = way < most ? way : way < 2 * most ? 0.5 * way : most;

@@ -21,7 +21,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkDeviceSize votes_bytes = model.records.size() * sizeof(uint32_t);
+    const VkDeviceSize votes_bytes = model.records.size() * VOILE_VOTE_WORDS * sizeof(uint32_t);
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const VkDeviceSize per_residual = model.positions.size() * sizeof(glm::uvec2);
     const BufferRequest requests[] = {
