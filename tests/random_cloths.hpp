@@ -156,7 +156,8 @@ inline double elastic_energy(const cloth::MeshCloth& mesh)
 // as speed once more. The integrators' own energy is up to 1 / (1 - 0.9^2) = 5.3 times smaller than the true one, in
 // modes that take the whole step (Verlet's is v^2 + omega^2 x^2 (1 - (omega h / 2)^2)). What runs away grows by a
 // factor each substep, and is past any bound within 30 steps.
-// Springs whose force turns round within a step do not heat up a cloth: Verlet makes fast springs viscous (forces.glsl).
+// Springs whose force turns round within a step do not heat up a cloth: Verlet makes fast springs viscous
+// (forces.glsl).
 inline double energy_bound(const Motion& start, double elastic, const cloth::Step& step)
 {
     const double wind = static_cast<double>(glm::length(step.wind)) * (1 + 2.74 * static_cast<double>(step.gust));

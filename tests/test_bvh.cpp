@@ -354,7 +354,7 @@ TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
     // Without the cap above y = 0.6, which takes (1 - 0.6) / 2 of the directions from the centre, give or take a band.
     CHECK(bowl.winding_number({0, 0, 0}) == tests::close_to(0.8, 0.1));
     CHECK(bowl.winding_number({0, -0.9, 0}) > 0.8);
-    CHECK(bowl.winding_number({0.7, -0.9, 0}) < 0.1);                  // past the surface, within the box
+    CHECK(bowl.winding_number({0.7, -0.9, 0}) < 0.1);       // past the surface, within the box
     CHECK(std::abs(bowl.winding_number({0, 9, 0})) < 0.01); // it is open there
 }
 

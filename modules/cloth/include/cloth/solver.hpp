@@ -271,7 +271,8 @@ public:
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
     // The state of all cloths, saved and brought back to the bit. Materials, holds and anchors are the host's and are
-    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices; nothing saved to restore.
+    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices; nothing saved to
+    // restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
