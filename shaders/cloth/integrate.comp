@@ -3,7 +3,7 @@
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
-// neighbours, and writes the next stage's state. Stage 4 writes the result of the step, from the velocities of all stages:
+// neighbors, and writes the next stage's state. Stage 4 writes the result of the step, from the velocities of all stages:
 // they are k1 to k4 of the positions, and their differences have k1 to k3 of the velocities in them. So no stage keeps sums.
 // One kernel for all stages: four of them, each with the forces in it, are slower beside contact on an H200 (bench/NOTES.md).
 // Reads: cloths, chunks, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
