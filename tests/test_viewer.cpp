@@ -278,11 +278,18 @@ TEST_CASE("what a cloth cannot be is told with the line of the scene")
         std::ofstream(folder / "s.json") << "{\"cloths\": [\n" + cloth + "]}";
         check_refused(run_viewer((folder / "s.json").string() + " --headless --frames 1 --size 64x36"), parts);
     };
-    refused(R"({"mesh": "one.obj", "pins": ["vertex:3"]})", {"s.json:2: cloths[0].pins[0]: ", "pin vertex:3, but it has 3 vertices"});
+    refused(R"({"mesh": "one.obj", "pins": ["vertex:3"]})",
+            {"s.json:2: cloths[0].pins[0]: ", "pin vertex:3, but it has 3 vertices"});
     refused(R"({"mesh": "one.obj", "tethers": {}})", {"s.json:2: cloths[0]: ", "tethers need a pin, and it has none"});
     refused(R"({"mesh": "one.obj", "material": {"strain_limit": 50}})",
             {"s.json:2: cloths[0].material: ", "strain_limit is 50, must be 0.001 to 10"});
     refused(R"({"mesh": "one.obj", "material": {"vertex_mass": 1}})", {"s.json:2: ", "need the preset \"reference\""});
+    const std::string grid = R"({"grid": {"vertices": [4, 4], "size": [1, 1]}, "material": )";
+    refused(grid + R"({"areal_density": 0.2, "vertex_mass": 0.01}})",
+            {"s.json:2: cloths[0].material: vertex_mass and areal_density both give the mass; leave one out"});
+    refused(grid + R"({"stretch_stiffness": 900, "spring_stiffness": 400}})",
+            {"s.json:2: cloths[0].material: spring_stiffness gives the stiffness of all springs"});
+    refused(grid + R"({"damping_ratio": 0.1, "spring_damping": 10}})", {"spring_damping and damping_ratio both"});
     refused(R"({"mesh": "flat.obj"})", {"flat.obj"});
     refused(
         R"({"grid": {"vertices": [4, 4], "size": [1, 1]}, "pins": [{"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}]})",

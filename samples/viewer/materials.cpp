@@ -72,13 +72,29 @@ bool has_raw_values(const MaterialEntry& entry)
     return entry.vertex_mass || entry.spring_stiffness || entry.spring_damping || entry.linear_drag;
 }
 
+// Of a fabric's value and a raw one that would replace it without a word: what both of them give; nothing if there are
+// no such two.
+std::string given_twice(const MaterialEntry& entry)
+{
+    if (entry.vertex_mass && entry.areal_density)
+        return "vertex_mass and areal_density both give the mass";
+    const bool bend_springs = entry.bending_stiffness && entry.bending_model != BendingModel::isometric;
+    if (entry.spring_stiffness && (entry.stretch_stiffness || entry.shear_stiffness || bend_springs))
+        return "spring_stiffness gives the stiffness of all springs, as stretch_stiffness, shear_stiffness and "
+               "bending_stiffness do";
+    if (entry.spring_damping && entry.damping_ratio)
+        return "spring_damping and damping_ratio both give the damping of springs";
+    return {};
+}
+
 } // namespace
 
 gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
                                                       const std::optional<glm::vec2>& spacing)
 {
-    const auto bad = [&](const std::string& reason)
-    { return error_at(scene, entry.place, reason); };
+    const auto bad = [&](const std::string& reason) { return error_at(scene, entry.place, reason); };
+    if (const std::string twice = given_twice(entry); !twice.empty())
+        return bad(twice + "; leave one out");
     cloth::ClothMaterial result;
     if (entry.preset == "reference")
     {
