@@ -366,29 +366,36 @@ struct StrainPush
 // velocity dv:
 struct LimitWork
 {
-    float work;   // J, of elastic forces and gravity along dx
-    float v_dv;   // J, sum of m v . dv
-    float dv_dv;  // J, sum of m dv . dv
-    float v_dx;   // J s, sum of m v . dx
-    float dx_dx;  // J s^2, sum of m dx . dx
-    float dv_dx;  // J s, sum of m dv . dx
-    float undone; // J s^2, minus the sum of m dx . (displacement from the step's start)
-    float padding;
+    float energy;      // J, of springs in one state
+    float work;        // J, of elastic forces and gravity in that state along dx
+    float linear_work; // J, of bending and gravity alone
+    float v_dv;        // J, sum of m v . dv
+    float dv_dv;       // J, sum of m dv . dv
+    float v_dx;        // J s, sum of m v . dx
+    float dx_dx;       // J s^2, sum of m dx . dx
+    float dv_dx;       // J s, sum of m dv . dx
+    float undone;      // J s^2, minus the sum of m dx . (displacement from the step's start)
 };
 
 // How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give back.
 struct LimitScale
 {
-    float position;   // 0..1, of the displacements
+    float position;   // 0..1, of the displacements as they are now
     float velocity;   // 0..1, of the changes of velocity
     float shift_rate; // 1/s, of the displacements as a change of velocity besides
-    float reserve;    // J
+    float kept;       // 0..1, of the limit's displacements in all
+    float saved;      // J, that displacements may cost; after the last look, what the next step may
+    float lost;       // J, that they may cost besides, gone in this step
 };
+
+// How often the energy of what is kept is measured.
+#define VOILE_LIMIT_LOOKS 2
 
 struct LimitScalePush
 {
     uint chunks;
     float rate; // 1/s, the largest shift_rate
+    uint look;  // 0: at all of the displacements; then, up to VOILE_LIMIT_LOOKS, at what is kept of them
 };
 
 // Push constants of the statistics passes.

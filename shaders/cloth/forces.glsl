@@ -17,6 +17,7 @@ struct Gather
     FinePosition x; // of the vertex
     vec3 v;         // m/s
     vec3 force;   // N, of the springs
+    float energy; // J, the vertex's part of what the springs store
     vec3 bending; // N, of the isometric model
     float bending_stiffness; // the step's scale of it: bending sees bending_stiffness * x + bending_damping * v
     float bending_damping;   // s
@@ -61,6 +62,7 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
         g.force += scale * across * relative_velocity;
     }
     g.force += (stiffness * stretch + (damping + viscosity) * rate) * direction;
+    g.energy += 0.25 * stiffness * stretch * stretch;
 }
 
 // Drag of the air on `share` of the triangle that the edges to two neighbours span, with the vertex's velocity: 1/2 rho
@@ -271,26 +273,35 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     }
 }
 
-// The acceleration of a vertex, m/s^2.
-vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
+// All forces on a vertex but gravity and linear drag.
+Gather gather(ChunkVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity viscosity, StabilityScales scales)
 {
-    const uint cloth = self.cloth;
     Gather g;
     g.x = x;
     g.v = v;
     g.force = g.bending = g.air = vec3(0);
-    g.air_rate = 0;
-    g.wind = wind_at(x.x);
-    const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
-    if (VERLET)
-        g.viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
-                                   cloths[cloth].decay, push.step);
+    g.energy = g.air_rate = 0;
+    g.wind = wind;
+    g.viscosity = viscosity;
     g.bending_stiffness = scales.stiffness;
-    g.bending_damping = scales.damping * cloths[cloth].bending_time;
+    g.bending_damping = scales.damping * cloths[self.cloth].bending_time;
     if (self.columns > 0)
-        gather_grid(g, cloth, self, scales);
+        gather_grid(g, self.cloth, self, scales);
     else
-        gather_mesh(g, cloth, self.local, scales);
+        gather_mesh(g, self.cloth, self.local, scales);
+    return g;
+}
+
+// The acceleration of a vertex, m/s^2.
+vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
+{
+    const uint cloth = self.cloth;
+    const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    Viscosity viscosity = k_no_viscosity;
+    if (VERLET)
+        viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
+                                 cloths[cloth].decay, push.step);
+    const Gather g = gather(self, x, v, wind_at(x.x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(inverse_mass * g.air_rate, push.step);
     return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);

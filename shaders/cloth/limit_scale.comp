@@ -6,8 +6,12 @@
 // Velocities take what leaves them the least kinetic energy. Positions take what is paid for: by the kinetic energy that
 // goes, by what damping and contact have taken in this step, and by a reserve. The first brings a cloth back that has fallen
 // beyond its limit within the step. The second keeps one from creeping beyond it; it counts as far as the limit undoes the
-// step, or a limit that cannot be kept would shake the cloth with all that damping takes. The reserve is what the limit has taken
-// from the cloth's energy in the last steps: its passes are no exact projection, and give some of it back.
+// step, or a limit that cannot be kept would shake the cloth with all that damping takes. The reserve is what the limit has
+// taken from the cloth's energy in the last steps: its passes are no exact projection, and give some of it back.
+//
+// What a part of the displacements costs follows from the slope at their start and from the cost of all of them, as if springs
+// were linear. They are not: what is kept is measured, taken back further where it costs too much, and measured again. What
+// costs too much then is not kept at all.
 // Reads: patches, work. Writes: one scale per cloth.
 #include "cloth_layout.h"
 
@@ -25,12 +29,15 @@ layout(push_constant, std430) uniform Push { LimitScalePush push; };
 const float k_kept = 0.9; // of the reserve, per step
 // A limit whose displacements are up to so many times the step's own, in the same places, undoes the step.
 const float k_undoing = 5;
+const float k_overdraft = 1.001; // of what there is to pay with, that displacements may cost: the reserve owes the rest
+// What costs up to so much more than there is, as measured in the last look, is taken back unmeasured.
+const float k_near = 1.1;
 
 struct Energies
 {
-    float lost;    // J, in the step before the limit
-    float first;   // J, that the positions cost, to the first and to the second order in what is kept of them
-    float second;
+    float lost;  // J, in the step before the limit
+    float slope; // J, of the cost in what is kept of the limit's displacements, at none of them
+    float cost;  // J, of the displacements as they are now
     LimitWork limit;
 };
 
@@ -40,21 +47,39 @@ Energies add(Energies a, Energies b)
 {
     const LimitWork l = a.limit;
     const LimitWork m = b.limit;
-    return Energies(a.lost + b.lost, a.first + b.first, a.second + b.second,
-                    LimitWork(0, l.v_dv + m.v_dv, l.dv_dv + m.dv_dv, l.v_dx + m.v_dx, l.dx_dx + m.dx_dx,
-                              l.dv_dx + m.dv_dx, l.undone + m.undone, 0));
+    return Energies(a.lost + b.lost, a.slope + b.slope, a.cost + b.cost,
+                    LimitWork(0, 0, 0, l.v_dv + m.v_dv, l.dv_dv + m.dv_dv, l.v_dx + m.v_dx, l.dx_dx + m.dx_dx,
+                              l.dv_dx + m.dv_dx, l.undone + m.undone));
 }
 
-Energies energies_of(uint chunk)
+// J, what displacements from one state to the other add. `kept`: how much of those that the work at the first is of.
+float stored(LimitWork from, LimitWork to, float kept)
+{
+    return to.energy - from.energy - 0.5 * (kept * from.linear_work + to.linear_work);
+}
+
+// `kept`: of the limit's displacements, what they are now.
+Energies energies_of(uint chunk, float kept)
 {
     const LimitWork first = step_works_first[chunk];
+    const LimitWork last = step_works_last[chunk];
     const LimitWork before = works_before[chunk];
-    return Energies(0.5 * (first.work + step_works_last[chunk].work) - first.v_dv - 0.5 * first.dv_dv, -before.work,
-                    -0.5 * (works_after[chunk].work - before.work), before);
+    const LimitWork after = works_after[chunk];
+    return Energies(-stored(first, last, 1) - first.v_dv - 0.5 * first.dv_dv, -before.work, stored(before, after, kept),
+                    before);
 }
 
 // Where a x + 1/2 b x^2 is least between 0 and `most`.
 float least(float a, float b, float most) { return b > 0 ? clamp(-a / b, 0, most) : 0; }
+
+// What to keep of displacements that cost `slope` at their start and `cost` in all, so that it costs no more than `available`.
+float affordable(float slope, float cost, float available)
+{
+    if (cost <= available)
+        return 1;
+    const float curvature = max(cost - slope, 1e-6 * abs(slope));
+    return clamp((sqrt(slope * slope + 4 * curvature * available) - slope) / (2 * curvature), 0, 1);
+}
 
 LimitScale scale_of(float reserve, Energies e)
 {
@@ -68,20 +93,31 @@ LimitScale scale_of(float reserve, Energies e)
         shift = least(l.v_dx + v * l.dv_dx, l.dx_dx, push.rate);
     }
     const float kinetic = v * l.v_dv + shift * l.v_dx + v * shift * l.dv_dx + 0.5 * (v * v * l.dv_dv + shift * shift * l.dx_dx);
-    const float saved = max(reserve - kinetic, 0);
+    const float saved = reserve - kinetic;
     const float undone = l.dx_dx > 0 ? clamp(k_undoing * l.undone / l.dx_dx, 0, 1) : 1;
     const float lost = undone * max(e.lost, 0);
-    const float available = saved + lost;
+    const float x = affordable(e.slope, e.cost, max(saved + lost, 0));
+    const float sum = x + v + shift + saved + lost;
+    return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, saved, lost);
+}
+
+// Of what is kept of the displacements. Velocities are as they shall be.
+LimitScale looked_at(LimitScale s, Energies e)
+{
+    const bool last = push.look == VOILE_LIMIT_LOOKS;
+    const float available = max(s.saved + s.lost, 0);
     float x = 1;
-    if (e.first + e.second > available)
+    if (!(e.cost <= k_overdraft * available))
+        x = last && !(e.cost <= k_near * available) ? 0 : affordable(e.slope * s.kept, e.cost, available);
+    x = isnan(x) ? 0 : x;
+    float saved = s.saved;
+    if (last)
     {
-        const float second = max(e.second, 1e-6 * abs(e.first));
-        x = clamp((sqrt(e.first * e.first + 4 * second * available) - e.first) / (2 * second), 0, 1);
+        const float cost = x * e.cost;
+        saved -= cost > 0 ? max(cost - s.lost, 0) : cost;
+        saved *= saved > 0 ? k_kept : 1;
     }
-    const float cost = x * (e.first + x * e.second);
-    const float rest = k_kept * (saved - (cost > 0 ? max(cost - lost, 0) : cost));
-    const float sum = x + v + shift + rest;
-    return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0) : LimitScale(x, v, shift, max(rest, 0));
+    return LimitScale(x, 1, 0, x * s.kept, isnan(saved) || isinf(saved) ? 0 : saved, s.lost);
 }
 
 void main()
@@ -91,9 +127,11 @@ void main()
     if (first > 0 && chunks[first - 1].cloth == cloth)
         return;
     const uint thread = gl_LocalInvocationID.x;
-    Energies sum = Energies(0, 0, 0, LimitWork(0, 0, 0, 0, 0, 0, 0, 0));
+    const LimitScale scale = scales[cloth];
+    const float kept = push.look == 0 ? 1 : scale.kept;
+    Energies sum = Energies(0, 0, 0, LimitWork(0, 0, 0, 0, 0, 0, 0, 0, 0));
     for (uint c = first + thread; c < push.chunks && chunks[c].cloth == cloth; c += gl_WorkGroupSize.x)
-        sum = add(sum, energies_of(c));
+        sum = add(sum, energies_of(c, kept));
     sums[thread] = sum;
     barrier();
     for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
@@ -103,5 +141,5 @@ void main()
         barrier();
     }
     if (thread == 0)
-        scales[cloth] = scale_of(scales[cloth].reserve, sums[0]);
+        scales[cloth] = push.look == 0 ? scale_of(scale.saved, sums[0]) : looked_at(scale, sums[0]);
 }

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What a step, or the strain limit with the contact pass after it, does to the energy of each cloth: per patch, the work of
-// the elastic forces and of gravity along the displacements, and what the kinetic energy follows from.
+// What a step, or the strain limit with the contact pass after it, does to the energy of each cloth: per patch, what springs
+// store in one of the states that the displacements lead between, the work of all conservative forces there along the
+// displacements, and what the kinetic energy follows from.
 //
-// It runs for each of both states that the displacements lead between: the mean of the work with the forces at one and at the
-// other is exact for bending and gravity, and to the third order in the displacements for springs.
+// It runs for each of both states. Springs store what their lengths say; of bending and gravity, the mean of the work at one
+// state and at the other is exact.
 // Reads: cloths, chunks, mesh lists, both states. Writes: one sum per workgroup.
 #include "cloth_layout.h"
 
@@ -36,48 +37,51 @@ bool VERLET; // whether the patch's cloth uses it
 
 shared LimitWork sums[gl_WorkGroupSize.x];
 
-// N: springs without their damping, bending, gravity, with the stiffness that the substeps have.
-vec3 conservative_force(ChunkVertex self, FinePosition x, float inverse_mass)
+// Without damping, with the stiffness that the substeps have.
+struct Conservative
+{
+    float energy; // J, the vertex's part of what springs store
+    vec3 springs; // N
+    vec3 linear;  // N, bending and gravity
+};
+
+Conservative conservative_forces(ChunkVertex self, FinePosition x, float mass)
 {
     const uint cloth = self.cloth;
-    Gather g;
-    g.x = x;
-    g.v = vec3(0);
-    g.force = g.bending = g.air = g.wind = vec3(0);
-    g.air_rate = 0;
-    g.viscosity = Viscosity(0, 0);
-    const float scale = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
-    g.bending_stiffness = scale;
-    g.bending_damping = 0;
-    if (self.columns > 0)
-        gather_grid(g, cloth, self, StabilityScales(scale, 0));
-    else
-        gather_mesh(g, cloth, self.local, StabilityScales(scale, 0));
-    return g.force + g.bending + push.gravity / inverse_mass;
+    const float stiffness = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
+    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0));
+    return Conservative(g.energy, g.force, g.bending + mass * push.gravity);
 }
 
 LimitWork add(LimitWork a, LimitWork b)
 {
-    return LimitWork(a.work + b.work, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv, a.v_dx + b.v_dx, a.dx_dx + b.dx_dx,
-                     a.dv_dx + b.dv_dx, a.undone + b.undone, 0);
+    return LimitWork(a.energy + b.energy, a.work + b.work, a.linear_work + b.linear_work, a.v_dv + b.v_dv,
+                     a.dv_dv + b.dv_dv, a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
 }
 
 LimitWork work_of(ChunkVertex self)
 {
     const uint i = self.index;
-    const vec4 x = before[i];
-    if (!self.exists || cloths[self.cloth].strain_limit == 0 || x.w == 0)
-        return LimitWork(0, 0, 0, 0, 0, 0, 0, 0);
-    const FinePosition from = FinePosition(x.xyz, unpack_residual(residuals_before[i]));
+    if (!self.exists || cloths[self.cloth].strain_limit == 0)
+        return LimitWork(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
     const FinePosition to = FinePosition(after[i].xyz, unpack_residual(residuals_after[i]));
     const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
+    const vec3 dx = displacement(from, to);
+    const float inverse_mass = before[i].w;
+    if (inverse_mass == 0) // What moves it works against its springs.
+    {
+        const Conservative c = conservative_forces(self, here, 0);
+        return LimitWork(c.energy, 0, -dot(c.springs, dx), 0, 0, 0, 0, 0, 0);
+    }
     const FinePosition start = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
     const vec3 v = velocities_before[i].xyz;
     const vec3 dv = velocities_after[i].xyz - v;
-    const vec3 dx = displacement(from, to);
-    const float mass = 1 / x.w;
-    return LimitWork(dot(conservative_force(self, here, x.w), dx), mass * dot(v, dv), mass * dot(dv, dv),
-                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx), -mass * dot(dx, displacement(start, from)), 0);
+    const float mass = 1 / inverse_mass;
+    const Conservative c = conservative_forces(self, here, mass);
+    return LimitWork(c.energy, dot(c.springs + c.linear, dx), dot(c.linear, dx), mass * dot(v, dv), mass * dot(dv, dv),
+                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx),
+                     -mass * dot(dx, displacement(start, from)));
 }
 
 void main()

@@ -24,7 +24,7 @@ float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.
 const float k_least_stretch = 1e-4;
 
 // `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
-void add_direction(inout FabricMatrix stress, Gather g, SpringClass spring, FabricMatrix excess, FabricMatrix rate, vec2 d)
+void add_direction(inout FabricMatrix stress, inout float energy, Gather g, SpringClass spring, FabricMatrix excess, FabricMatrix rate, vec2 d)
 {
     const float squared_excess = along(excess, d);
     const float squared = max(1 + squared_excess, k_least_stretch * k_least_stretch);
@@ -38,6 +38,7 @@ void add_direction(inout FabricMatrix stress, Gather g, SpringClass spring, Fabr
         const float viscosity = clamp((change - k_viscous_strain) * g.viscosity.sharpness, 0, 1);
         tension += min(1 / squared, 1) * g.viscosity.scale * viscosity * spring.stiffness * stretch_rate;
     }
+    energy += 0.5 * spring.stiffness * squared_excess * squared_excess / ((1 + stretch) * (1 + stretch));
     stress.warp += tension * d.x * d.x;
     stress.weft += tension * d.y * d.y;
     stress.mixed += tension * d.x * d.y;
@@ -76,14 +77,16 @@ void add_membrane(inout Gather g, SpringClass springs[VOILE_MEMBRANE_SPRINGS], M
                                            0.5 * (dot(warp, weft_rate) + dot(weft, warp_rate)));
     const float k_diagonal = 0.70710678;
     FabricMatrix stress = FabricMatrix(0, 0, 0);
-    add_direction(stress, g, springs[0], excess, rate, vec2(1, 0));
-    add_direction(stress, g, springs[1], excess, rate, vec2(0, 1));
-    add_direction(stress, g, springs[2], excess, rate, vec2(k_diagonal, k_diagonal));
-    add_direction(stress, g, springs[2], excess, rate, vec2(k_diagonal, -k_diagonal));
+    float energy = 0; // J/m^2
+    add_direction(stress, energy, g, springs[0], excess, rate, vec2(1, 0));
+    add_direction(stress, energy, g, springs[1], excess, rate, vec2(0, 1));
+    add_direction(stress, energy, g, springs[2], excess, rate, vec2(k_diagonal, k_diagonal));
+    add_direction(stress, energy, g, springs[2], excess, rate, vec2(k_diagonal, -k_diagonal));
 
     const vec2 own = first    ? -(rest.gradient_1 + rest.gradient_2)
                      : second ? rest.gradient_1
                               : rest.gradient_2;
+    g.energy += rest.weight * energy / 3;
     g.force -= rest.weight * ((stress.warp * own.x + stress.mixed * own.y) * warp +
                               (stress.mixed * own.x + stress.weft * own.y) * weft);
 }

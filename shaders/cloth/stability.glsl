@@ -46,6 +46,8 @@ struct Viscosity
     float sharpness; // a change of length beyond what springs may have in a substep, times this, is the fraction of `scale`
 };
 
+const Viscosity k_no_viscosity = Viscosity(0, 0);
+
 // How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach; less
 // than half of it goes along a spring and across it each. A step far within the reach needs none: there it vanishes with
 // the fourth power of the step, faster than the method's own error.

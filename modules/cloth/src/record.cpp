@@ -179,7 +179,8 @@ uint32_t Solver::dispatches(const Step& step) const
                                (passes.tethers > 0 ? 1 : 0) + (passes.features ? 1 : 0);
     uint32_t strain = 0;
     if (passes.strain_spacing > 0) // its passes, what bounds positions, contact, and the guard
-        strain = limit_passes(passes.strain_spacing) + (passes.holds > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) + 7;
+        strain = limit_passes(passes.strain_spacing) + (passes.holds > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) + 7 +
+                 3 * VOILE_LIMIT_LOOKS;
     const uint32_t substeps = State::substeps(*this, step);
     const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
     const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +

@@ -261,9 +261,14 @@ void SubstepRecorder::record_limit_guard()
     push.step = h_;
     for (const VkDescriptorSet set : device_.limit_work)
         recorder_.dispatch(kernels_.limit_work, set, threads, group_, push);
-    recorder_.dispatch(kernels_.limit_scale, device_.limit_scale, threads, group_,
-                       shared::LimitScalePush{device_.chunk_count, 1 / step_.duration});
-    recorder_.dispatch(kernels_.limit_guard, device_.limit_guard, threads, group_, std::span<const std::byte>{});
+    for (uint32_t look = 0; look <= VOILE_LIMIT_LOOKS; ++look)
+    {
+        if (look > 0) // at what is left of the limit's changes
+            recorder_.dispatch(kernels_.limit_work, device_.limit_work[3], threads, group_, push);
+        recorder_.dispatch(kernels_.limit_scale, device_.limit_scale, threads, group_,
+                           shared::LimitScalePush{device_.chunk_count, 1 / step_.duration, look});
+        recorder_.dispatch(kernels_.limit_guard, device_.limit_guard, threads, group_, std::span<const std::byte>{});
+    }
 }
 
 // From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it: an even number

@@ -154,7 +154,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     std::vector<shared::AnchorRecord> anchors;
     for (const Anchor& anchor : s.anchors)
         anchors.push_back(make_record(anchor));
-    const std::vector<shared::LimitScale> limit_scales(s.model.records.size(), shared::LimitScale{1, 1, 0, 0});
+    const std::vector<shared::LimitScale> limit_scales(s.model.records.size(), shared::LimitScale{1, 1, 0, 1, 0, 0});
     struct Staged
     {
         const gpu::Buffer& destination;
