@@ -4,6 +4,7 @@
 #include "bvh_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace cloth

@@ -1,6 +1,8 @@
 // DeviceState: allocation and descriptor sets.
 #include "device_state.hpp"
 
+#include <array>
+
 namespace cloth
 {
 

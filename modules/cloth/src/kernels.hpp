@@ -5,7 +5,6 @@
 
 #include "gpu/kernel.hpp"
 
-#include <array>
 
 namespace cloth
 {
