@@ -8,8 +8,11 @@
 // it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
 // and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the
 // last word.
+//
+// Of a cloth that is brought out of a collider (recover.comp), that collider's features hold nothing back: a sheet that it
+// stands through would be stretched across its edges until it snaps free.
 // Reads: the chunks that are near (feature_reach.comp), cloths, chunks, mesh lists, colliders and their motions, features and
-// their hierarchy, positions before the substep, proposed state, residuals of both.
+// their hierarchy, positions before the substep, proposed state, residuals of both, this step's votes of recovery.
 // Writes: corrections of vertices that meet something, which the contact pass adds to the proposed state; predicted velocities.
 #include "bvh_layout.h"
 #include "cloth_layout.h"
@@ -36,6 +39,7 @@ layout(set = 0, binding = 14, std430) readonly buffer EarlierPositions { vec4 ea
 layout(set = 0, binding = 15, std430) readonly buffer NearColliders { uint near_colliders[]; };
 layout(set = 0, binding = 16, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
 
@@ -66,6 +70,16 @@ void take_leaf(uint first, uint count)
 #define VOILE_REACHED is_near
 #include "bvh.glsl"
 
+// The sum of the directions in which the cloth's vertices are brought out, in the collider's space; 0 if none is inside it.
+vec3 way_out(uint cloth, uint c)
+{
+    const uint word = VOILE_VOTE_WORDS * cloth;
+    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
+        return vec3(0);
+    const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
+    return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
+}
+
 // The `part`-th of so many `parts` of the pieces around the vertex.
 void visit_collider(uint c, vec2 fabric_friction, uint part, uint parts)
 {
@@ -90,6 +104,7 @@ void visit_collider(uint c, vec2 fabric_friction, uint part, uint parts)
         return;
     friction = vec2(pair_friction(fabric_friction.x, collider.static_friction, collider.flags),
                     pair_friction(fabric_friction.y, collider.kinetic_friction, collider.flags));
+    leaving = way_out(self.vertex.cloth, c);
     const uint count = corner_count();
     for (uint k = part; k < count; k += parts)
     {

@@ -1,6 +1,7 @@
 // How a corner or an edge of a collider meets a piece of cloth, and what that changes of the vertex.
 //
-// The including kernel declares push.step, includes feature_pieces.glsl before, and sets `friction` for each collider.
+// The including kernel declares push.step, includes feature_pieces.glsl before, and sets `friction` and `leaving` for each
+// collider.
 #ifndef VOILE_FEATURE_MEETING_GLSL
 #define VOILE_FEATURE_MEETING_GLSL
 
@@ -26,6 +27,8 @@ Response response = Response(vec3(0), 0, vec3(0), 0, vec3(0));
 
 // Static and kinetic coefficient of the cloth with the collider that is being looked at.
 vec2 friction;
+// The direction in which the cloth is brought out of that collider, in its space, of any length; 0: it is not inside.
+vec3 leaving;
 
 // How a feature and a piece of cloth meet.
 struct Meeting
@@ -47,6 +50,12 @@ bool is_behind(Feature feature, vec3 direction)
     return feature.cosine > -1 && dot(direction, feature.normal) < -min(sine, feature.cosine) - k_certain;
 }
 
+// Whether a push in this direction would keep the cloth in the collider. What is round may: nothing hooks around it.
+bool holds_back(Feature feature, vec3 direction)
+{
+    return feature.cosine > -1 && dot(leaving, direction) < 0;
+}
+
 // The piece of cloth was at `from` along `before` before the substep and is at `to` along `now`: m, unit vectors. It belongs
 // to where it was; unless it was inside, and so near that it must have come in here.
 Meeting meet(Feature feature, vec3 before, float from, vec3 now, float to)
@@ -63,6 +72,8 @@ Meeting meet(Feature feature, vec3 before, float from, vec3 now, float to)
         side = -side;
     }
     const float gap_before = side * from - feature.radius;
+    if (holds_back(feature, side * now))
+        return result;
     result.direction = side * now;
     result.gap = side * to - feature.radius;
     const bool passed = gap_before > 0 && result.gap < 0;

@@ -240,8 +240,10 @@ Depenetration find_depenetration(uint i, uint cloth)
         if (!is_solid(collider) || (collider.layers & layers) == 0)
             continue;
         const vec3 local = into_collider(c, collider.flags, x, 0);
-        if (is_inside(c, collider, local))
-            return depenetration_of(i, cloth, c, collider, x, local);
+        if (!is_inside(c, collider, local))
+            continue;
+        atomicOr(next_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COLLIDERS], 1u << (c % 32));
+        return depenetration_of(i, cloth, c, collider, x, local);
     }
     return Depenetration(vec3(0), 0);
 }

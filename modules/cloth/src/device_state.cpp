@@ -224,13 +224,14 @@ void bind_contact(DeviceState& s, const Kernels& kernels, Binder& binder)
                      p.earlier.residuals.handle(),
                      s.depenetrations.handle(),
                      s.near_colliders.handle()});
-        binder.bind(s.feature_contact[parity], kernels.feature_contact,
-                    {s.cloths.handle(), s.chunks.handle(), p.state.positions.handle(), p.state.velocities.handle(),
-                     s.feature_corrections.handle(), s.feature_chunks.handle(), p.predicted.handle(),
-                     s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(),
-                     s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
-                     s.features.handle(), p.earlier.positions.handle(), s.near_colliders.handle(),
-                     p.state.residuals.handle(), p.earlier.residuals.handle()});
+        for (size_t votes = 0; votes < 2; ++votes)
+            binder.bind(s.feature_contact[parity][votes], kernels.feature_contact,
+                        {s.cloths.handle(), s.chunks.handle(), p.state.positions.handle(), p.state.velocities.handle(),
+                         s.feature_corrections.handle(), s.feature_chunks.handle(), p.predicted.handle(),
+                         s.mesh_vertices.handle(), s.mesh_corners.handle(), s.colliders.handle(),
+                         s.collider_motions.handle(), s.feature_sets.handle(), s.feature_nodes.handle(),
+                         s.features.handle(), p.earlier.positions.handle(), s.near_colliders.handle(),
+                         p.state.residuals.handle(), p.earlier.residuals.handle(), s.recovery_votes[votes].handle()});
     }
     binder.bind(s.feature_reach, kernels.feature_reach,
                 {s.cloths.handle(), s.chunks.handle(), s.state.positions.handle(), s.state.velocities.handle(),
@@ -339,7 +340,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.near_stride = near_stride(state.collider_count, state.chunk_count, model.max_buffer_bytes);
     if (auto buffers = create_buffers(context, state, model, data); !buffers)
         return buffers.error();
-    constexpr uint32_t k_sets = 42;
+    constexpr uint32_t k_sets = 44;
     auto pool = gpu::BindingPool::create(context, k_sets, k_sets * k_most_storage_buffers);
     if (!pool)
         return pool.error();

@@ -85,8 +85,9 @@ struct DeviceState
     std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
     VkDescriptorSet collider_reach{};
     VkDescriptorSet feature_reach{};
-    std::array<VkDescriptorSet, 2> feature_contact{}; // corrections of stage B, of the state
-    std::array<VkDescriptorSet, 2> recover{};         // each writes one of the sizes
+    // Corrections of stage B, of the state; with the votes of an even step, of an odd one.
+    std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
+    std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals_set{};

@@ -186,8 +186,8 @@ void SubstepRecorder::record_features(uint32_t substep)
                                    first_substep_ + substep,
                                    device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-                                device_.feature_contact[in_stage_b(substep) ? 1 : 0], device_.feature_dispatch.handle(),
-                                0, push);
+                                device_.feature_contact[in_stage_b(substep) ? 1 : 0][solver_.recovery_step % 2],
+                                device_.feature_dispatch.handle(), 0, push);
 }
 
 void SubstepRecorder::record_contact(uint32_t substep)
