@@ -23,7 +23,7 @@ using tests::collider;
 
 constexpr glm::vec3 k_half(0.3f, 0.25f, 0.3f); // of boxes, m
 constexpr float k_radius = 0.3f;
-constexpr cloth::CapsuleCollider k_capsule{.from = {-0.2f, 0, 0}, .to = {0.2f, 0.05f, 0}, .radius = 0.15f};
+const cloth::CapsuleCollider k_capsule{.from = {-0.2f, 0, 0}, .to = {0.2f, 0.05f, 0}, .radius = 0.15f};
 
 struct Solid
 {
