@@ -5,7 +5,6 @@
 
 #include "gpu/kernel.hpp"
 
-
 namespace cloth
 {
 

@@ -60,12 +60,13 @@ struct Material
 };
 
 // The strain limit acts at the end of each step, by corrections that keep momentum and take their energy from the
-// cloth's own (shaders/cloth/limit_strain.comp, limit_scale.comp): none is added. They undo what the step has stretched;
-// beyond that, motion and damping pay for them. A grid whose springs alone would stretch to several times the limit stays below 1.2 times it as it
-// swings down for a second, and hangs at rest within 1.03 times it. Where stiff springs are pressed together for it,
-// less can be paid for: cotton that falls on a sphere from 0.1 m is stretched to 2 times a limit of 1 % for a moment
-// and rests at 1.5 times it; of a limit of 0.1 % it is 21 times and 6 times. On a mesh, where corrections have no
-// coarse levels to travel on, the lower end of a very soft cloth follows over some steps: tethers help there.
+// cloth's own (shaders/cloth/limit_strain.comp, limit_scale.comp): none is added. They undo what the step has
+// stretched; beyond that, motion and damping pay for them. A grid whose springs alone would stretch to several times
+// the limit stays below 1.2 times it as it swings down for a second, and hangs at rest within 1.03 times it. Where
+// stiff springs are pressed together for it, less can be paid for: cotton that falls on a sphere from 0.1 m is
+// stretched to 2 times a limit of 1 % for a moment and rests at 1.5 times it; of a limit of 0.1 % it is 21 times and 6
+// times. On a mesh, where corrections have no coarse levels to travel on, the lower end of a very soft cloth follows
+// over some steps: tethers help there.
 
 // A fabric by its own properties, independent of the mesh that it is sampled with.
 struct Fabric
