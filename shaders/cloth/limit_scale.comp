@@ -38,18 +38,20 @@ struct Energies
     float lost;  // J, in the step before the limit
     float slope; // J, of the cost in what is kept of the limit's displacements, at none of them
     float cost;  // J, of the displacements as they are now
-    LimitWork limit;
+    float v_dv;  // what follows is the limit's, see LimitWork
+    float dv_dv;
+    float v_dx;
+    float dx_dx;
+    float dv_dx;
+    float undone;
 };
 
 shared Energies sums[gl_WorkGroupSize.x];
 
 Energies add(Energies a, Energies b)
 {
-    const LimitWork l = a.limit;
-    const LimitWork m = b.limit;
-    return Energies(a.lost + b.lost, a.slope + b.slope, a.cost + b.cost,
-                    LimitWork(0, 0, 0, l.v_dv + m.v_dv, l.dv_dv + m.dv_dv, l.v_dx + m.v_dx, l.dx_dx + m.dx_dx,
-                              l.dv_dx + m.dv_dx, l.undone + m.undone));
+    return Energies(a.lost + b.lost, a.slope + b.slope, a.cost + b.cost, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv,
+                    a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
 }
 
 // J, what displacements from one state to the other add. `kept`: how much of those that the work at the first is of.
@@ -66,7 +68,7 @@ Energies energies_of(uint chunk, float kept)
     const LimitWork before = works_before[chunk];
     const LimitWork after = works_after[chunk];
     return Energies(-stored(first, last, 1) - first.v_dv - 0.5 * first.dv_dv, -before.work, stored(before, after, kept),
-                    before);
+                    before.v_dv, before.dv_dv, before.v_dx, before.dx_dx, before.dv_dx, before.undone);
 }
 
 // Where a x + 1/2 b x^2 is least between 0 and `most`.
@@ -84,17 +86,16 @@ float affordable(float slope, float cost, float available)
 LimitScale scale_of(float reserve, Energies e)
 {
     // v dv + shift dx with the least kinetic energy, one after the other in turn.
-    const LimitWork l = e.limit;
     float v = 1;
     float shift = 0;
     for (int i = 0; i < 8; ++i)
     {
-        v = least(l.v_dv + shift * l.dv_dx, l.dv_dv, 1);
-        shift = least(l.v_dx + v * l.dv_dx, l.dx_dx, push.rate);
+        v = least(e.v_dv + shift * e.dv_dx, e.dv_dv, 1);
+        shift = least(e.v_dx + v * e.dv_dx, e.dx_dx, push.rate);
     }
-    const float kinetic = v * l.v_dv + shift * l.v_dx + v * shift * l.dv_dx + 0.5 * (v * v * l.dv_dv + shift * shift * l.dx_dx);
+    const float kinetic = v * e.v_dv + shift * e.v_dx + v * shift * e.dv_dx + 0.5 * (v * v * e.dv_dv + shift * shift * e.dx_dx);
     const float saved = reserve - kinetic;
-    const float undone = l.dx_dx > 0 ? clamp(k_undoing * l.undone / l.dx_dx, 0, 1) : 1;
+    const float undone = e.dx_dx > 0 ? clamp(k_undoing * e.undone / e.dx_dx, 0, 1) : 1;
     const float lost = undone * max(e.lost, 0);
     const float x = affordable(e.slope, e.cost, max(saved + lost, 0));
     const float sum = x + v + shift + saved + lost;
@@ -129,7 +130,7 @@ void main()
     const uint thread = gl_LocalInvocationID.x;
     const LimitScale scale = scales[cloth];
     const float kept = push.look == 0 ? 1 : scale.kept;
-    Energies sum = Energies(0, 0, 0, LimitWork(0, 0, 0, 0, 0, 0, 0, 0, 0));
+    Energies sum = Energies(0, 0, 0, 0, 0, 0, 0, 0, 0);
     for (uint c = first + thread; c < push.chunks && chunks[c].cloth == cloth; c += gl_WorkGroupSize.x)
         sum = add(sum, energies_of(c, kept));
     sums[thread] = sum;
