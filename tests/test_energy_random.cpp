@@ -7,9 +7,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace
 {
@@ -180,6 +182,17 @@ void run_cloths(uint32_t seed, uint32_t cloths, uint32_t frames)
     }
 }
 
+// More of them by hand: VOILE_ENERGY_SEEDS=first,last.
+std::optional<std::array<uint32_t, 2>> seeds_by_hand()
+{
+    const char* seeds = std::getenv("VOILE_ENERGY_SEEDS");
+    if (!seeds)
+        return {};
+    const std::string text(seeds);
+    return std::array{static_cast<uint32_t>(std::stoul(text)),
+                      static_cast<uint32_t>(std::stoul(text.substr(text.find(',') + 1)))};
+}
+
 // Springs of one cloth that differ by eight orders of magnitude, and a strain limit in every other cloth.
 cloth::ClothMaterial draw_wide_material(Draw& draw)
 {
@@ -296,10 +309,8 @@ TEST_CASE("threads of one direction keep velocity Verlet within its reach")
 
 TEST_CASE("no free cloth of any material has more energy than at its start")
 {
-    const char* seeds = std::getenv("VOILE_ENERGY_SEEDS");
-    const std::string text(seeds ? seeds : "1,6");
-    const auto last = static_cast<uint32_t>(std::stoul(text.substr(text.find(',') + 1)));
-    for (auto seed = static_cast<uint32_t>(std::stoul(text)); seed <= last; ++seed)
+    const auto [first, last] = seeds_by_hand().value_or(std::array{1u, 6u});
+    for (uint32_t seed = first; seed <= last; ++seed)
     {
         CAPTURE(seed);
         Draw draw(seed);
@@ -310,16 +321,8 @@ TEST_CASE("no free cloth of any material has more energy than at its start")
 
 TEST_CASE("no random cloth ever has more energy than at its start")
 {
-    const char* seeds = std::getenv("VOILE_ENERGY_SEEDS"); // first,last: more of them, by hand
-    if (seeds)
-    {
-        const std::string text(seeds);
-        const auto first = static_cast<uint32_t>(std::stoul(text));
-        const auto last = static_cast<uint32_t>(std::stoul(text.substr(text.find(',') + 1)));
-        for (uint32_t seed = first; seed <= last; ++seed)
-            run_cloths(seed, 12, 90);
-        return;
-    }
-    for (const uint32_t seed : {1u, 2u, 3u})
-        run_cloths(seed, 6, 25);
+    const auto by_hand = seeds_by_hand();
+    const auto [first, last] = by_hand.value_or(std::array{1u, 3u});
+    for (uint32_t seed = first; seed <= last; ++seed)
+        run_cloths(seed, by_hand ? 12 : 6, by_hand ? 90 : 25);
 }

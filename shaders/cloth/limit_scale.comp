@@ -11,7 +11,7 @@
 //
 // What a part of the displacements costs follows from the slope at their start and from the cost of all of them, as if springs
 // were linear. They are not: what is kept is measured, taken back further where it costs too much, and measured again. What
-// costs too much then is not kept at all.
+// costs a little too much then is taken back by as much as the estimate says; what costs more is not kept at all.
 // Reads: patches, work. Writes: one scale per cloth.
 #include "cloth_layout.h"
 

@@ -23,8 +23,9 @@ float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.
 // |F d| below which a direction counts as one of that length: the triangle has collapsed.
 const float k_least_stretch = 1e-4;
 
-// `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
-void add_direction(inout FabricMatrix stress, inout float energy, Gather g, SpringClass spring, FabricMatrix excess, FabricMatrix rate, vec2 d)
+// `energy`: J/m^2; `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
+void add_direction(inout FabricMatrix stress, inout float energy, Gather g, SpringClass spring, FabricMatrix excess,
+                   FabricMatrix rate, vec2 d)
 {
     const float squared_excess = along(excess, d);
     const float squared = max(1 + squared_excess, k_least_stretch * k_least_stretch);
