@@ -36,15 +36,15 @@
 #define VOILE_COLLIDER_CAPSULE 3
 #define VOILE_COLLIDER_BOX 4
 
-// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at twice
-// that speed.
+// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at
+// twice that speed.
 #define VOILE_RECOVERY_SPEED 0.75f
-// The buffer of depenetrations begins with the sizes of two dispatches of the recovery, one of which the step writes, of so many
-// words each.
+// The buffer of depenetrations begins with the sizes of two dispatches of the recovery, one of which the step writes,
+// of so many words each.
 #define VOILE_DISPATCH_WORDS 4
 
-// The colliders near a chunk (collider_reach.comp), in words: the box in which the list holds, where its bits begin and end that
-// are not 0, in words of them, and then the bits, one per collider.
+// The colliders near a chunk (collider_reach.comp), in words: the box in which the list holds, where its bits begin and
+// end that are not 0, in words of them, and then the bits, one per collider.
 #define VOILE_NEAR_MIN 0
 #define VOILE_NEAR_FIRST 3
 #define VOILE_NEAR_MAX 4
@@ -110,9 +110,9 @@ struct ClothRecord
     float drag_tangential; // C_t
     float border_share;    // of masses and of springs along a grid's border
     uint flags;
-    float omega_squared; // 1/s^2, of the fastest mode in any shape, bending included
-    float decay;         // 1/s, of the fastest decay in any shape
-    float strain_limit;  // largest l / L - 1; 0: none
+    float omega_squared;     // 1/s^2, of the fastest mode in any shape, bending included
+    float decay;             // 1/s, of the fastest decay in any shape
+    float strain_limit;      // largest l / L - 1; 0: none
     float inverse_density;   // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
     float strain_relaxation; // of a correction of the strain limit
     uint layers;             // bits; it meets colliders that have one of them
@@ -215,8 +215,8 @@ struct TetherRecord
     float lengths[VOILE_TETHERS]; // m
 };
 
-// A collider where it was added, in its own space: the world as it was then (of a box: the box's), seen from `origin`. So
-// that what contact computes is as precise far from the world's origin as near to it.
+// A collider where it was added, in its own space: the world as it was then (of a box: the box's), seen from `origin`.
+// So that what contact computes is as precise far from the world's origin as near to it.
 struct ColliderRecord
 {
     uint kind;
@@ -231,8 +231,9 @@ struct ColliderRecord
     uint layers;         // bits; it meets cloths that have one of them
     uint nodes;          // of a mesh that does not deform, from first_node on
     uint padding;
-    vec4 shape;  // plane: unit normal, offset; sphere: w, radius; capsule: half of its axis, radius; box: half of its size
-    vec3 origin; // m, in the world of a collider that has not moved; of a ball, a capsule and a box the center
+    vec4 shape;   // plane: unit normal, offset; sphere: w, radius; capsule: half of its axis, radius; box: half of its
+                  // size
+    vec3 origin;  // m, in the world of a collider that has not moved; of a ball, a capsule and a box the center
     float extent; // m, that a mesh has at most along an axis from there
 };
 
@@ -297,8 +298,8 @@ struct ColliderReachPush
     uint near_stride;
 };
 
-// Votes of a cloth's vertices inside of colliders: of sides, the sum of directions in the world, how many these are, and the
-// colliders, each a bit, the 33rd that of the first.
+// Votes of a cloth's vertices inside of colliders: of sides, the sum of directions in the world, how many these are,
+// and the colliders, each a bit, the 33rd that of the first.
 #define VOILE_VOTE_WORDS 6
 #define VOILE_VOTE_COLLIDERS 5 // the word of the bits
 
@@ -360,12 +361,12 @@ struct StrainPush
     uint spacing; // of the level, in grid lines
     uint between; // 1: vertices between the lines of the level before take over what their neighbors were moved by
     float acceleration; // of the passes of a level (Chebyshev); 1: none
-    uint first; // 1: of a level; no vertex knows yet what it bears
-    uint last;  // 1: of all; what vertices bear gives way to their flags
+    uint first;         // 1: of a level; no vertex knows yet what it bears
+    uint last;          // 1: of all; what vertices bear gives way to their flags
 };
 
-// A patch's part of what a step or the strain limit does to its cloth (limit_work.comp). Of a displacement dx and a change of
-// velocity dv:
+// A patch's part of what a step or the strain limit does to its cloth (limit_work.comp). Of a displacement dx and a
+// change of velocity dv:
 struct LimitWork
 {
     float energy;      // J, of springs in one state
@@ -379,7 +380,8 @@ struct LimitWork
     float undone;      // J s^2, minus the sum of m dx . (displacement from the step's start)
 };
 
-// How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give back.
+// How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give
+// back.
 struct LimitScale
 {
     float position;   // 0..1, of the displacements as they are now

@@ -43,10 +43,10 @@ struct MarkPush
 {
     mat4 world_from_model;
     vec3 color;
-    float size;   // pixels
-    vec2 pixel;   // its width and height in clip space
-    float reach;  // m; 0: the second stream holds ends, not directions
-    uint mask;    // of flags; 0: all are shown
+    float size;  // pixels
+    vec2 pixel;  // its width and height in clip space
+    float reach; // m; 0: the second stream holds ends, not directions
+    uint mask;   // of flags; 0: all are shown
 };
 
 VOILE_SHARED_END
