@@ -5,18 +5,6 @@ find_package(Threads REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# volk: a static library where the distribution has one, else built from volk.c (Debian 12 ships the two sources alone).
-find_package(volk CONFIG QUIET)
-if(NOT TARGET volk::volk)
-    find_path(VOLK_INCLUDE_DIR NAMES volk.h PATH_SUFFIXES volk REQUIRED)
-    find_file(VOLK_SOURCE NAMES volk.c PATHS ${VOLK_INCLUDE_DIR} NO_DEFAULT_PATH REQUIRED)
-    add_library(voile_volk STATIC ${VOLK_SOURCE})
-    target_include_directories(voile_volk SYSTEM PUBLIC ${VOLK_INCLUDE_DIR} ${Vulkan_INCLUDE_DIRS})
-    target_compile_definitions(voile_volk PUBLIC VK_NO_PROTOTYPES)
-    target_link_libraries(voile_volk PUBLIC ${CMAKE_DL_LIBS})
-    add_library(volk::volk ALIAS voile_volk)
-endif()
-
 find_package(VulkanMemoryAllocator CONFIG QUIET)
 if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
     find_path(VMA_INCLUDE_DIR NAMES vk_mem_alloc.h PATH_SUFFIXES vma)
@@ -29,6 +17,19 @@ if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
 endif()
 
 if(VOILE_BUILD_ENGINE)
+    # volk, which the engine loads Vulkan with: a static library where the distribution has one, else built from volk.c
+    # (Debian 12 ships the two sources alone). The module does without: volk defines every function of Vulkan as a variable,
+    # and a program that links Vulkan would call those.
+    find_package(volk CONFIG QUIET)
+    if(NOT TARGET volk::volk)
+        find_path(VOLK_INCLUDE_DIR NAMES volk.h PATH_SUFFIXES volk REQUIRED)
+        find_file(VOLK_SOURCE NAMES volk.c PATHS ${VOLK_INCLUDE_DIR} NO_DEFAULT_PATH REQUIRED)
+        add_library(voile_volk STATIC ${VOLK_SOURCE})
+        target_include_directories(voile_volk SYSTEM PUBLIC ${VOLK_INCLUDE_DIR} ${Vulkan_INCLUDE_DIRS})
+        target_compile_definitions(voile_volk PUBLIC VK_NO_PROTOTYPES)
+        target_link_libraries(voile_volk PUBLIC ${CMAKE_DL_LIBS})
+        add_library(volk::volk ALIAS voile_volk)
+    endif()
     find_package(glfw3 3.3 REQUIRED)
     find_package(tinyobjloader REQUIRED)
     find_package(nlohmann_json 3 REQUIRED)

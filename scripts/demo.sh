@@ -35,10 +35,16 @@ fi
 out=out/demo
 mkdir -p "$out"
 rm -f "$out"/frame_*.png
-files=(--out "$out" --every 10 --stats "$out/statistics.json")
-if command -v ffmpeg >/dev/null 2>&1; then
+given() { [[ " ${arguments[*]-} " == *" $1 "* || " ${arguments[*]-}" == *" $1="* ]]; }
+files=()
+given --out || files+=(--out "$out")
+given --every || files+=(--every 10)
+given --stats || files+=(--stats "$out/statistics.json")
+if given --video; then
+  :
+elif command -v ffmpeg >/dev/null 2>&1; then
   files+=(--video "$out/film.mp4")
 else
   echo 'demo: no ffmpeg, so no film' >&2
 fi
-exec "$viewer" "$scene" --headless "${files[@]}" ${arguments[@]+"${arguments[@]}"}
+exec "$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}

@@ -7,6 +7,16 @@
 #
 # There:   tar xf tests.tar.xz && voile_tests/run.sh
 set -euo pipefail
+case "${1:-}" in
+  -h | --help)
+    awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
+    exit 0
+    ;;
+  -*)
+    printf 'pack_tests: there is no option %s; see --help\n' "$1" >&2
+    exit 1
+    ;;
+esac
 cd "$(dirname "$0")/.."
 
 archive=$(realpath -m "${1:-build/tests.tar.xz}")

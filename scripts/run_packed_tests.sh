@@ -12,6 +12,7 @@ here=$PWD
 only='' # extended regular expressions
 but=''
 jobs=$(nproc 2>/dev/null || echo 2)
+[ "${1:-}" != --help ] || set -- -h
 while getopts 'R:E:j:h' option; do
   case "$option" in
     R) only=$OPTARG ;;

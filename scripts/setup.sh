@@ -6,6 +6,18 @@
 #   scripts/setup.sh --check    only says what is missing; exit code 1 if anything is
 set -euo pipefail
 
+case "${1:-}" in
+  '' | --check) ;;
+  -h | --help)
+    awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
+    exit 0
+    ;;
+  *)
+    printf 'setup: there is no option %s; see --help\n' "$1" >&2
+    exit 1
+    ;;
+esac
+
 packages=(
   build-essential cmake ninja-build git ca-certificates
   libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools

@@ -232,6 +232,25 @@ TEST_CASE("an upload in the middle keeps a deformed mesh as it is")
         CHECK(p.y > 0.5f);
 }
 
+TEST_CASE("what is inside a deforming mesh is counted before the first step, and after an upload")
+{
+    ClothHarness harness;
+    cloth::Grid grid = flat_sheet(3, 0.2f, 0);
+    grid.held = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    (void)engine::take(harness.solver.add_cloth(grid));
+    const engine::Mesh box = engine::make_box(glm::vec3(-0.5f), glm::vec3(0.5f));
+    const cloth::ColliderId id = engine::take(harness.solver.add_collider(deforming(box)));
+    harness.upload();
+    CHECK(harness.statistics().penetrating_vertices == 9);
+    CHECK(harness.statistics().deepest_penetration == doctest::Approx(0.5f).epsilon(1e-6));
+    engine::take(harness.solver.deform_collider(id, transformed(box.positions, tests::moved({0, 0.2f, 0}))));
+    harness.step({});
+    (void)engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    CHECK(harness.statistics().penetrating_vertices == 18);
+    CHECK(harness.statistics().deepest_penetration == doctest::Approx(0.3f).epsilon(1e-6));
+}
+
 TEST_CASE("what a deforming collider cannot take is refused")
 {
     ClothHarness harness;

@@ -1,6 +1,7 @@
 // What changes while a cloth is there: materials, reset, teleport, velocity, and snapshots to the bit.
 #include "close_to.hpp"
 #include "cloth_harness.hpp"
+#include "collider_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -174,6 +175,60 @@ TEST_CASE("a snapshot brings the state back to the bit, also by way of the host"
             CHECK_FALSE(other.assign(std::span(kept).first(16)).ok());
         }
     }
+}
+
+// A sheet in the middle of a box, which does not know by itself on which side to come out.
+cloth::ClothId add_buried(ClothHarness& harness)
+{
+    const cloth::ClothId id = engine::take(harness.solver.add_cloth(tests::flat_sheet(12, 0.4f, 0.001f)));
+    (void)engine::take(
+        harness.solver.add_collider(cloth::BoxCollider{.min = {-0.15f, -0.2f, -0.3f}, .max = {0.15f, 0.2f, 0.3f}}));
+    harness.upload();
+    return id;
+}
+
+TEST_CASE("a snapshot of cloth that comes out of a solid goes on as it did, to the bit")
+{
+    constexpr cloth::Step k_step{.substeps = 40};
+    for (const uint32_t before : {1u, 4u, 7u})
+    {
+        CAPTURE(before);
+        ClothHarness harness;
+        const cloth::ClothId id = add_buried(harness);
+        harness.step(k_step, before);
+        const cloth::Snapshot snapshot = engine::take(harness.solver.create_snapshot());
+        harness.run([&](VkCommandBuffer cmd) { engine::take(harness.solver.record_save(cmd, snapshot)); });
+        harness.step(k_step, 12);
+        const auto x = harness.positions(id);
+        harness.step(k_step, 3);
+        harness.run([&](VkCommandBuffer cmd) { engine::take(harness.solver.record_restore(cmd, snapshot)); });
+        harness.step(k_step, 12);
+        CHECK(same_bits(harness.positions(id), x));
+
+        ClothHarness again; // as a program that reads a file
+        const cloth::ClothId other = add_buried(again);
+        cloth::Snapshot read = engine::take(again.solver.create_snapshot());
+        engine::take(read.assign(snapshot.bytes()));
+        again.run([&](VkCommandBuffer cmd) { engine::take(again.solver.record_restore(cmd, read)); });
+        again.step(k_step, 12);
+        CHECK(same_bits(again.positions(other), x));
+    }
+}
+
+TEST_CASE("an upload changes no bit of cloth that comes out of a solid")
+{
+    constexpr cloth::Step k_step{.substeps = 40};
+    ClothHarness alone;
+    ClothHarness joined;
+    const cloth::ClothId id = add_buried(alone);
+    REQUIRE(add_buried(joined) == id);
+    alone.step(k_step, 5);
+    joined.step(k_step, 5);
+    (void)engine::take(joined.solver.add_cloth(tests::flat_sheet(4, 0.2f, 5)));
+    joined.upload();
+    alone.step(k_step, 15);
+    joined.step(k_step, 15);
+    CHECK(same_bits(alone.positions(id), joined.positions(id)));
 }
 
 TEST_CASE("a snapshot that nothing was saved in, or that is not finite, is refused")

@@ -165,6 +165,19 @@ TEST_CASE("edges of a collider hold cloth alike, however many threads share what
     }
 }
 
+TEST_CASE("enumerators of the options that do not exist are refused")
+{
+    const auto refused = [](const cloth::SolverOptions& options)
+    {
+        const auto solver = cloth::Solver::create(tests::device().context().handles, options);
+        return solver ? "accepted" : solver.error().message;
+    };
+    CHECK(refused({.contact_method = static_cast<cloth::ContactMethod>(5)}) ==
+          "SolverOptions: contact_method is 5, must be normal_ray or nearest_point");
+    CHECK(refused({.mesh_layout = static_cast<cloth::MeshLayout>(2)}) ==
+          "SolverOptions: mesh_layout is 2, must be compact or interleaved");
+}
+
 TEST_CASE("threads that share what is around a vertex are as many as a workgroup may have, and a power of two")
 {
     for (const uint32_t threads : {3u, 128u})

@@ -9,8 +9,10 @@
 #include <doctest/doctest.h>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -56,8 +58,10 @@ TEST_CASE("text from a file is made fit for one line of a terminal")
     CHECK(gpu::printable("Gräfin \xe2\x82\xac \xf0\x9f\xa7\xb5") == "Gräfin \xe2\x82\xac \xf0\x9f\xa7\xb5");
     CHECK(gpu::printable("\x1b[31mred\r\n\t\x7f") == "?[31mred????");
     CHECK(gpu::printable(std::string("a\0b", 3)) == "a?b");
-    CHECK(gpu::printable("\xc2\x9b" "31m \xc2\x85 \xc2\xa0") == "?31m ? \xc2\xa0"); // CSI and NEL of C1; no-break space
-    CHECK(gpu::printable("\x9b" "31m") == "?31m");
+    CHECK(gpu::printable("\xc2\x9b"
+                         "31m \xc2\x85 \xc2\xa0") == "?31m ? \xc2\xa0"); // CSI and NEL of C1; no-break space
+    CHECK(gpu::printable("\x9b"
+                         "31m") == "?31m");
     CHECK(gpu::printable("a\xe2\x80\xaetxt\xe2\x80\xa8") == "a?txt?"); // right to left, end of line
     for (const char* no_utf8 : {"\xff", "\xc3", "\xe2\x82", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80"})
     {
@@ -99,6 +103,20 @@ TEST_CASE("messages about a mesh show nothing of it raw")
         REQUIRE_FALSE(refused);
         CHECK(refused.error().message == gpu::printable(refused.error().message, 400));
     }
+}
+
+TEST_CASE("a link to a pipe, as /dev/stdout may be, is written directly")
+{
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    const fs::path link = "/proc/self/fd/" + std::to_string(ends[1]);
+    REQUIRE(fs::is_symlink(link));
+    REQUIRE(engine::write_file(link, "through"));
+    std::array<char, 16> text{};
+    CHECK(::read(ends[0], text.data(), text.size()) == 7);
+    CHECK(std::string(text.data()) == "through");
+    ::close(ends[0]);
+    ::close(ends[1]);
 }
 
 TEST_CASE("a file is there as a whole or not at all")

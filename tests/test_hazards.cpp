@@ -126,7 +126,7 @@ public:
     [[nodiscard]] size_t count() const { return buffers_.size(); }
 
 private:
-    [[nodiscard]] const VolkDeviceTable& fn() const { return device_.context().fn; }
+    [[nodiscard]] const gpu::DeviceFunctions& fn() const { return device_.context().fn; }
 
     const engine::Device& device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

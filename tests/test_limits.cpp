@@ -50,6 +50,33 @@ TEST_CASE("a device that has what requirements() lists is enough for the default
               std::to_string(cloth::requirements().storage_buffers - 1) + " per stage");
 }
 
+namespace
+{
+
+PFN_vkGetInstanceProcAddr the_loaders = nullptr;
+int asked = 0;
+
+PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)
+{
+    ++asked;
+    return the_loaders(instance, name);
+}
+
+} // namespace
+
+TEST_CASE("each solver finds its functions by what it was given, whatever one before it was given")
+{
+    gpu::Handles handles = tests::device().context().handles;
+    the_loaders = handles.get_instance_proc_addr;
+    REQUIRE(cloth::Solver::create(handles, {}));
+    handles.get_instance_proc_addr = counting;
+    REQUIRE(cloth::Solver::create(handles, {}));
+    CHECK(asked > 0);
+    const auto context = gpu::create_context(handles);
+    REQUIRE(context);
+    CHECK((context.value().fn.vkCmdDispatch != nullptr));
+}
+
 TEST_CASE("each limit of a device has its line")
 {
     const auto refused = [](const auto& lower, const cloth::SolverOptions& options = {})

@@ -265,7 +265,8 @@ TEST_CASE("an error names the file, the line and the reason")
     CHECK(message("v 1 -inf 2\n") == "FILE:1: coordinate is not finite");
     CHECK(message("v 1 1e999 2\n") == "FILE:1: coordinate is not finite");
     CHECK(message("v 1 1e39 2\n") == "FILE:1: coordinate is not finite"); // no float
-    CHECK(message("vt\n") == "FILE:1: texture coordinate has 0 coordinates, needs 1");
+    CHECK(message("vt\n") == "FILE:1: texture coordinate has 0 coordinates, needs 1 to 3");
+    CHECK(message("vt 0 0 0 0\n") == "FILE:1: texture coordinate has 4 coordinates, needs 1 to 3");
     CHECK(message("vn 1 0\n") == "FILE:1: normal has 2 coordinates, needs 3");
     CHECK(message("v 1 \\\n2 \\\n3\nv 1 a\n") == "FILE:4: vertex has 2 coordinates, needs 3");
     CHECK(message(k_triangle + "f 1 2\n") == "FILE:4: face has 2 corners, needs 3");

@@ -311,15 +311,16 @@ TEST_CASE("a fault in an ASCII body is named with its line")
     CHECK(message(ascii(3, 1, k_triangle + "-3 0 1 2\n")) == "FILE:13: list has -3 values");
     CHECK(message(ascii(3, 1, k_triangle + "3 0 1\n")) == "FILE:13: face has too few values");
     CHECK(message(ascii(3, 1, k_triangle + "4294967295 0 1 2\n")) == "FILE:13: face has too few values");
-    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n3 0 1 2\n")) == "FILE: something follows the last face");
+    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n3 0 1 2\n")) == "FILE:14: something follows the last face");
+    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n\n \nmore\n")) == "FILE:16: something follows the last face");
 }
 
 TEST_CASE("an ASCII body cut off")
 {
-    CHECK(message(ascii(3, 1, "0 0 0\n0 0 1\n")) == "FILE: file ends before vertex 3 of 3 is complete");
+    CHECK(message(ascii(3, 1, "0 0 0\n0 0 1\n")) == "FILE:11: file ends before vertex 3 of 3 is complete");
     CHECK(message(ascii(3, 1, "0 0 0\n0 0")) == "FILE:11: vertex has too few values");
-    CHECK(message(ascii(3, 2, k_triangle + "3 0 1 2\n")) == "FILE: file ends before face 2 of 2 is complete");
-    CHECK(message(ascii(2147483647, 1, k_triangle)) == "FILE: file ends before vertex 4 of 2147483647 is complete");
+    CHECK(message(ascii(3, 2, k_triangle + "3 0 1 2\n")) == "FILE:13: file ends before face 2 of 2 is complete");
+    CHECK(message(ascii(2147483647, 1, k_triangle)) == "FILE:12: file ends before vertex 4 of 2147483647 is complete");
 }
 
 TEST_CASE("a fault in a binary body is named with the vertex or face")

@@ -270,7 +270,9 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
     CHECK(refused(cloth::BoxCollider{.max = {0.5f, -0.5f, 0.5f}}) ==
           "collider \"box\": the side along y is 0 m, must be 0.0001 to 2e+06");
     CHECK(refused(cloth::BoxCollider{.transform = moved({0, 0, -3e6f})}) ==
-          "collider \"box\": its center is (0, 0, -3e+06) m, each must be -1e+06 to 1e+06");
+          "collider \"box\": a corner is (-0.5, -0.5, -3e+06) m, each must be -1e+06 to 1e+06");
+    CHECK(refused(cloth::BoxCollider{.transform = moved({1e6f, 0, 0})}) ==
+          "collider \"box\": a corner is (1e+06, -0.5, -0.5) m, each must be -1e+06 to 1e+06");
     CHECK(refused(cloth::SphereCollider{.friction = cloth::Friction{200, 0.1f}}) ==
           "collider \"sphere\": static_friction is 200, must be 0 to 100");
     const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
@@ -282,6 +284,9 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
     CHECK(refused(cloth::MeshCollider{
               .positions = corners, .triangles = triangle, .transform = glm::scale(glm::mat4(1), glm::vec3(1e18f))}) ==
           "collider \"mesh\": its transform takes position 1 to (1e+18, 0, 0), each must be -1e+06 to 1e+06 m");
+    CHECK(refused(cloth::MeshCollider{
+              .positions = corners, .triangles = triangle, .sides = static_cast<cloth::Sides>(9)}) ==
+          "collider \"mesh\": sides is 9, must be automatic, one or two");
 
     const cloth::ColliderId ball = engine::take(solver.add_collider(cloth::SphereCollider{}));
     CHECK(reason(solver.move_collider(ball, moved({0, 2e6f, 0}))) ==

@@ -2,6 +2,7 @@
 #include "engine/app/window.hpp"
 
 #include <GLFW/glfw3.h>
+#include <volk.h>
 
 #include <algorithm>
 

@@ -47,6 +47,7 @@ private:
     double read_bytes();
     void fail(const std::string& reason);
     void fail_at_end();
+    [[nodiscard]] std::string place() const; // "mesh.ply:12: ", without a line in a binary file
     [[nodiscard]] std::string entry() const; // "vertex 3 of 8"
 
     const PlyHeader& header_;
@@ -61,6 +62,11 @@ private:
     uint32_t index_ = 0;                  // within the element
 };
 
+std::string BodyReader::place() const
+{
+    return name_ + (header_.is_ascii() ? ":" + std::to_string(line_) + ": " : ": ");
+}
+
 std::string BodyReader::entry() const
 {
     return gpu::printable(element_->name) + " " + std::to_string(index_ + 1) + " of " + std::to_string(element_->count);
@@ -69,13 +75,13 @@ std::string BodyReader::entry() const
 void BodyReader::fail(const std::string& reason)
 {
     if (error_.empty())
-        error_ = name_ + (header_.is_ascii() ? ":" + std::to_string(line_) + ": " : ": " + entry() + ": ") + reason;
+        error_ = place() + (header_.is_ascii() ? "" : entry() + ": ") + reason;
 }
 
 void BodyReader::fail_at_end()
 {
     if (error_.empty())
-        error_ = name_ + ": file ends before " + entry() + " is complete";
+        error_ = place() + "file ends before " + entry() + " is complete";
 }
 
 template <typename T>
@@ -223,9 +229,11 @@ gpu::Result<Polygons> BodyReader::run()
     }
     if (!error_.empty())
         return gpu::Error{error_};
-    if (body_.find_first_not_of(k_blank_lines) != std::string_view::npos)
-        return gpu::Error{name_ + ": something follows the last " + gpu::printable(header_.elements.back().name)};
-    return std::move(polygons_);
+    const size_t rest = body_.find_first_not_of(k_blank_lines);
+    if (rest == std::string_view::npos)
+        return std::move(polygons_);
+    line_ += 1 + static_cast<uint32_t>(std::count(body_.begin(), body_.begin() + static_cast<ptrdiff_t>(rest), '\n'));
+    return gpu::Error{place() + "something follows the last " + gpu::printable(header_.elements.back().name)};
 }
 
 } // namespace

@@ -3,6 +3,9 @@
 
 #include "gpu/printable.hpp"
 
+#include <vk_mem_alloc.h>
+#include <volk.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>

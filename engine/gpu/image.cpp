@@ -3,6 +3,8 @@
 
 #include "engine/gpu/device.hpp"
 
+#include <vk_mem_alloc.h>
+
 #include <utility>
 
 namespace engine

@@ -3,6 +3,8 @@
 
 #include "engine/gpu/device.hpp"
 
+#include <volk.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

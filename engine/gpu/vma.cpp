@@ -8,8 +8,10 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wparentheses"
 #endif
+#define VMA_STATIC_VULKAN_FUNCTIONS 0
+#define VMA_DYNAMIC_VULKAN_FUNCTIONS 1
 #define VMA_IMPLEMENTATION
-#include "gpu/vulkan.hpp"
+#include <vk_mem_alloc.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

@@ -20,7 +20,7 @@ using namespace viewer;
 
 constexpr int k_done = 0;
 constexpr int k_failed = 1;
-constexpr int k_invalid = 2; // validation messages, or a counter that must be zero is not
+constexpr int k_invalid = 2; // validation messages, or values that are not finite
 
 void print_devices()
 {

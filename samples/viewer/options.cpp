@@ -50,7 +50,7 @@ struct Typed
 constexpr const char* k_description = "Simulates cloth on the GPU and shows it, in a window or as files.";
 
 constexpr const char* k_footer = R"(
-Exit codes: 0 done; 1 bad input or no device; 2 validation messages, or a counter that must be zero is not.
+Exit codes: 0 done; 1 bad input or no device; 2 validation messages, or values that are not finite.
 
 Examples:
   viewer                                              the reference scene in a window
@@ -68,7 +68,8 @@ void declare_simulation(CLI::App& app, Typed& typed, Options& options)
     app.add_flag("--headless", options.headless, "No window; the default where there is no display")
         ->disable_flag_override();
     app.add_option("--frames", typed.frames,
-                   "Frames to simulate, 1/60 s each (default: 300 without a window, no end with one)")
+                   "Frames to simulate, as many per second as the scene's step says, else 60 (default: 300 without a "
+                   "window, no end with one)")
         ->type_name("N");
     app.add_option("--cloth-resolution", typed.resolution,
                    "Gives every grid of the scene N x N vertices (default: the scene's)")

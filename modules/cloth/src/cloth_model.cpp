@@ -334,8 +334,10 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
     if (auto velocity = check(subject("cloth", cloth.name), "velocity", cloth.velocity, k_most_speed, " m/s");
         !velocity)
         return velocity;
-    if (cloth.integrator != Integrator::rk4 && cloth.integrator != Integrator::verlet)
-        return bad("integrator is " + std::to_string(static_cast<int>(cloth.integrator)) + ", must be rk4 or verlet");
+    if (auto integrator = check_enumerator(subject("cloth", cloth.name), "integrator",
+                                           static_cast<int>(cloth.integrator), {"rk4", "verlet"});
+        !integrator)
+        return integrator;
     if (auto material = std::visit([](const auto& m) { return validate(m); }, cloth.material); !material)
         return bad(material.error().message);
     for (const uint32_t held : cloth.held)
@@ -345,9 +347,9 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
         return bad(std::to_string(cloth.inverse_masses.size()) + " inverse masses for " + std::to_string(vertices) +
                    " vertices");
     for (size_t i = 0; i < cloth.inverse_masses.size(); ++i)
-        if (!(cloth.inverse_masses[i] >= 0) || cloth.inverse_masses[i] > 1e9f)
-            return bad("inverse mass " + std::to_string(i) + " is " + std::to_string(cloth.inverse_masses[i]) +
-                       " 1/kg, must be 0 to 1e9");
+        if (!(cloth.inverse_masses[i] >= 0) || cloth.inverse_masses[i] > k_most_inverse_mass)
+            return bad("inverse mass " + std::to_string(i) + " is " + text(cloth.inverse_masses[i]) +
+                       " 1/kg, must be 0 to " + text(k_most_inverse_mass));
     return {};
 }
 

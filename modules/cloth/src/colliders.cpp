@@ -45,6 +45,14 @@ private:
     Result<void> status_;
 };
 
+// World.
+glm::vec3 corner_of(const BoxCollider& box, int corner)
+{
+    const glm::vec3 local((corner & 1) == 0 ? box.min.x : box.max.x, (corner & 2) == 0 ? box.min.y : box.max.y,
+                          (corner & 4) == 0 ? box.min.z : box.max.z);
+    return box.transform * glm::vec4(local, 1);
+}
+
 } // namespace
 
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction)
@@ -145,7 +153,8 @@ Result<ColliderId> Model::add(const BoxCollider& collider)
     checks.size("the side along x", sides.x);
     checks.size("the side along y", sides.y);
     checks.size("the side along z", sides.z);
-    checks.position("its center", glm::vec3(collider.transform * glm::vec4(0.5f * (collider.min + collider.max), 1)));
+    for (int corner = 0; corner < 8; ++corner)
+        checks.position("a corner", corner_of(collider, corner));
     if (!checks.status())
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_BOX, collider.layers, collider.friction);

@@ -34,14 +34,13 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
     recorder.dispatch(solver.kernels.deform, solver.device->deform, mesh.vertices, solver.options.workgroup_size, push);
 }
 
-void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh,
-                  const Deformation& deformation)
+// Boxes of what a mesh is at one of its halves, and on the way to the other one.
+void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh, uint32_t from,
+                  uint32_t to)
 {
     const shared::ColliderRecord& collider = solver.model.colliders[mesh.collider];
-    const uint32_t to = deformation.due ? 1 - deformation.now : deformation.now;
     record_refit(recorder, solver.kernels.refit, solver.device->refit,
-                 {collider.first_node, collider.first_triangle, mesh.first(deformation.now), mesh.first(to),
-                  collider.triangles});
+                 {collider.first_node, collider.first_triangle, mesh.first(from), mesh.first(to), collider.triangles});
 }
 
 // The deforming mesh of a collider, or the reason why there is none.
@@ -101,13 +100,26 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
         if (deformation.due)
             record_vertices(recorder, solver, mesh, deformation);
         if (deformation.due || solver.refit_due)
-            record_boxes(recorder, solver, mesh, deformation);
+            record_boxes(recorder, solver, mesh, deformation.now,
+                         deformation.due ? 1 - deformation.now : deformation.now);
         came_to_rest |= deformation.due; // if it stays where it goes: the boxes of this step are too large for the next
         if (deformation.due)
             deformation.now = 1 - deformation.now;
         deformation.due = false;
     }
     solver.refit_due = came_to_rest;
+}
+
+void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver)
+{
+    if (solver.model.deforming.empty())
+        return;
+    recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR);
+    for (size_t i = 0; i < solver.device->deforming_count; ++i)
+        record_boxes(recorder, solver, solver.model.deforming[i], solver.deformations[i].now,
+                     solver.deformations[i].now);
+    solver.refit_due = false;
 }
 
 Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::vec3> positions)

@@ -23,7 +23,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkDeviceSize votes_bytes = model.records.size() * VOILE_VOTE_WORDS * sizeof(uint32_t);
+    const VkDeviceSize votes = votes_bytes(model.records.size());
     const VkDeviceSize per_vertex = model.positions.size() * sizeof(glm::vec4);
     const VkDeviceSize per_residual = model.positions.size() * sizeof(glm::uvec2);
     const BufferRequest requests[] = {
@@ -49,8 +49,8 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
          data.features.features.empty() ? 0 : model.positions.size() * sizeof(shared::FeatureCorrection)},
         {&state.feature_chunks, "cloth feature chunks", chunk_count * sizeof(uint32_t)},
         {&state.feature_dispatch, "cloth feature dispatch", sizeof(VkDispatchIndirectCommand)},
-        {&state.recovery_votes[0], "cloth recovery votes a", votes_bytes},
-        {&state.recovery_votes[1], "cloth recovery votes b", votes_bytes},
+        {&state.recovery_votes[0], "cloth recovery votes a", votes},
+        {&state.recovery_votes[1], "cloth recovery votes b", votes},
         {&state.depenetrations, "cloth depenetrations",
          2 * VOILE_DISPATCH_WORDS * sizeof(uint32_t) + model.positions.size() * sizeof(shared::Depenetration)},
         {&state.near_colliders, "cloth near colliders", chunk_count * state.near_stride * sizeof(uint32_t)},

@@ -19,6 +19,12 @@ struct StateBuffers
     gpu::Buffer velocities;
 };
 
+// Of so many cloths, of one step.
+constexpr VkDeviceSize votes_bytes(size_t cloths)
+{
+    return cloths * VOILE_VOTE_WORDS * sizeof(uint32_t);
+}
+
 // Everything is allocated, and every set written, when it is made.
 struct DeviceState
 {

@@ -143,9 +143,10 @@ Result<void> validate(const Fabric& fabric)
     for (const Range& range : ranges)
         if (auto result = check("fabric", range); !result)
             return result;
-    if (fabric.bending_model != BendingModel::springs && fabric.bending_model != BendingModel::isometric)
-        return Error{"fabric: bending_model is " + std::to_string(static_cast<int>(fabric.bending_model)) +
-                     ", must be springs or isometric"};
+    if (auto result = check_enumerator("fabric", "bending_model", static_cast<int>(fabric.bending_model),
+                                       {"springs", "isometric"});
+        !result)
+        return result;
     if (auto result = check_strain_limit("fabric", fabric.strain_limit); !result)
         return result;
     return check_friction("fabric", fabric.static_friction, fabric.kinetic_friction);

@@ -64,6 +64,10 @@ constexpr size_t k_most_triangles = size_t{1} << VOILE_CANDIDATE_TRIANGLE_BITS;
 
 Result<ColliderId> Model::add(const MeshCollider& collider)
 {
+    if (auto sides = check_enumerator(subject("collider", collider.name), "sides", static_cast<int>(collider.sides),
+                                      {"automatic", "one", "two"});
+        !sides)
+        return sides.error();
     const auto mesh = prepare_mesh(collider);
     if (!mesh)
         return mesh.error();

@@ -47,6 +47,17 @@ Result<void> check_friction(const std::string& what, float static_friction, floa
     return check(what, {"static_friction", static_friction, 0, k_most_friction});
 }
 
+Result<void> check_enumerator(const std::string& what, const char* name, int value,
+                              std::initializer_list<const char*> names)
+{
+    if (value >= 0 && value < static_cast<int>(names.size()))
+        return {};
+    std::string choice;
+    for (const char* const* one = names.begin(); one != names.end(); ++one)
+        choice += (one == names.begin() ? "" : one + 1 == names.end() ? " or " : ", ") + std::string(*one);
+    return Error{what + ": " + name + " is " + std::to_string(value) + ", must be " + choice};
+}
+
 bool within(const glm::vec3& value, float most)
 {
     return std::abs(value.x) <= most && std::abs(value.y) <= most && std::abs(value.z) <= most;

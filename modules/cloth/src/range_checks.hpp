@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -39,6 +40,10 @@ Result<void> check(const std::string& what, const char* name, const glm::vec3& v
 
 // Coulomb's coefficients: kinetic 0..k_most_friction, static from that on.
 Result<void> check_friction(const std::string& what, float static_friction, float kinetic_friction);
+
+// Errors: a value of an enumeration that is none of its names, which are those from 0 on.
+Result<void> check_enumerator(const std::string& what, const char* name, int value,
+                              std::initializer_list<const char*> names);
 
 bool within(const glm::vec3& value, float most); // each component, either way; false for NaN
 

@@ -11,8 +11,9 @@ namespace cloth
 
 struct Snapshot::Contents
 {
-    gpu::Buffer buffer; // one stream after the other
+    gpu::Buffer buffer; // one region after the other, then the recovery's step
     uint32_t vertices = 0;
+    uint32_t recovery_step = 0; // modulo its period
     bool filled = false;
 };
 
@@ -65,6 +66,8 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
         return finite;
     std::copy(bytes.begin(), bytes.end(), mapped.begin());
     contents_->buffer.flush();
+    std::memcpy(&contents_->recovery_step, bytes.data() + bytes.size() - sizeof(uint32_t), sizeof(uint32_t));
+    contents_->recovery_step %= k_recovery_period;
     contents_->filled = true;
     return {};
 }
@@ -72,25 +75,29 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
 namespace
 {
 
-struct Stream
+// The start of a buffer.
+struct Region
 {
     VkBuffer buffer;
-    VkDeviceSize bytes_per_vertex;
+    VkDeviceSize bytes;
 };
 
-std::array<Stream, 4> streams_of(const DeviceState& device)
+// The streams of all vertices, and what recovery remembers from one step to the next.
+std::array<Region, 5> regions_of(const DeviceState& device, uint32_t recovery_step)
 {
-    return {{{device.state.positions.handle(), sizeof(glm::vec4)},
-             {device.state.residuals.handle(), sizeof(glm::uvec2)},
-             {device.state.velocities.handle(), sizeof(glm::vec4)},
-             {device.normals.handle(), sizeof(glm::vec4)}}};
+    const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
+        return Region{buffer.handle(), bytes_per_vertex * device.vertices};
+    };
+    return {stream(device.state.positions, sizeof(glm::vec4)), stream(device.state.residuals, sizeof(glm::uvec2)),
+            stream(device.state.velocities, sizeof(glm::vec4)), stream(device.normals, sizeof(glm::vec4)),
+            Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)}};
 }
 
 VkDeviceSize total_bytes(const DeviceState& device)
 {
-    VkDeviceSize bytes = 0;
-    for (const Stream& stream : streams_of(device))
-        bytes += stream.bytes_per_vertex * device.vertices;
+    VkDeviceSize bytes = sizeof(uint32_t);
+    for (const Region& region : regions_of(device, 0))
+        bytes += region.bytes;
     return bytes;
 }
 
@@ -100,7 +107,7 @@ void barrier(const gpu::Context& context, VkCommandBuffer cmd, bool before)
     constexpr VkPipelineStageFlags2KHR k_users =
         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR |
         VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | VK_PIPELINE_STAGE_2_HOST_BIT_KHR;
-    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_COPY_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     constexpr VkAccessFlags2KHR k_copies = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
     gpu::Recorder recorder(context, cmd);
     if (before)
@@ -132,18 +139,23 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
+    const uint32_t step = state_->recovery_step % k_recovery_period;
+    const VkBuffer buffer = snapshot.contents_->buffer.handle();
     snapshot.contents_->filled = true;
+    snapshot.contents_->recovery_step = step;
     state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;
-    for (const Stream& stream : streams_of(*state_->device))
+    for (const Region& region : regions_of(*state_->device, step))
     {
-        const VkBufferCopy region{0, offset, stream.bytes_per_vertex * vertices};
-        state_->context.fn.vkCmdCopyBuffer(cmd, stream.buffer, snapshot.contents_->buffer.handle(), 1, &region);
-        offset += region.size;
+        const VkBufferCopy copy{0, offset, region.bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, region.buffer, buffer, 1, &copy);
+        offset += region.bytes;
     }
+    state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, offset, sizeof(step), &step);
     barrier(state_->context, cmd, false);
     state_->lifetime.end(cmd);
+    state_->recovery_due = true; // as after restoring: both go on alike
     return {};
 }
 
@@ -157,14 +169,15 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     state_->lifetime.begin(cmd);
     barrier(state_->context, cmd, true);
     VkDeviceSize offset = 0;
-    for (const Stream& stream : streams_of(*state_->device))
+    for (const Region& region : regions_of(*state_->device, snapshot.contents_->recovery_step))
     {
-        const VkBufferCopy region{offset, 0, stream.bytes_per_vertex * vertices};
-        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), stream.buffer, 1, &region);
-        offset += region.size;
+        const VkBufferCopy copy{offset, 0, region.bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
+        offset += region.bytes;
     }
     barrier(state_->context, cmd, false);
     state_->lifetime.end(cmd);
+    state_->recovery_step = snapshot.contents_->recovery_step;
     state_->recovery_due = true;
     return {};
 }

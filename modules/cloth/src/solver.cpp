@@ -79,6 +79,14 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
         (!std::has_single_bit(options.feature_threads) || options.feature_threads > options.workgroup_size))
         return Error{"SolverOptions: feature_threads is " + std::to_string(options.feature_threads) +
                      ", must be 0 or a power of two up to workgroup_size"};
+    if (auto method = check_enumerator("SolverOptions", "contact_method", static_cast<int>(options.contact_method),
+                                       {"normal_ray", "nearest_point"});
+        !method)
+        return method.error();
+    if (auto layout = check_enumerator("SolverOptions", "mesh_layout", static_cast<int>(options.mesh_layout),
+                                       {"compact", "interleaved"});
+        !layout)
+        return layout.error();
     auto kernels = create_kernels(context.value(), options);
     if (!kernels)
         return kernels.error();

@@ -145,6 +145,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const size_t kept_deforming = s.device ? s.device->deforming_vertices : 0;
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
     const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
+    const VkDeviceSize kept_votes = votes_bytes(s.device ? s.device->cloth_count : 0);
+    const std::vector<std::byte> no_votes(votes_bytes(s.model.records.size()) - kept_votes);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     place_planes(s.model, s.colliders);
@@ -188,6 +190,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
         {next.normals, kept_bytes, bytes_of(up)},
+        {next.recovery_votes[0], kept_votes, bytes_of(no_votes)},
+        {next.recovery_votes[1], kept_votes, bytes_of(no_votes)},
     };
     for (const Staged& item : staged)
         if (auto result = uploader.stage(item.destination, item.offset, item.bytes); !result)
@@ -198,6 +202,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         uploader.copy(s.device->state.residuals, next.state.residuals, kept_residual_bytes);
         uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
         uploader.copy(s.device->normals, next.normals, kept_bytes);
+        for (size_t i = 0; i < 2; ++i)
+            uploader.copy(s.device->recovery_votes[i], next.recovery_votes[i], kept_votes);
         uploader.copy(s.device->deforming_positions, next.deforming_positions, kept_deforming * sizeof(glm::vec4));
     }
 
@@ -218,9 +224,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, next.feature_dispatch);
     for (size_t i = 0; i < 2; ++i)
-        clear_dispatch(recorder, next.depenetrations, recovery_word(i), 1, &next.recovery_votes[i]);
-    upload.contents_->lifetime.end(cmd);
-    s.lifetime.end(cmd);
+        clear_dispatch(recorder, next.depenetrations, recovery_word(i));
     if (s.edits.holds) // what is no longer held has its mass again
         for (uint32_t cloth = 0; s.device && cloth < s.device->cloth_count; ++cloth)
             s.edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, cloth});
@@ -229,7 +233,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.dirty = false;
     s.edits.records.clear();
     s.edits.colliders.clear();
-    s.refit_due = !s.model.deforming.empty();
+    record_uploaded_boxes(recorder, s);
+    upload.contents_->lifetime.end(cmd);
+    s.lifetime.end(cmd);
     s.normals_due = true;
     s.recovery_due = true;
     s.edits.holds = s.edits.tethers = false;

@@ -1,6 +1,8 @@
 // Buffer: allocation through the host's VulkanMemoryAllocator.
 #include "gpu/buffer.hpp"
 
+#include <vk_mem_alloc.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -24,8 +26,10 @@ VmaAllocationCreateFlags allocation_flags(Memory memory)
     return 0;
 }
 
-std::string megabytes(VkDeviceSize bytes)
+std::string size_text(VkDeviceSize bytes)
 {
+    if (bytes < 1u << 20)
+        return std::to_string(bytes) + " bytes";
     return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
 }
 
@@ -80,8 +84,8 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
     constexpr VkDeviceSize k_smallest = 16; // a descriptor must have a buffer to point to
     const VkDeviceSize size = std::max(bytes, k_smallest);
     if (size > context.max_buffer_bytes)
-        return Error{std::string("buffer \"") + name + "\" needs " + megabytes(size) + ", the device binds at most " +
-                     megabytes(context.max_buffer_bytes)};
+        return Error{std::string("buffer \"") + name + "\" needs " + size_text(size) + ", the device binds at most " +
+                     size_text(context.max_buffer_bytes)};
 
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -97,7 +101,7 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
     const VkResult status =
         vmaCreateBuffer(context.allocator(), &info, &allocation_info, &buffer, &allocation, &result);
     if (status != VK_SUCCESS)
-        return Error{std::string("buffer \"") + name + "\" of " + megabytes(size) +
+        return Error{std::string("buffer \"") + name + "\" of " + size_text(size) +
                      " cannot be made: " + to_string(status)};
     set_name(context, VK_OBJECT_TYPE_BUFFER, buffer, name);
     return Buffer(context, buffer, allocation, size, result.pMappedData);

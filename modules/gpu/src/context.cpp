@@ -2,7 +2,6 @@
 #include "gpu/context.hpp"
 
 #include <algorithm>
-#include <mutex>
 
 namespace gpu
 {
@@ -14,14 +13,6 @@ template <typename Function>
 Function instance_function(const Handles& handles, const char* name)
 {
     return reinterpret_cast<Function>(handles.get_instance_proc_addr(handles.instance, name));
-}
-
-// volkLoadDeviceTable finds device functions through volk's vkGetDeviceProcAddr. A host that uses volk has set it;
-// for any other host it is set here, once, from the host's loader, and is the loader's own in every case.
-void ensure_device_loader(const Handles& handles)
-{
-    if (vkGetDeviceProcAddr == nullptr)
-        vkGetDeviceProcAddr = instance_function<PFN_vkGetDeviceProcAddr>(handles, "vkGetDeviceProcAddr");
 }
 
 VkDeviceSize largest_storage_buffer(const Handles& handles, const VkPhysicalDeviceLimits& limits)
@@ -48,14 +39,10 @@ Result<Context> create_context(const Handles& handles)
 
     Context context;
     context.handles = handles;
-    {
-        static std::mutex loading; // volk's vkGetDeviceProcAddr is one for the process
-        const std::lock_guard lock(loading);
-        ensure_device_loader(handles);
-        volkLoadDeviceTable(&context.fn, handles.device);
-    }
+    context.fn = load_device_functions(instance_function<PFN_vkGetDeviceProcAddr>(handles, "vkGetDeviceProcAddr"),
+                                       handles.device);
     if (context.fn.vkCmdPipelineBarrier2KHR == nullptr)
-        return Error{"the device was made without VK_KHR_synchronization2"};
+        return Error{"the device was made without VK_KHR_synchronization2, and not for Vulkan 1.3, which has it"};
 
     VkPhysicalDeviceProperties properties{};
     instance_function<PFN_vkGetPhysicalDeviceProperties>(handles, "vkGetPhysicalDeviceProperties")(

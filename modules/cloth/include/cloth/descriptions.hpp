@@ -40,7 +40,7 @@ struct Grid
     ClothMaterial material{};
     Integrator integrator = Integrator::rk4;
     std::vector<uint32_t> held{};        // vertices that do not move (inverse mass 0)
-    std::vector<float> inverse_masses{}; // 1/kg, one a vertex, in place of the material's; 0 holds. Empty: none given
+    std::vector<float> inverse_masses{}; // 1/kg, 0..1e9, one per vertex, in place of the material's; 0 holds
     uint32_t layers = 1;                 // bits; it meets the colliders that have one of them
 };
 

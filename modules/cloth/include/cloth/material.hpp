@@ -15,8 +15,8 @@ using gpu::Result;
 // A spring pulls with stiffness * (length - rest length) + damping * (rate of lengthening).
 struct Spring
 {
-    float stiffness = 0; // N/m, >= 0
-    float damping = 0;   // N s/m, >= 0
+    float stiffness = 0; // N/m, 0..1e7
+    float damping = 0;   // N s/m, 0..1e6
 };
 
 // The four families of a grid's springs. A stiffness and damping of 0 leave a family out.

@@ -22,6 +22,9 @@ constexpr float k_most_coordinate = 1e6f; // m, either way
 // A cloth's velocity at its start or as it is set, along each axis.
 constexpr float k_most_speed = 1e4f; // m/s, either way
 
+// Of a vertex whose inverse mass is given (Grid::inverse_masses).
+constexpr float k_most_inverse_mass = 1e9f; // 1/kg
+
 // The sides of a grid.
 constexpr float k_least_cloth_size = 1e-4f; // m
 constexpr float k_most_cloth_size = 1e5f;   // m

@@ -174,8 +174,9 @@ struct VertexStreams
 class Solver
 {
 public:
-    // Compiles the kernels. Errors: null handles, a device without what requirements() lists, options out of range or
-    // beyond what the device allows, out of memory.
+    // Compiles the kernels. Errors: null handles, a device without the functions or the limits that requirements()
+    // lists, options out of range or beyond what the device allows, out of memory. Which version the instance was made
+    // for and which features are switched on, no handle says: validation reports it where they are missing.
     static Result<Solver> create(const gpu::Handles& handles, const SolverOptions& options);
     ~Solver();
     Solver(Solver&&) noexcept;
@@ -270,9 +271,9 @@ public:
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
-    // The state of all cloths, saved and brought back to the bit. Materials, holds and anchors are the host's and are
-    // not part of it. Errors: nothing uploaded yet, out of memory; another number of vertices; nothing saved to
-    // restore.
+    // The state of all cloths, saved and brought back to the bit: the same steps then give the same bits as after
+    // saving. Materials, holds, anchors and colliders are the host's and are not part of it. Errors: nothing uploaded
+    // yet, out of memory; another number of vertices; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
@@ -304,7 +305,8 @@ public:
     [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;   // of all cloths
     [[nodiscard]] uint32_t triangle_count() const; // of all cloths
-    // That record makes, without edits; 0 for a step that it refuses.
+    // That record makes; 0 for a step that it refuses. A few more follow an upload, and what is changed, moved or
+    // deformed.
     [[nodiscard]] uint32_t dispatches(const Step& step) const;
 
     struct State; // of the implementation

@@ -1,8 +1,8 @@
 // Context: the borrowed handles that everything in this library works on, with a device table of its own.
 #pragma once
 
+#include "gpu/functions.hpp"
 #include "gpu/result.hpp"
-#include "gpu/vulkan.hpp"
 
 namespace gpu
 {
@@ -19,12 +19,12 @@ struct Handles
 };
 
 // Handles plus the functions and limits read from them once. Copied freely; owns nothing.
-// Device functions are called through `fn`, never through volk's globals, so that several devices, and a
-// host with a loader of its own, can live in one process.
+// All functions are found through the host's get_instance_proc_addr. No symbol of Vulkan is linked or defined: the host
+// may link a loader, or load one with volk or by itself, and several devices can live in one process.
 struct Context
 {
     Handles handles;
-    VolkDeviceTable fn{};
+    DeviceFunctions fn;
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceType device_type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     VkDeviceSize max_buffer_bytes = 0; // largest storage buffer that the device can bind and allocate

@@ -1,4 +1,5 @@
-// Result<T>: a value or the reason why there is none. Nothing is thrown across a module's boundary.
+// Result<T>: a value or the reason why there is none. Nothing but std::bad_alloc is thrown across a module's boundary;
+// the object whose call threw it may then only be destroyed.
 #pragma once
 
 #include <string>

@@ -1,13 +1,10 @@
-// The one place where the Vulkan headers come in: through volk, without global prototypes.
+// The one place where the Vulkan headers come in. Types alone are used: prototypes may be there, functions of a loader
+// with the same names may be linked, and neither is called.
 #pragma once
 
-#include <volk.h>
+#include <vulkan/vulkan.h>
 
-// VulkanMemoryAllocator is used through the functions that the host's allocator was made with.
-#ifndef VMA_STATIC_VULKAN_FUNCTIONS
-#define VMA_STATIC_VULKAN_FUNCTIONS 0
-#endif
-#ifndef VMA_DYNAMIC_VULKAN_FUNCTIONS
-#define VMA_DYNAMIC_VULKAN_FUNCTIONS 1
-#endif
-#include <vk_mem_alloc.h>
+// The handles of VulkanMemoryAllocator, as its own header declares them. That header is included where memory is
+// allocated.
+VK_DEFINE_HANDLE(VmaAllocator)
+VK_DEFINE_HANDLE(VmaAllocation)

@@ -1,0 +1,36 @@
+// DeviceFunctions: looks every function up by its name.
+#include "gpu/functions.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace gpu
+{
+
+namespace
+{
+
+PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr get, VkDevice device, std::string_view name)
+{
+    constexpr std::string_view k_extension = "KHR";
+    if (const PFN_vkVoidFunction found = get(device, std::string(name).c_str()))
+        return found;
+    if (!name.ends_with(k_extension))
+        return nullptr;
+    name.remove_suffix(k_extension.size());
+    return get(device, std::string(name).c_str());
+}
+
+} // namespace
+
+DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device)
+{
+    DeviceFunctions fn;
+#define VOILE_LOAD_FUNCTION(name) fn.name = reinterpret_cast<PFN_##name>(find(get, device, #name));
+    VOILE_COMPUTE_FUNCTIONS(VOILE_LOAD_FUNCTION)
+    VOILE_ENGINE_FUNCTIONS(VOILE_LOAD_FUNCTION)
+#undef VOILE_LOAD_FUNCTION
+    return fn;
+}
+
+} // namespace gpu
