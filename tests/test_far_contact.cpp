@@ -5,6 +5,7 @@
 #include "cloth/fabrics.hpp"
 #include "engine/assets/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -39,7 +40,7 @@ struct Scene
     Drive drive{};                      // of the collider before each frame, from where it was added
     glm::vec3 start{0, 50.f / 1024, 0}; // m, of the sheet from the point, in multiples of what floats can tell there
     glm::mat4 turn{1.f};                // of the sheet
-    float static_friction = 0.5f;
+    float static_friction = 0.5f; // 0 on capsules: cloth that they bear between its vertices buckles, and rounding grows
 };
 
 struct Outcome
@@ -64,7 +65,7 @@ cloth::Grid sheet(const Scene& scene, const glm::vec3& point, uint32_t layers)
     fabric.damping_ratio = 0.3f;
     fabric.air_drag_normal = fabric.air_drag_tangential = 0;
     fabric.static_friction = scene.static_friction;
-    fabric.kinetic_friction = 0.4f;
+    fabric.kinetic_friction = std::min(scene.static_friction, 0.4f);
     grid.material = fabric;
     grid.integrator = cloth::Integrator::verlet;
     grid.transform = tests::moved(point + scene.start) * scene.turn;
@@ -112,13 +113,14 @@ Outcomes run(const std::vector<Scene>& scenes, const glm::vec3& point, uint32_t 
     for (uint32_t frame = 1; frame <= frames; ++frame)
         step(frame);
     outcomes.after = harness.statistics();
-    // At the origin floats tell positions finely.
+    // Near the origin floats tell positions finely. A metre above it nothing touches the sheets.
+    const glm::vec3 above{0, 1, 0};
     for (const cloth::ClothId id : sheets)
-        engine::take(harness.solver.transform(id, tests::moved(-point)));
+        engine::take(harness.solver.transform(id, tests::moved(above - point)));
     harness.step({.duration = 1e-6f, .gravity = glm::vec3(0)});
     for (size_t i = 0; i < scenes.size(); ++i)
         for (const glm::vec4& p : harness.positions(sheets[i]))
-            outcomes.scenes[i].end.emplace_back(p);
+            outcomes.scenes[i].end.emplace_back(glm::dvec3(p) - glm::dvec3(above));
     return outcomes;
 }
 
@@ -278,7 +280,7 @@ std::vector<Scene> still_scenes()
 
 std::vector<Scene> moving_scenes()
 {
-    std::vector<Scene> scenes{{.name = "a capsule", .add = add_capsule},
+    std::vector<Scene> scenes{{.name = "a capsule", .add = add_capsule, .static_friction = 0},
                               {.name = "a box", .add = add_box},
                               {.name = "a sphere that moves", .add = add_ball, .drive = move},
                               {.name = "a mesh that moves", .add = add_mesh_box, .drive = move},
@@ -287,6 +289,7 @@ std::vector<Scene> moving_scenes()
         scenes.push_back(on_incline("an inclined box", add_wedge, friction));
     scenes.push_back(brought("a plane", add_plane));
     scenes.push_back(brought("a capsule", add_capsule));
+    scenes.back().static_friction = 0;
     scenes.push_back(brought("a box", add_box));
     scenes.push_back(brought("a mesh", add_mesh_box));
     return scenes;
@@ -304,7 +307,7 @@ TEST_CASE("16 km from the origin colliders of every kind hold cloth as they do t
 TEST_CASE("16 km from the origin cloth comes out of solids as it does there")
 {
     std::vector<Scene> scenes{{.name = "a sphere", .add = add_ball},
-                              {.name = "a capsule", .add = add_capsule},
+                              {.name = "a capsule", .add = add_capsule, .static_friction = 0},
                               {.name = "a box", .add = add_box},
                               {.name = "a mesh", .add = add_mesh_ball}};
     for (Scene& scene : scenes)

@@ -151,6 +151,6 @@ TEST_CASE("cloth comes to rest on the edge of a box")
 
 TEST_CASE("cloth comes to rest in a bowl")
 {
-    let_rest(round_bowl(), 80);
+    let_rest(round_bowl(), 90);
     let_rest(corner(), 200);
 }

@@ -6,8 +6,8 @@
 //
 // A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
 // it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
-// and Coulomb friction acts. Pieces with a held vertex go where that is held. The vertices' own contact comes after and has the
-// last word.
+// and Coulomb friction acts: on the place where the piece is fast, on the vertex where that is slow. Pieces with a held vertex
+// go where that is held. The vertices' own contact comes after and has the last word.
 //
 // Of a cloth that is brought out of a collider (recover.comp), that collider's features hold nothing back: a sheet that it
 // stands through would be stretched across its edges until it snaps free.
@@ -42,6 +42,11 @@ layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 e
 layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
+
+bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0; }
+
+// See contact.comp.
+float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step; }
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
@@ -81,20 +86,13 @@ vec3 way_out(uint cloth, uint c)
 }
 
 // The `part`-th of so many `parts` of the pieces around the vertex.
-void visit_collider(uint c, vec2 fabric_friction, uint part, uint parts)
+void visit_collider(uint c, uint part, uint parts)
 {
     const ColliderRecord collider = colliders[c];
     const FeatureSet set = feature_sets[c];
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
-    collider_index = c;
-    collider_flags = collider.flags;
-    collider_moves = is_moved(collider.flags);
-    if (collider_moves)
-    {
-        pose_from = pose_at(c, push.progress_from);
-        pose_to = pose_at(c, push.progress_to);
-    }
+    look_at(c);
     piece.a = traveller(self.earlier, self.place, self.velocity, self.inverse_mass);
     // Most vertices are told by their own place alone that they are far from everything.
     const float loose = VOILE_MOST_STRETCH * set.edge;
@@ -102,8 +100,7 @@ void visit_collider(uint c, vec2 fabric_friction, uint part, uint parts)
     const vec3 high = max(piece.a.from, piece.a.to) + loose;
     if (!is_near(low, high, set.box_min, set.box_max))
         return;
-    friction = vec2(pair_friction(fabric_friction.x, collider.static_friction, collider.flags),
-                    pair_friction(fabric_friction.y, collider.kinetic_friction, collider.flags));
+    friction = find_friction();
     leaving = way_out(self.vertex.cloth, c);
     const uint count = corner_count();
     for (uint k = part; k < count; k += parts)
@@ -128,23 +125,19 @@ void visit_colliders(uint part, uint parts)
     self.thickness = cloths[cloth].thickness;
     if (self.inverse_mass == 0)
         return;
-    const vec2 fabric_friction = vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
     ColliderWalk walk = walk_colliders(near_chunks[gl_WorkGroupID.x], min(self.earlier.x, self.place.x),
                                        max(self.earlier.x, self.place.x));
     uint c;
     while (next_collider(walk, c))
-        visit_collider(c, fabric_friction, part, parts);
+        visit_collider(c, part, parts);
 }
 
 void write_correction()
 {
     const uint i = self.vertex.index;
-    const bool verlet = (cloths[self.vertex.cloth].flags & VOILE_CLOTH_VERLET) != 0;
-    const float drift = verlet ? push.step : 0.5 * push.step; // see contact.comp
-    corrections[i] =
-        FeatureCorrection(response.shift + drift * response.slowing, push.substep, response.change + response.slowing, 0);
-    if (verlet)
-        predicted[i] += vec4(response.change + response.slowing, 0);
+    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, 0);
+    if (is_verlet(self.vertex.cloth))
+        predicted[i] += vec4(response.change, 0);
 }
 
 void main()
@@ -162,6 +155,10 @@ void main()
         return;
     for (uint other = thread + 1; other < thread + parts; ++other)
         merge(responses[other]);
-    if (response.meetings > 0)
-        write_correction();
+    if (response.collider == k_no_collider)
+        return;
+    look_at(response.collider);
+    friction = find_friction();
+    add_friction();
+    write_correction();
 }

@@ -1,7 +1,7 @@
 // How a corner or an edge of a collider meets a piece of cloth, and what that changes of the vertex.
 //
-// The including kernel declares push.step, includes feature_pieces.glsl before, and sets `friction` and `leaving` for each
-// collider.
+// The including kernel declares push.step and drift(), includes feature_pieces.glsl and friction.glsl before, and sets `leaving`
+// for each collider.
 #ifndef VOILE_FEATURE_MEETING_GLSL
 #define VOILE_FEATURE_MEETING_GLSL
 
@@ -11,8 +11,14 @@ const float k_parallel = 0.03;
 const float k_certain = 0.2;
 // m/s, at which cloth comes away from what it is nearer to than the thickness.
 const float k_recovery = 0.2;
+// m/s^2: what a substep of such an acceleration gives is slow, and up to twice as much in part. Cloth that rests presses with
+// some times its weight.
+const float k_slow = 100;
 // Barycentric coordinates this far below 0 count as inside, so that no place between two triangles is lost.
 const float k_border = 1e-3;
+
+// No meeting.
+const uint k_no_collider = 0xffffffffu;
 
 // What meetings change of the vertex.
 struct Response
@@ -20,15 +26,23 @@ struct Response
     vec3 shift;    // m
     float pressed; // m/s, by which the meeting presses that presses most
     vec3 change;   // m/s, across surfaces
-    uint meetings;
-    vec3 slowing;  // m/s, by friction, of the meeting that presses most
+    uint collider; // of the meeting that presses most
+    vec3 slowing;  // m/s, by friction, of that meeting
 };
-Response response = Response(vec3(0), 0, vec3(0), 0, vec3(0));
+Response response = Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0));
 
 // Static and kinetic coefficient of the cloth with the collider that is being looked at.
 vec2 friction;
 // The direction in which the cloth is brought out of that collider, in its space, of any length; 0: it is not inside.
 vec3 leaving;
+
+vec2 find_friction()
+{
+    const ColliderRecord collider = colliders[collider_index];
+    const ClothRecord cloth = cloths[self.vertex.cloth];
+    return vec2(pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
+                pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
+}
 
 // How a feature and a piece of cloth meet.
 struct Meeting
@@ -84,16 +98,26 @@ Meeting meet(Feature feature, vec3 before, float from, vec3 now, float to)
     return result;
 }
 
-// Of the sliding velocity, what friction takes when the surfaces approached at `approach`, m/s.
-float friction_share(vec2 coefficients, float approach, float speed)
+// The fraction of the velocity of a place that slides that friction takes when the surfaces approach at `approach`, m/s.
+float friction_fraction(float approach, float speed)
 {
-    return speed <= coefficients.x * approach ? 1 : coefficients.y * approach / speed;
+    return speed <= friction.x * approach ? 1 : friction.y * approach / speed;
 }
+
+// The same of a vertex that is pressed with so much impulse per mass, m/s. The coefficient falls from the static to the
+// kinetic one while the speed rises. With a jump, one vertex that gives way would take the others along.
+float holding_fraction(float pressed, float speed)
+{
+    const float slips = min(2 * max(speed - friction.x * pressed, 0), max(speed - friction.y * pressed, 0));
+    return 1 - slips / max(speed, 1e-30);
+}
+
+// What of a vector lies across a unit vector.
+vec3 tangential(vec3 v, vec3 n) { return v - dot(v, n) * n; }
 
 // A meeting at `place`. `portion`: of the vertex in what moves the cloth there; `velocity`: m/s, of the cloth there, world.
 void respond(Meeting meeting, vec3 place, float portion, vec3 velocity)
 {
-    ++response.meetings;
     vec3 n = meeting.direction;
     vec3 relative = velocity;
     if (collider_moves)
@@ -105,11 +129,38 @@ void respond(Meeting meeting, vec3 place, float portion, vec3 velocity)
     response.shift += max(portion * (meeting.wanted - meeting.gap) - dot(response.shift, n), 0) * n;
     const float approach = -min(dot(relative, n), 0);
     response.change += max(portion * approach - dot(response.change, n), 0) * n;
-    if (portion * approach <= response.pressed)
+    if (response.collider != k_no_collider && portion * approach <= response.pressed)
         return;
     response.pressed = portion * approach;
-    const vec3 sliding = relative - dot(relative, n) * n;
-    response.slowing = -portion * friction_share(friction, approach, length(sliding)) * sliding;
+    response.collider = collider_index;
+    const vec3 sliding = tangential(relative, n);
+    response.slowing = -portion * friction_fraction(approach, length(sliding)) * sliding;
+}
+
+// Friction with the collider that is being looked at, after all meetings. Cloth that slides fast is slowed where it meets the
+// collider. What is slow is held vertex by vertex, by what presses each: of several meetings of a vertex, friction at one
+// leaves the others a velocity, and cloth at rest would creep by it.
+void add_friction()
+{
+    const float pressed = length(response.change);
+    if (pressed == 0)
+        return;
+    const vec3 n = response.change / pressed;
+    const vec3 way = surface_way();
+    const vec3 v_t = tangential(self.velocity - way / push.step, n);
+    const float speed = length(v_t);
+    const float fraction = holding_fraction(pressed, speed);
+    const float most = k_slow * push.step;
+    const float slow = clamp(2 - max(speed, pressed) / most, 0, 1);
+    const float time = drift(self.vertex.cloth);
+    vec3 slid = fraction * time * v_t;
+    if (fraction == 1) // to the bit
+        slid = tangential(displacement(self.earlier, self.place) - way, n);
+    // What shifts of other directions move along the surface adds up to a creep, too.
+    const vec3 shifted = tangential(response.shift, n);
+    const float least = min(1, most * push.step / max(length(shifted), 1e-30));
+    response.shift += mix(time * response.slowing, -slid - fraction * least * shifted, slow);
+    response.change += mix(response.slowing, -fraction * v_t, slow);
 }
 
 // Of two changes the larger, and of the other one what that does not do in its direction.
@@ -126,13 +177,15 @@ vec3 together(vec3 one, vec3 other)
 // Adds what another thread has found around the same vertex.
 void merge(Response other)
 {
-    if (other.meetings == 0)
+    if (other.collider == k_no_collider)
         return;
-    response.meetings += other.meetings;
     response.shift = together(response.shift, other.shift);
     response.change = together(response.change, other.change);
-    if (other.pressed > response.pressed)
+    if (response.collider == k_no_collider || other.pressed > response.pressed)
+    {
+        response.collider = other.collider;
         response.slowing = other.slowing;
+    }
     response.pressed = max(response.pressed, other.pressed);
 }
 

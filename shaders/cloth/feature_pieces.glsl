@@ -27,6 +27,27 @@ bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
 
+void look_at(uint c)
+{
+    collider_index = c;
+    collider_flags = colliders[c].flags;
+    collider_moves = is_moved(collider_flags);
+    if (collider_moves)
+    {
+        pose_from = pose_at(c, push.progress_from);
+        pose_to = pose_at(c, push.progress_to);
+    }
+}
+
+// By how much the surface moves in the substep where the vertex is, m, world.
+vec3 surface_way()
+{
+    if (!collider_moves)
+        return vec3(0);
+    const vec3 place = to_collider(pose_from, from_origin(collider_index, collider_flags, self.earlier));
+    return to_world(pose_to, place) - to_world(pose_from, place);
+}
+
 // A vertex of the cloth: where it was before the substep and where it is, in the collider's space.
 struct Traveller
 {

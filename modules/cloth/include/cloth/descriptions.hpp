@@ -120,7 +120,12 @@ enum class Sides
 // (SolverOptions::feature_contact). That holds below some 5 m/s. Faster, no vertex goes through a surface, but edges
 // of the cloth may stay through a collider: with 1 mm of thickness and 32 mm between vertices up to 4 on a box of
 // triangles and 10 on a BoxCollider, and at 60 m/s a needle stays through the sheet. Meshes that deform have no corners
-// and edges; only vertices feel them.
+// and edges; only vertices feel them. Cloth that corners, edges, thin spheres and capsules bear between its vertices is
+// held by static friction less exactly than by its vertices: it may slip from 0.8 of it on, and creeps by less than
+// 0.3 mm/s. Finer cloth, which touches with its vertices, does neither.
+
+// Cloth at rest is at rest where its vertices touch. What hangs free swings on for long: the hem of coarse wool on a
+// box at some 50 mm/s after 10 s.
 
 // Colliders cost where cloth is near them: with more than 8, it is looked up every 16 substeps which are near which
 // part of a cloth. Planes are near everywhere.
