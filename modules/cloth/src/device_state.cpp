@@ -82,7 +82,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.step_start.positions, "cloth step start positions", per_vertex},
         {&state.step_start.residuals, "cloth step start residuals", per_residual},
         {&state.step_start.velocities, "cloth step start velocities", per_vertex},
-        {&state.limit_scales, "cloth limit scales", model.records.size() * sizeof(shared::LimitScale)},
+        {&state.limit_scales, "cloth limit scales", scales_bytes(model.records.size())},
         {&state.partials, "cloth statistics partials", chunk_count * sizeof(shared::StatisticsRecord)},
     };
     for (const BufferRequest& request : requests)

@@ -25,6 +25,12 @@ constexpr VkDeviceSize votes_bytes(size_t cloths)
     return cloths * VOILE_VOTE_WORDS * sizeof(uint32_t);
 }
 
+// Of so many cloths.
+constexpr VkDeviceSize scales_bytes(size_t cloths)
+{
+    return cloths * sizeof(shared::LimitScale);
+}
+
 // Everything is allocated, and every set written, when it is made.
 struct DeviceState
 {

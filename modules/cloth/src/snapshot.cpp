@@ -13,6 +13,7 @@ struct Snapshot::Contents
 {
     gpu::Buffer buffer; // one region after the other, then the recovery's step
     uint32_t vertices = 0;
+    uint32_t cloths = 0;
     uint32_t recovery_step = 0; // modulo its period
     bool filled = false;
 };
@@ -31,8 +32,9 @@ std::span<const std::byte> Snapshot::bytes() const
 namespace
 {
 
-// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other.
-Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices)
+// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of strain
+// limits stand last, before the recovery's step.
+Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, size_t cloths)
 {
     const auto load = [&](size_t offset)
     {
@@ -51,6 +53,10 @@ Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices)
         if (!finite)
             return Error{"snapshot: vertex " + std::to_string(i) + " is not finite"};
     }
+    const size_t scales = bytes.size() - sizeof(uint32_t) - scales_bytes(cloths);
+    for (size_t offset = scales; offset + sizeof(uint32_t) < bytes.size(); offset += sizeof(float))
+        if (!std::isfinite(load(offset)))
+            return Error{"snapshot: what it has of the strain limit is not finite"};
     return {};
 }
 
@@ -62,7 +68,7 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
     if (bytes.size() != mapped.size())
         return Error{"snapshot: " + std::to_string(bytes.size()) + " bytes, this solver's state has " +
                      std::to_string(mapped.size())};
-    if (auto finite = check_finite(bytes, contents_->vertices); !finite)
+    if (auto finite = check_finite(bytes, contents_->vertices, contents_->cloths); !finite)
         return finite;
     std::copy(bytes.begin(), bytes.end(), mapped.begin());
     contents_->buffer.flush();
@@ -82,15 +88,16 @@ struct Region
     VkDeviceSize bytes;
 };
 
-// The streams of all vertices, and what recovery remembers from one step to the next.
-std::array<Region, 5> regions_of(const DeviceState& device, uint32_t recovery_step)
+// The streams of all vertices, and what recovery and the strain limit remember from one step to the next.
+std::array<Region, 6> regions_of(const DeviceState& device, uint32_t recovery_step)
 {
     const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
         return Region{buffer.handle(), bytes_per_vertex * device.vertices};
     };
     return {stream(device.state.positions, sizeof(glm::vec4)), stream(device.state.residuals, sizeof(glm::uvec2)),
             stream(device.state.velocities, sizeof(glm::vec4)), stream(device.normals, sizeof(glm::vec4)),
-            Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)}};
+            Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)},
+            Region{device.limit_scales.handle(), scales_bytes(device.cloth_count)}};
 }
 
 VkDeviceSize total_bytes(const DeviceState& device)
@@ -125,6 +132,7 @@ Result<Snapshot> Solver::create_snapshot() const
         return Error{"snapshot: nothing has been uploaded yet"};
     auto contents = std::make_unique<Snapshot::Contents>();
     contents->vertices = state_->device->vertices;
+    contents->cloths = state_->device->cloth_count;
     auto buffer =
         gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(*state_->device),
                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);

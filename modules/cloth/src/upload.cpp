@@ -147,6 +147,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
     const VkDeviceSize kept_votes = votes_bytes(s.device ? s.device->cloth_count : 0);
     const std::vector<std::byte> no_votes(votes_bytes(s.model.records.size()) - kept_votes);
+    const VkDeviceSize kept_scales = scales_bytes(s.device ? s.device->cloth_count : 0);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     place_planes(s.model, s.colliders);
@@ -156,7 +157,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     std::vector<shared::AnchorRecord> anchors;
     for (const Anchor& anchor : s.anchors)
         anchors.push_back(make_record(anchor));
-    const std::vector<shared::LimitScale> limit_scales(s.model.records.size(), shared::LimitScale{1, 1, 0, 1, 0, 0});
+    const std::vector<shared::LimitScale> limit_scales(s.model.records.size() - (s.device ? s.device->cloth_count : 0),
+                                                       shared::LimitScale{1, 1, 0, 1, 0, 0});
     struct Staged
     {
         const gpu::Buffer& destination;
@@ -185,7 +187,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.anchors, 0, bytes_of(anchors)},
         {next.holds, 0, bytes_of(s.hold_lists.holds)},
         {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
-        {next.limit_scales, 0, bytes_of(limit_scales)},
+        {next.limit_scales, kept_scales, bytes_of(limit_scales)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
         {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
@@ -202,6 +204,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         uploader.copy(s.device->state.residuals, next.state.residuals, kept_residual_bytes);
         uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
         uploader.copy(s.device->normals, next.normals, kept_bytes);
+        uploader.copy(s.device->limit_scales, next.limit_scales, kept_scales);
         for (size_t i = 0; i < 2; ++i)
             uploader.copy(s.device->recovery_votes[i], next.recovery_votes[i], kept_votes);
         uploader.copy(s.device->deforming_positions, next.deforming_positions, kept_deforming * sizeof(glm::vec4));
