@@ -55,13 +55,17 @@ private:
     engine::Mesh mesh_;
 };
 
-bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+// The farthest that one is from the other.
+float difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 {
-    return a == b; // no component is NaN: a NaN differs from itself
+    float most = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, a[i] == b[i] ? 0 : glm::distance(a[i], b[i]));
+    return most;
 }
 
-// The same shot with lists that live on, and with lists that serve one substep.
-cloth::Statistics compare(const Shot& shot)
+// The same shot with lists that live on, and with lists that serve one substep. `rounding`: m, that they may differ by.
+cloth::Statistics compare(const Shot& shot, float rounding)
 {
     CAPTURE(shot.thickness);
     CAPTURE(shot.rings);
@@ -78,8 +82,8 @@ cloth::Statistics compare(const Shot& shot)
             fresh.forget_lists();
             fresh.step({.duration = k_substep, .substeps = 1});
         }
-        CHECK(same_bits(kept.positions(kept.id), fresh.positions(fresh.id)));
-        CHECK(same_bits(kept.velocities(kept.id), fresh.velocities(fresh.id)));
+        CHECK(difference(kept.positions(kept.id), fresh.positions(fresh.id)) <= rounding);
+        CHECK(difference(kept.velocities(kept.id), fresh.velocities(fresh.id)) <= rounding / k_substep);
         const cloth::Statistics now = kept.statistics();
         most.contacts = std::max(most.contacts, now.contacts);
         most.overflowing_vertices = std::max(most.overflowing_vertices, now.overflowing_vertices);
@@ -91,14 +95,16 @@ cloth::Statistics compare(const Shot& shot)
 
 TEST_CASE("lists of near triangles change no bit of what contact finds")
 {
-    const cloth::Statistics most = compare({.thickness = 0.005f, .speed = 3, .rings = 48});
+    const cloth::Statistics most = compare({.thickness = 0.005f, .speed = 3, .rings = 48}, 0);
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices == 0);
 }
 
 TEST_CASE("where more triangles are near than a list holds, nothing is lost")
 {
-    const cloth::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160});
+    // What traverses the hierarchy in every substep is a second instance of the same code; a compiler may round it in
+    // another order (an H200's: 1e-7 m).
+    const cloth::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160}, 3e-7f);
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices > 0);
 }

@@ -71,6 +71,9 @@ TEST_CASE("a hanging sheet stretches by rho g L / 2k, on every grid")
     }
     // With shear stiffness: a strip of square cells, three of them wide, is held in its width only near the top.
     CHECK(std::abs(elongation(4, 33, 3.f / 32, 300) / exact - 1) < 0.02);
+    // The diagonals of cells 1 : 4 alone would be 4 times as stiff.
+    CHECK(std::abs(elongation(4, 5, 3.f / 16, 300) / exact - 1) < 0.02);
+    CHECK(std::abs(elongation(2, 33, 1.f / 8, 300) / exact - 1) < 0.02);
     const double coarse = elongation(9, 9, 1, 300);
     const double fine = elongation(17, 17, 1, 300);
     CHECK(std::abs(fine / coarse - 1) < 0.02);

@@ -84,7 +84,7 @@ float beyond_fall(float speed, int frames)
     return speed - 9.81f * static_cast<float>(frames) / 60;
 }
 
-// m/s beyond a fall. What is inside goes out at 1.2 m/s at most; what that pulls on and drops swings.
+// m/s beyond a fall. What is inside goes out at 0.9 m/s at most; what that pulls on and drops swings.
 constexpr float k_calm = 8; // measured: 5.7 of a sheet that a ball stands through, 5.4 off a spire
 
 // Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside
@@ -311,12 +311,12 @@ TEST_CASE("pins, other layers and what has two sides stay inside")
         (void)engine::take(harness.solver.add_collider(description));
         harness.upload();
         const auto before = harness.positions(id);
-        harness.step({.gravity = glm::vec3(0), .air_density = 0});
+        harness.step({.gravity = glm::vec3(0), .air_density = 0}, 2); // in the first one it votes
         const auto after = harness.positions(id);
         for (const uint32_t i : {0u, 14u, 15u, 35u})
             CHECK((glm::distance(before[i], after[i]) < (c.pinned ? 1e-30f : 1e-6f)) == c.stays);
         if (!c.stays)
-            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == tests::close_to(0.02, 1e-4));
+            CHECK(glm::distance(glm::vec3(before[14]), glm::vec3(after[14])) == tests::close_to(0.015, 1e-4));
     }
 }
 
@@ -387,7 +387,7 @@ TEST_CASE("inside is told right at edges, at corners and in slivers")
                     harness.solver.context().fn.vkCmdUpdateBuffer(cmd, streams.positions, streams.offset,
                                                                   points.size() * sizeof(glm::vec4), points.data());
                 });
-            harness.step({.substeps = 1, .gravity = glm::vec3(0), .air_density = 0});
+            harness.step({.substeps = 1, .gravity = glm::vec3(0), .air_density = 0}, 2); // in the first one it votes
             const auto after = harness.positions(id);
             uint32_t wrong = 0;
             uint32_t inside = 0;

@@ -301,6 +301,7 @@ struct ColliderReachPush
 // Votes of a cloth's vertices inside of colliders: of sides, the sum of directions in the world, how many these are,
 // and the colliders, each a bit, the 33rd that of the first.
 #define VOILE_VOTE_WORDS 6
+#define VOILE_VOTE_COUNT 4     // the word of their number
 #define VOILE_VOTE_COLLIDERS 5 // the word of the bits
 
 // How a vertex comes out of a collider that it was inside of at the start of the step.

@@ -259,8 +259,8 @@ ColliderWalk walk_path(Motion motion)
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
 // round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
 // so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
-// `inside`: the collider, if any, that the vertex is brought out of.
-Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
+// `leaves`: the vertex is brought out of a solid. It passes through those that overlap it: one would hold what another lets go.
+Meeting meet_all(inout Motion motion, ClothContact cloth, bool leaves)
 {
     Meeting meeting = Meeting(false, false);
     bool last = false;
@@ -276,7 +276,7 @@ Meeting meet_all(inout Motion motion, ClothContact cloth, uint inside)
             walk = walk_path(motion);
             continue;
         }
-        if (c == inside)
+        if (leaves && is_solid(colliders[c]))
             continue;
         meet(motion, c, last, cloth, meeting);
         if (meeting.touches)
@@ -373,7 +373,7 @@ void main()
             changed = true;
         }
         find_candidates(i, motion.from, motion.displacement, motion.v, contact.thickness);
-        if (meet_all(motion, contact, depenetration.solid - 1).touches)
+        if (meet_all(motion, contact, depenetration.solid != 0).touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;

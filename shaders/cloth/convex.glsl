@@ -2,6 +2,18 @@
 #ifndef VOILE_CONVEX_GLSL
 #define VOILE_CONVEX_GLSL
 
+bool is_convex(ColliderRecord collider)
+{
+    return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE;
+}
+
+// What recovery brings vertices out of. Contact alone brings them up out of a plane: there is one way only.
+bool is_solid(ColliderRecord collider)
+{
+    const uint closed = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
+    return is_convex(collider) || (collider.kind == VOILE_COLLIDER_MESH && (collider.flags & closed) == closed);
+}
+
 // The nearest surface seen from a point.
 struct ConvexSurface
 {

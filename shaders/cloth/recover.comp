@@ -48,8 +48,8 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #include "near_colliders.glsl"
 #include "solid_query.glsl"
 
-// m/s, along the way out: with its own velocity (contact.comp) a vertex goes at 1.8 m/s at most.
-#define VOILE_OUT_SPEED 1.2
+// m/s, along the way out: with its own velocity (contact.comp) a vertex goes at 1.5 m/s at most.
+#define VOILE_OUT_SPEED 0.9
 // What counts of the field across the cloth's normal where the surface is far: cloth that is pulled out across its normal
 // only stretches.
 #define VOILE_ACROSS 0.05
@@ -59,19 +59,14 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #define VOILE_FIRST_BIAS 0.02 // before there was a vote
 // Votes are integers, whose sum has no order.
 #define VOILE_VOTE 1024
-#define VOILE_TOGETHER 1.0 // weight of the mean of directions, to that of the vertex's own
-const uint k_solid_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
-
-bool is_convex(ColliderRecord collider)
-{
-    return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE;
-}
-
-// Contact alone brings vertices up out of a plane: there is one way only.
-bool is_solid(ColliderRecord collider)
-{
-    return is_convex(collider) || (collider.flags & k_solid_flags) == k_solid_flags;
-}
+// Weight of the mean of directions, to that of the vertex's own near the surface.
+#define VOILE_TOGETHER 1.0
+// Of the vertex's own, times the spacing over the depth: what neighbors differ in parts them for as long as they are inside. Deep
+// inside of something, a sheet goes out as it is.
+#define VOILE_OWN 0.6
+const uint k_none = 0xffffffffu;
+// Solids that a way out leads through, at most.
+#define VOILE_MOST_OVERLAPS 8
 
 // Of a direction, between the world and a collider's space at the step's start.
 vec3 turned_into(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate_back(pose_at(c, 0).rotation, v) : v; }
@@ -106,6 +101,23 @@ bool leads_out(FinePosition from, vec3 displacement, uint layers)
         if ((colliders[c].layers & layers) != 0 && obstructs(c, colliders[c], from, displacement))
             return false;
     return true;
+}
+
+// Another solid than `but`, if any, that a vertex is inside of at a displacement, m.
+bool other_solid(FinePosition from, vec3 displacement, uint layers, uint but, out uint c)
+{
+    const vec3 to = from.x + displacement;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, to, to);
+    while (next_collider(walk, c))
+    {
+        const ColliderRecord collider = colliders[c];
+        if (c == but || !is_solid(collider) || (collider.layers & layers) == 0)
+            continue;
+        if (is_inside(c, collider, into_collider(c, collider.flags, from, 0) +
+                                       turned_into(c, collider.flags, displacement)))
+            return true;
+    }
+    return false;
 }
 
 struct Field
@@ -180,21 +192,21 @@ vec3 direction_out(uint cloth, Field field, vec3 normal)
 }
 
 // What a vertex goes by besides the field: the way that the cloth's vertices went in the last step. Where parts of a sheet
-// would go out on different sides, they would tear it between them.
-vec3 together(uint cloth, uint c, uint flags, vec3 direction)
+// would go out on different sides, they would tear it between them. `own`: weight of its own direction.
+vec3 together(uint cloth, uint c, uint flags, vec3 direction, float own)
 {
     const uint word = VOILE_VOTE_WORDS * cloth;
     const vec3 sum = vec3(int(last_votes[word + 1]), int(last_votes[word + 2]), int(last_votes[word + 3]));
-    const float count = max(float(last_votes[word + 4]), 1);
+    const float count = max(float(last_votes[word + VOILE_VOTE_COUNT]), 1);
     const vec3 mean = turned_into(c, flags, sum / (VOILE_VOTE * count)); // of unit vectors: shorter where they differ
-    const vec3 way = direction + VOILE_TOGETHER * mean;
+    const vec3 way = own * direction + VOILE_TOGETHER * mean;
     const float size = length(way);
     const vec3 chosen = size > 1e-3 ? way / size : direction;
     const ivec3 vote = ivec3(VOILE_VOTE * turned_out_of(c, flags, chosen));
     atomicAdd(next_votes[word + 1], uint(vote.x));
     atomicAdd(next_votes[word + 2], uint(vote.y));
     atomicAdd(next_votes[word + 3], uint(vote.z));
-    atomicAdd(next_votes[word + 4], 1);
+    atomicAdd(next_votes[word + VOILE_VOTE_COUNT], 1);
     return chosen;
 }
 
@@ -208,10 +220,28 @@ float way_out(uint c, ColliderRecord collider, vec3 local, vec3 direction, float
     return min(solid.crossing * reach + thickness, reach);
 }
 
+// The same out of all solids that overlap there, from `way` on, where the vertex is out of one. `direction`: world.
+float way_out_of_all(uint c, FinePosition x, vec3 direction, float way, float thickness, uint layers, float reach)
+{
+    uint other;
+    for (int i = 0; i < VOILE_MOST_OVERLAPS && way < reach && other_solid(x, way * direction, layers, c, other); ++i)
+    {
+        const ColliderRecord collider = colliders[other];
+        const vec3 local =
+            into_collider(other, collider.flags, x, 0) + turned_into(other, collider.flags, way * direction);
+        way += max(way_out(other, collider, local, turned_into(other, collider.flags, direction), thickness, reach - way),
+                   0.01 * thickness);
+        c = other;
+    }
+    return min(way, reach);
+}
+
 // What is left of the way at full speed is shared out evenly between the last two steps: whole ones would end beside the offset
 // surface.
-Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collider, FinePosition x, vec3 local)
+Depenetration depenetration_of(uint i, uint cloth, uint c, FinePosition x)
 {
+    const ColliderRecord collider = colliders[c];
+    const vec3 local = into_collider(c, collider.flags, x, 0);
     const float thickness = cloths[cloth].thickness;
     const uint layers = cloths[cloth].layers;
     const vec3 normal = turned_into(c, collider.flags, normals[i].xyz);
@@ -221,11 +251,16 @@ Depenetration depenetration_of(uint i, uint cloth, uint c, ColliderRecord collid
     // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
     const bool alone = width < spacing(cloth) && size > 0;
     const vec3 direction =
-        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal));
+        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal),
+                                                       clamp(VOILE_OWN * spacing(cloth) * field.size, 0, 1));
     const float most = VOILE_OUT_SPEED * push.step;
-    const float way = way_out(c, collider, local, direction, thickness, 2 * most);
+    const vec3 world = turned_out_of(c, collider.flags, direction);
+    const float way = way_out_of_all(c, x, world, way_out(c, collider, local, direction, thickness, 2 * most), thickness,
+                                     layers, 2 * most);
     const float reach = way < most ? way : way < 2 * most ? 0.5 * way : most;
-    return Depenetration(reach / push.step * turned_out_of(c, collider.flags, direction), c + 1);
+    // Before there was a vote neighbors may differ: the first step is for that alone.
+    const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COUNT] > 0;
+    return Depenetration(agreed ? reach / push.step * world : vec3(0), c + 1);
 }
 
 Depenetration find_depenetration(uint i, uint cloth)
@@ -233,19 +268,18 @@ Depenetration find_depenetration(uint i, uint cloth)
     const FinePosition x = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
     const uint layers = cloths[cloth].layers;
     ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x.x, x.x);
+    uint first = k_none;
     uint c;
     while (positions[i].w > 0 && next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
-        if (!is_solid(collider) || (collider.layers & layers) == 0)
-            continue;
-        const vec3 local = into_collider(c, collider.flags, x, 0);
-        if (!is_inside(c, collider, local))
+        if (!is_solid(collider) || (collider.layers & layers) == 0 ||
+            !is_inside(c, collider, into_collider(c, collider.flags, x, 0)))
             continue;
         atomicOr(next_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COLLIDERS], 1u << (c % 32));
-        return depenetration_of(i, cloth, c, collider, x, local);
+        first = min(first, c);
     }
-    return Depenetration(vec3(0), 0);
+    return first == k_none ? Depenetration(vec3(0), 0) : depenetration_of(i, cloth, first, x);
 }
 
 void main()

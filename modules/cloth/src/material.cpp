@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace cloth
@@ -34,6 +35,14 @@ Spring damped_spring(float stiffness, float damping_ratio, float vertex_mass)
     return {stiffness, 2 * damping_ratio * std::sqrt(stiffness * vertex_mass / 2)};
 }
 
+// N/m: the shear stiffness from which on diagonals alone resist stretch along one axis more than the fabric does, whose
+// stiffness there is `along`. `q`: the squared ratio of the cell's side along that axis to the other.
+double most_shear(double along, double across, double q)
+{
+    const double ratio = along / across;
+    return q * q > ratio ? along * q / (q * q - ratio) : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
 
 Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column)
@@ -42,15 +51,19 @@ Material make_material(const Fabric& fabric, float spacing_along_row, float spac
     const double b = static_cast<double>(spacing_along_column);
     const double warp = static_cast<double>(fabric.stretch_stiffness[0]);
     const double weft = static_cast<double>(fabric.stretch_stiffness[1]);
-    const double shear = static_cast<double>(fabric.shear_stiffness);
+    const double shear = std::min({static_cast<double>(fabric.shear_stiffness), most_shear(warp, weft, a * a / (b * b)),
+                                   most_shear(weft, warp, b * b / (a * a))});
     const double held = 0.5 * (warp + std::sqrt(warp * warp + 4 * shear * shear * warp / weft));
     Material material;
     material.vertex_mass = static_cast<float>(static_cast<double>(fabric.areal_density) * a * b);
     material.border_share = 0.5f;
     const auto spring = [&](double stiffness)
     { return damped_spring(static_cast<float>(std::max(stiffness, 0.0)), fabric.damping_ratio, material.vertex_mass); };
-    material.springs.structural_warp = spring((held - shear * a * a / (b * b)) * b / a);
-    material.springs.structural_weft = spring((held * weft / warp - shear * b * b / (a * a)) * a / b);
+    const auto structural = [&](double all, double of_diagonals, double sides) {
+        return spring(all - of_diagonals > 1e-9 * all ? (all - of_diagonals) * sides : 0);
+    }; // of 0 rounding leaves a rest
+    material.springs.structural_warp = structural(held, shear * a * a / (b * b), b / a);
+    material.springs.structural_weft = structural(held * weft / warp, shear * b * b / (a * a), a / b);
     material.springs.shear = spring(shear * (a * a + b * b) / (2 * a * b));
     if (fabric.bending_model == BendingModel::springs)
         material.springs.bend_warp = material.springs.bend_weft =

@@ -32,8 +32,8 @@ std::span<const std::byte> Snapshot::bytes() const
 namespace
 {
 
-// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of strain
-// limits stand last, before the recovery's step.
+// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of
+// strain limits stand last, before the recovery's step.
 Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, size_t cloths)
 {
     const auto load = [&](size_t offset)
@@ -94,8 +94,10 @@ std::array<Region, 6> regions_of(const DeviceState& device, uint32_t recovery_st
     const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
         return Region{buffer.handle(), bytes_per_vertex * device.vertices};
     };
-    return {stream(device.state.positions, sizeof(glm::vec4)), stream(device.state.residuals, sizeof(glm::uvec2)),
-            stream(device.state.velocities, sizeof(glm::vec4)), stream(device.normals, sizeof(glm::vec4)),
+    return {stream(device.state.positions, sizeof(glm::vec4)),
+            stream(device.state.residuals, sizeof(glm::uvec2)),
+            stream(device.state.velocities, sizeof(glm::vec4)),
+            stream(device.normals, sizeof(glm::vec4)),
             Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)},
             Region{device.limit_scales.handle(), scales_bytes(device.cloth_count)}};
 }
