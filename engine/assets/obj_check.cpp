@@ -110,7 +110,7 @@ void Checker::check_vector(List list, size_t least, size_t most, size_t kept)
     const std::string what = list == positions ? "vertex" : std::string(k_list_names[list]);
     if (count < least || count > most)
         fail(what + " has " + std::to_string(count) + (count == 1 ? " coordinate" : " coordinates") + ", needs " +
-             std::to_string(least) + (least == most ? "" : " to " + std::to_string(most)));
+             std::to_string(least) + (list == texture_coordinates ? " to " + std::to_string(most) : ""));
     if (!error_.empty() || !check_numbers())
         return;
     ++counts_[list];
