@@ -112,6 +112,10 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--size", "16385x1"}) == "--size: \"16385x1\" is not within 1x1 to 16384x16384");
     CHECK(message({"--size", "1x99999999999"}) == "--size: \"1x99999999999\" is not within 1x1 to 16384x16384");
     CHECK(message({"--size", "1x1", "--size", "2x2"}) == "--size: given 2 times; once at most");
+    CHECK(message({"s.json", "--stats", "./s.json"}) == "--stats: \"./s.json\" is the scene's file, too");
+    CHECK(message({"--export", "a.obj", "--stats", "a.obj"}) == "--export: \"a.obj\" is --stats's file, too");
+    CHECK(message({"--video", "a.mp4", "--stats", "b/../a.mp4"}) == "--stats: \"b/../a.mp4\" is --video's file, too");
+    CHECK(message({"--export", "a.obj", "--stats", "a.json"}) == "accepted");
     CHECK(message({"--frames", "-1"}) == "--frames: \"-1\" is not within 0 to 100000000");
     CHECK(message({"--frames", "1.5"}) == "--frames: \"1.5\" is not a whole number");
     CHECK(message({"--frames", "99999999999999999999"}) ==
