@@ -71,4 +71,8 @@ TEST_CASE("a cloth is noted when it is softened first, and not again")
     world.step.substeps = 1;
     viewer::SofteningNotes fewer;
     CHECK(errors_of([&] { fewer.check(stage, k_frame); }).find("gets 1: it has ") != std::string::npos);
+    // What is left of it is never rounded up to all, nor written as "1e+02 %".
+    world.step.substeps = world.solver().stable_substeps(1, UINT32_MAX) - 1;
+    viewer::SofteningNotes nearly;
+    CHECK(errors_of([&] { nearly.check(stage, 1); }).find(": it has 99.9 % of its stiffness") != std::string::npos);
 }
