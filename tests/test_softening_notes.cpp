@@ -44,8 +44,8 @@ TEST_CASE("a cloth is noted when it is softened first, and not again")
     stage.world = &world;
     for (const char* name : {"first", "second"})
     {
-        const auto id = world.solver().add_cloth(cloth::Grid{
-            .name = name, .columns = 8, .rows = 8, .width = 1, .depth = 1, .material = cloth::silk()});
+        const auto id = world.solver().add_cloth(
+            cloth::Grid{.name = name, .columns = 8, .rows = 8, .width = 1, .depth = 1, .material = cloth::silk()});
         REQUIRE(id);
         stage.cloths.push_back({name, id.value(), {}, 1});
     }
