@@ -233,16 +233,16 @@ namespace
 {
 
 // Two sheets, each of which a solid on its layer stands through.
-struct Passage
+struct Observed
 {
     float stretch = 0;              // the largest
     std::array<float, 2> fastest{}; // m/s, of any vertex
 };
 
-Passage watch(ClothHarness& harness, const std::array<cloth::ClothId, 2>& sheets, const cloth::Step& step, int frames)
+Observed watch(ClothHarness& harness, const std::array<cloth::ClothId, 2>& sheets, const cloth::Step& step, int frames)
 {
     harness.upload();
-    Passage seen;
+    Observed seen;
     for (int frame = 0; frame < frames; ++frame)
     {
         harness.step(step);
@@ -291,7 +291,7 @@ TEST_CASE("a tilted sheet that a solid stands through comes out on one side")
         .min = -half, .max = half, .transform = glm::rotate(glm::mat4(1), 0.0422239f, axis), .layers = 1}));
     (void)engine::take(harness.solver.add_collider(cloth::CapsuleCollider{
         .from = {-0.540726f, 0.1f, 0}, .to = {0.540726f, -0.1f, 0.2f}, .radius = 0.217979f, .layers = 2}));
-    const Passage seen = watch(harness, sheets, {}, 60);
+    const Observed seen = watch(harness, sheets, {}, 60);
     CHECK(harness.statistics().penetrating_vertices == 0);
     CHECK(seen.stretch < 0.4f);                            // measured 0.148; 4.4 when torn
     CHECK(std::max(seen.fastest[0], seen.fastest[1]) < 8); // measured 2.9; 146 when torn
@@ -387,7 +387,7 @@ TEST_CASE("edges of a solid do not hold back a sheet that comes out of it")
     const engine::Mesh mesh = ellipsoid({0.315167, 0.197726, 0.174327}, 11, 4);
     (void)engine::take(harness.solver.add_collider(
         cloth::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles, .layers = 2}));
-    const Passage seen = watch(harness, sheets, {.gravity = glm::vec3(0)}, 40);
+    const Observed seen = watch(harness, sheets, {.gravity = glm::vec3(0)}, 40);
     CHECK(harness.statistics().penetrating_vertices == 0);
     CHECK(seen.stretch < 0.15f); // held back: 0.27
     CHECK(seen.fastest[0] < 2);  // held back: 4.4

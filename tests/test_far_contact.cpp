@@ -113,7 +113,7 @@ Outcomes run(const std::vector<Scene>& scenes, const glm::vec3& point, uint32_t 
     for (uint32_t frame = 1; frame <= frames; ++frame)
         step(frame);
     outcomes.after = harness.statistics();
-    // Near the origin floats tell positions finely. A metre above it nothing touches the sheets.
+    // Near the origin floats are fine. A meter above it nothing touches the sheets.
     const glm::vec3 above{0, 1, 0};
     for (const cloth::ClothId id : sheets)
         engine::take(harness.solver.transform(id, tests::moved(above - point)));

@@ -111,7 +111,8 @@ TEST_CASE("an upload and a snapshot may outlive their solver")
         snapshot = engine::take(harness.solver.create_snapshot());
         harness.run([&](VkCommandBuffer cmd) { engine::take(harness.solver.record_save(cmd, *snapshot)); });
     }
-    CHECK(snapshot->bytes().size() == 36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (6 + 6 + 1) * sizeof(uint32_t));
+    CHECK(snapshot->bytes().size() ==
+          36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (6 + 6 + 1) * sizeof(uint32_t));
     float first = 0;
     std::memcpy(&first, snapshot->bytes().data(), sizeof(first));
     CHECK(first == -0.25f);

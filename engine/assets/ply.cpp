@@ -47,8 +47,8 @@ private:
     double read_bytes();
     void fail(const std::string& reason);
     void fail_at_end();
-    [[nodiscard]] std::string place() const; // "mesh.ply:12: ", without a line in a binary file
-    [[nodiscard]] std::string entry() const; // "vertex 3 of 8"
+    [[nodiscard]] std::string location() const; // "mesh.ply:12: ", without a line in a binary file
+    [[nodiscard]] std::string entry() const;    // "vertex 3 of 8"
 
     const PlyHeader& header_;
     std::string_view body_; // what is left of it
@@ -62,7 +62,7 @@ private:
     uint32_t index_ = 0;                  // within the element
 };
 
-std::string BodyReader::place() const
+std::string BodyReader::location() const
 {
     return name_ + (header_.is_ascii() ? ":" + std::to_string(line_) + ": " : ": ");
 }
@@ -75,13 +75,13 @@ std::string BodyReader::entry() const
 void BodyReader::fail(const std::string& reason)
 {
     if (error_.empty())
-        error_ = place() + (header_.is_ascii() ? "" : entry() + ": ") + reason;
+        error_ = location() + (header_.is_ascii() ? "" : entry() + ": ") + reason;
 }
 
 void BodyReader::fail_at_end()
 {
     if (error_.empty())
-        error_ = place() + "file ends before " + entry() + " is complete";
+        error_ = location() + "file ends before " + entry() + " is complete";
 }
 
 template <typename T>
@@ -233,7 +233,7 @@ gpu::Result<Polygons> BodyReader::run()
     if (rest == std::string_view::npos)
         return std::move(polygons_);
     line_ += 1 + static_cast<uint32_t>(std::count(body_.begin(), body_.begin() + static_cast<ptrdiff_t>(rest), '\n'));
-    return gpu::Error{place() + "something follows the last " + gpu::printable(header_.elements.back().name)};
+    return gpu::Error{location() + "something follows the last " + gpu::printable(header_.elements.back().name)};
 }
 
 } // namespace

@@ -15,9 +15,9 @@ namespace
 constexpr size_t k_most_notes = 20; // beyond it they only hide what else is said
 
 // Never rounded up to all.
-std::string percent(float share)
+std::string percent(float fraction)
 {
-    const double value = share < 1 ? std::min(100 * static_cast<double>(share), 99.9) : 100;
+    const double value = fraction < 1 ? std::min(100 * static_cast<double>(fraction), 99.9) : 100;
     std::array<char, 32> text{};
     (void)std::snprintf(text.data(), text.size(), value < 10 ? "%.2g %%" : "%.3g %%", value);
     return text.data();

@@ -134,13 +134,6 @@ vec3 world_direction(Passage passage, vec3 direction)
     return passage.moves ? rotate(passage.end.rotation, direction) : direction;
 }
 
-bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0; }
-
-// s: a change of the velocity moves the vertex by as much times that change within the substep. Forces act throughout RK4's
-// substep; Verlet kicks first, and drifts with what the kick has left. (Asked where it is needed: kept through the queries,
-// it cost 5 us on an H200.)
-float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step; }
-
 // m: by how much a contact moves the vertex. What has come nearer than the thickness goes back at once. What was too near
 // before comes away slowly, and what was inside no faster than that: neighbors that part faster would load the springs.
 float lift_of(Contact contact, float thickness)
@@ -259,7 +252,8 @@ ColliderWalk walk_path(Motion motion)
 // Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
 // round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
 // so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
-// `leaves`: the vertex is brought out of a solid. It passes through those that overlap it: one would hold what another lets go.
+// `leaves`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would hold what the
+// other releases.
 Meeting meet_all(inout Motion motion, ClothContact cloth, bool leaves)
 {
     Meeting meeting = Meeting(false, false);

@@ -6,7 +6,7 @@
 //
 // A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
 // it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
-// and Coulomb friction acts: on the place where the piece is fast, on the vertex where that is slow. Pieces with a held vertex
+// and Coulomb friction acts: at the contact where the piece is fast, on the vertex where that is slow. Pieces with a held vertex
 // go where that is held. The vertices' own contact comes after and has the last word.
 //
 // Of a cloth that is brought out of a collider (recover.comp), that collider's features hold nothing back: a sheet that it
@@ -42,11 +42,6 @@ layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 e
 layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
-
-bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0; }
-
-// See contact.comp.
-float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step; }
 
 #include "chunk.glsl"
 #include "collider_pose.glsl"
@@ -92,7 +87,7 @@ void visit_collider(uint c, uint part, uint parts)
     const FeatureSet set = feature_sets[c];
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
-    look_at(c);
+    select_collider(c);
     piece.a = traveller(self.earlier, self.place, self.velocity, self.inverse_mass);
     // Most vertices are told by their own place alone that they are far from everything.
     const float loose = VOILE_MOST_STRETCH * set.edge;
@@ -157,7 +152,7 @@ void main()
         merge(responses[other]);
     if (response.collider == k_no_collider)
         return;
-    look_at(response.collider);
+    select_collider(response.collider);
     friction = find_friction();
     add_friction();
     write_correction();

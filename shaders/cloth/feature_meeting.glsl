@@ -1,7 +1,6 @@
 // How a corner or an edge of a collider meets a piece of cloth, and what that changes of the vertex.
 //
-// The including kernel declares push.step and drift(), includes feature_pieces.glsl and friction.glsl before, and sets `leaving`
-// for each collider.
+// The including kernel includes feature_pieces.glsl and friction.glsl before, and sets `leaving` for each collider.
 #ifndef VOILE_FEATURE_MEETING_GLSL
 #define VOILE_FEATURE_MEETING_GLSL
 
@@ -98,14 +97,14 @@ Meeting meet(Feature feature, vec3 before, float from, vec3 now, float to)
     return result;
 }
 
-// The fraction of the velocity of a place that slides that friction takes when the surfaces approach at `approach`, m/s.
+// The fraction that friction takes of the sliding velocity at a contact whose surfaces approach at `approach`, m/s.
 float friction_fraction(float approach, float speed)
 {
     return speed <= friction.x * approach ? 1 : friction.y * approach / speed;
 }
 
 // The same of a vertex that is pressed with so much impulse per mass, m/s. The coefficient falls from the static to the
-// kinetic one while the speed rises. With a jump, one vertex that gives way would take the others along.
+// kinetic one while the speed rises. With a jump, one vertex that slips would take the others along.
 float holding_fraction(float pressed, float speed)
 {
     const float slips = min(2 * max(speed - friction.x * pressed, 0), max(speed - friction.y * pressed, 0));
@@ -146,8 +145,8 @@ void add_friction()
     if (pressed == 0)
         return;
     const vec3 n = response.change / pressed;
-    const vec3 way = surface_way();
-    const vec3 v_t = tangential(self.velocity - way / push.step, n);
+    const vec3 surface = surface_displacement();
+    const vec3 v_t = tangential(self.velocity - surface / push.step, n);
     const float speed = length(v_t);
     const float fraction = holding_fraction(pressed, speed);
     const float most = k_slow * push.step;
@@ -155,7 +154,7 @@ void add_friction()
     const float time = drift(self.vertex.cloth);
     vec3 slid = fraction * time * v_t;
     if (fraction == 1) // to the bit
-        slid = tangential(displacement(self.earlier, self.place) - way, n);
+        slid = tangential(displacement(self.earlier, self.place) - surface, n);
     // What shifts of other directions move along the surface adds up to a creep, too.
     const vec3 shifted = tangential(response.shift, n);
     const float least = min(1, most * push.step / max(length(shifted), 1e-30));

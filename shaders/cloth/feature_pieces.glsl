@@ -27,7 +27,7 @@ bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
 
-void look_at(uint c)
+void select_collider(uint c)
 {
     collider_index = c;
     collider_flags = colliders[c].flags;
@@ -40,12 +40,12 @@ void look_at(uint c)
 }
 
 // By how much the surface moves in the substep where the vertex is, m, world.
-vec3 surface_way()
+vec3 surface_displacement()
 {
     if (!collider_moves)
         return vec3(0);
-    const vec3 place = to_collider(pose_from, from_origin(collider_index, collider_flags, self.earlier));
-    return to_world(pose_to, place) - to_world(pose_from, place);
+    const vec3 point = to_collider(pose_from, from_origin(collider_index, collider_flags, self.earlier));
+    return to_world(pose_to, point) - to_world(pose_from, point);
 }
 
 // A vertex of the cloth: where it was before the substep and where it is, in the collider's space.

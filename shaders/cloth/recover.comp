@@ -61,11 +61,11 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #define VOILE_VOTE 1024
 // Weight of the mean of directions, to that of the vertex's own near the surface.
 #define VOILE_TOGETHER 1.0
-// Of the vertex's own, times the spacing over the depth: what neighbors differ in parts them for as long as they are inside. Deep
-// inside of something, a sheet goes out as it is.
+// Weight of the vertex's own, times the spacing over the depth: neighbors whose directions differ part for as long as they are
+// inside. So a sheet that is deep inside moves as one.
 #define VOILE_OWN 0.6
 const uint k_none = 0xffffffffu;
-// Solids that a way out leads through, at most.
+// Overlapping solids that are searched for an exit.
 #define VOILE_MOST_OVERLAPS 8
 
 // Of a direction, between the world and a collider's space at the step's start.
@@ -220,20 +220,20 @@ float way_out(uint c, ColliderRecord collider, vec3 local, vec3 direction, float
     return min(solid.crossing * reach + thickness, reach);
 }
 
-// The same out of all solids that overlap there, from `way` on, where the vertex is out of one. `direction`: world.
-float way_out_of_all(uint c, FinePosition x, vec3 direction, float way, float thickness, uint layers, float reach)
+// The same for all solids that overlap there. `direction`: world; `distance`: m, at which the vertex is out of solid c.
+float exit_distance(uint c, FinePosition x, vec3 direction, float distance, float thickness, uint layers, float most)
 {
     uint other;
-    for (int i = 0; i < VOILE_MOST_OVERLAPS && way < reach && other_solid(x, way * direction, layers, c, other); ++i)
+    for (int i = 0; i < VOILE_MOST_OVERLAPS && distance < most && other_solid(x, distance * direction, layers, c, other); ++i)
     {
         const ColliderRecord collider = colliders[other];
         const vec3 local =
-            into_collider(other, collider.flags, x, 0) + turned_into(other, collider.flags, way * direction);
-        way += max(way_out(other, collider, local, turned_into(other, collider.flags, direction), thickness, reach - way),
-                   0.01 * thickness);
+            into_collider(other, collider.flags, x, 0) + turned_into(other, collider.flags, distance * direction);
+        const vec3 local_direction = turned_into(other, collider.flags, direction);
+        distance += max(way_out(other, collider, local, local_direction, thickness, most - distance), 0.01 * thickness);
         c = other;
     }
-    return min(way, reach);
+    return min(distance, most);
 }
 
 // What is left of the way at full speed is shared out evenly between the last two steps: whole ones would end beside the offset
@@ -250,17 +250,17 @@ Depenetration depenetration_of(uint i, uint cloth, uint c, FinePosition x)
     const float size = length(field.sum);
     // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
     const bool alone = width < spacing(cloth) && size > 0;
+    const float own = clamp(VOILE_OWN * spacing(cloth) * field.size, 0, 1);
     const vec3 direction =
-        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal),
-                                                       clamp(VOILE_OWN * spacing(cloth) * field.size, 0, 1));
+        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal), own);
     const float most = VOILE_OUT_SPEED * push.step;
     const vec3 world = turned_out_of(c, collider.flags, direction);
-    const float way = way_out_of_all(c, x, world, way_out(c, collider, local, direction, thickness, 2 * most), thickness,
-                                     layers, 2 * most);
-    const float reach = way < most ? way : way < 2 * most ? 0.5 * way : most;
+    const float out_of_one = way_out(c, collider, local, direction, thickness, 2 * most);
+    const float distance = exit_distance(c, x, world, out_of_one, thickness, layers, 2 * most);
+    const float step_distance = distance < most ? distance : distance < 2 * most ? 0.5 * distance : most;
     // Before there was a vote neighbors may differ: the first step is for that alone.
     const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COUNT] > 0;
-    return Depenetration(agreed ? reach / push.step * world : vec3(0), c + 1);
+    return Depenetration(agreed ? step_distance / push.step * world : vec3(0), c + 1);
 }
 
 Depenetration find_depenetration(uint i, uint cloth)

@@ -34,7 +34,7 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
     recorder.dispatch(solver.kernels.deform, solver.device->deform, mesh.vertices, solver.options.workgroup_size, push);
 }
 
-// Boxes of what a mesh is at one of its halves, and on the way to the other one.
+// Boxes of the triangles as they move from one of the mesh's two sets of positions to the other.
 void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh, uint32_t from,
                   uint32_t to)
 {

@@ -125,7 +125,7 @@ struct Solver::State
 // compute, the passes. Both do nothing where no mesh deforms.
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
-// After an upload: boxes of each mesh where it is, for what looks before the next step.
+// After an upload: boxes of each mesh where it is, for statistics that are recorded before the next step.
 void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver);
 
 // Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many

@@ -145,9 +145,10 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const size_t kept_deforming = s.device ? s.device->deforming_vertices : 0;
     const VkDeviceSize kept_bytes = kept * sizeof(glm::vec4);
     const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
-    const VkDeviceSize kept_votes = votes_bytes(s.device ? s.device->cloth_count : 0);
+    const size_t kept_cloths = s.device ? s.device->cloth_count : 0;
+    const VkDeviceSize kept_votes = votes_bytes(kept_cloths);
     const std::vector<std::byte> no_votes(votes_bytes(s.model.records.size()) - kept_votes);
-    const VkDeviceSize kept_scales = scales_bytes(s.device ? s.device->cloth_count : 0);
+    const VkDeviceSize kept_scales = scales_bytes(kept_cloths);
     Uploader uploader(s.context, cmd);
     const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
     place_planes(s.model, s.colliders);
@@ -157,7 +158,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     std::vector<shared::AnchorRecord> anchors;
     for (const Anchor& anchor : s.anchors)
         anchors.push_back(make_record(anchor));
-    const std::vector<shared::LimitScale> limit_scales(s.model.records.size() - (s.device ? s.device->cloth_count : 0),
+    const std::vector<shared::LimitScale> limit_scales(s.model.records.size() - kept_cloths,
                                                        shared::LimitScale{1, 1, 0, 1, 0, 0});
     struct Staged
     {

@@ -26,7 +26,7 @@ PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr get, VkDevice device, std::strin
 DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device)
 {
     DeviceFunctions fn;
-#define VOILE_LOAD_FUNCTION(name) fn.name = reinterpret_cast<PFN_##name>(find(get, device, #name));
+#define VOILE_LOAD_FUNCTION(name) fn.name = reinterpret_cast<PFN_##name>(find(get, device, #name))
     VOILE_COMPUTE_FUNCTIONS(VOILE_LOAD_FUNCTION)
     VOILE_ENGINE_FUNCTIONS(VOILE_LOAD_FUNCTION)
 #undef VOILE_LOAD_FUNCTION

@@ -111,10 +111,10 @@ enum class Sides
 // above 0. A sheet goes out to one side, along its normals and together, and leaves at less than 2.5 m/s. One that a
 // solid stands through is stretched by that: of 60 random poses the worst was stretched by 21 %, and of those without
 // gravity the fastest part reached 2.5 m/s. Meanwhile a vertex's own motion is slowed down to 0.6 m/s, a collider
-// carries it along at 0.75 m/s at most, and the collider's corners and edges do not hold its cloth back. What is under
-// a plane, or nearer to any surface than the thickness at the start of a substep, comes up at 0.75 m/s. Whether any is
-// inside is found out after uploads, edits and snapshots, where colliders move, as long as any is, and every eighth
-// step. A collider that moves onto cloth pushes it at any speed.
+// carries it along at 0.75 m/s at most, the collider's corners and edges do not hold its cloth back, and no other solid
+// stops the vertex. What is under a plane, or nearer to any surface than the thickness at the start of a substep, comes
+// up at 0.75 m/s. Whether any is inside is found out after uploads, edits and snapshots, where colliders move, as long
+// as any is, and every eighth step. A collider that moves onto cloth pushes it at any speed.
 
 // Corners and edges of colliders that stand between the vertices of a cloth meet its triangles and edges
 // (SolverOptions::feature_contact). That holds below some 5 m/s. Faster, no vertex goes through a surface, but edges of

@@ -89,7 +89,8 @@ struct Fabric
 using ClothMaterial = std::variant<Fabric, Material>;
 
 // The springs and masses of a grid with the given spacing (m, a along rows, b along columns), so that the fabric
-// stretches as Fabric says whatever the spacing, and shears so where cells are not too oblong. From the energy of one cell under uniform strain:
+// stretches as Fabric says whatever the spacing, and shears so where cells are not too oblong. From the energy of one
+// cell under uniform strain:
 // - diagonals carry the shear stiffness: k_d = K_s (a^2 + b^2) / (2 a b);
 // - they also resist stretch, which structural springs therefore do less: with p = a / b, the stiffness A of a strip
 //   along the warp that is held in its width solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and
