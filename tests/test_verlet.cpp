@@ -111,12 +111,15 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
     {
         CAPTURE(substeps);
         steps += substeps;
-        harness.step({.duration = k_step * static_cast<float>(substeps), .substeps = substeps, .wind = {1, 0.5f, -2}});
+        const cloth::Step step{
+            .duration = k_step * static_cast<float>(substeps), .substeps = substeps, .wind = {1, 0.5f, -2}};
+        harness.step(step);
         for (size_t i = 0; i < ids.size(); ++i)
         {
             CAPTURE(grids[i].columns);
             reference::Cloth& reference = references[i];
-            reference.verlet_step(static_cast<double>(k_step), substeps, {.wind = {1, 0.5, -2}});
+            reference.verlet_step(static_cast<double>(k_step), substeps, {.wind = {1, 0.5, -2}},
+                                  static_cast<double>(harness.solver.stability(ids[i], step).load));
             // Positions round once when uploaded and once a substep. Velocities: rounded places give a force that is
             // off by up to omega^2 times their error, twice a substep; omega^2 <= 2 * 400 * 16 / (0.15 * 0.7^2), from
             // 16 springs at most of 400 N/m. Substeps add their errors, and the places move by h times those of v.
@@ -164,8 +167,9 @@ TEST_CASE("a short Verlet trajectory follows the reference, of a grid and of mes
     reference::Cloth reference(grid);
     const auto follow = [&](auto& cloth, cloth::ClothId id)
     {
-        cloth.verlet_step(h, substeps, {});
-        cloth.verlet_step(h, substeps, {});
+        const auto load = static_cast<double>(harness.solver.stability(id, step).load);
+        cloth.verlet_step(h, substeps, {}, load);
+        cloth.verlet_step(h, substeps, {}, load);
         // Rounding of each substep adds up, amplified by the motion's own divergence, which is mild over 0.1 s.
         CHECK(tests::relative_error(harness.positions(id), cloth.state.x) < 2 * substeps * std::exp2(-24));
     };

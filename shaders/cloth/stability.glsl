@@ -12,12 +12,14 @@ const float k_rk4_reach = 2.6;
 const float k_stability_margin = 0.95;
 
 // How much of the step's reach a mode of frequency^2 `omega_squared` (1/s^2) and decay rate `decay` (1/s) takes up; a
-// step is stable up to 1. Velocity Verlet whose damping force sees the predicted velocity, v[n-1/2] + h/2 a[n-1]: its
-// characteristic polynomial z^3 + (W + 3/2 D - 2) z^2 + (1 - 2 D) z + D / 2, with W = (omega h)^2 and D = decay h, has
-// its roots in the unit circle up to W / 4 + D = 1.
+// step is stable up to 1. Velocity Verlet whose damping force sees a predicted velocity, v[n-1/2] + p h a[n-1], has, with
+// W = (omega h)^2 and D = decay h, the characteristic polynomial
+//   z^3 + (W + (1 + p) D - 2) z^2 + (1 - (1 + 2 p) D) z + p D,
+// whose roots are in the unit circle up to W / 4 + (1/2 + p) D = 1. Second order takes p = 1/2 in the limit of short
+// steps; the longest step takes p = 0. With p = (1 - L) / 2, L = W / 4 + D / 2, both hold: the bound is L = 1.
 float verlet_load(float omega_squared, float decay, float h)
 {
-    return 0.25 * omega_squared * h * h + decay * h;
+    return 0.25 * omega_squared * h * h + 0.5 * decay * h;
 }
 
 struct StabilityScales
@@ -40,6 +42,13 @@ StabilityScales stability_scales(float omega_squared, float decay, float h)
     return StabilityScales(min(1, reach * reach / max(omega_squared, 1e-30)), min(1, reach / max(decay, 1e-30)));
 }
 
+// p above, of a cloth with what the step leaves of its stiffness and damping.
+float verlet_prediction(float omega_squared, float decay, float h)
+{
+    const StabilityScales scales = stability_scales(omega_squared, decay, h);
+    return 0.5 * (1 - verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h));
+}
+
 struct Viscosity
 {
     float scale;     // s, a fraction of the substep
@@ -48,16 +57,16 @@ struct Viscosity
 
 const Viscosity k_no_viscosity = Viscosity(0, 0);
 
-// How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach; less
-// than half of it goes along a spring and across it each. A step far within the reach needs none: there it vanishes with
-// the fourth power of the step, faster than the method's own error.
+// How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach: D up
+// to twice that, of which less than half goes along a spring and across it each. A step far within the reach needs none:
+// there it vanishes with the fourth power of the step, faster than the method's own error.
 Viscosity viscosity_of(StabilityScales scales, float omega_squared, float flat_omega_squared, float decay, float h)
 {
     const float load = verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h);
     const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);
     const float strength = scales.stiffness * flat_omega_squared * h * h;
-    const float most = min(0.05, 0.4 * max(1 - flat_load, 0) / max(strength, 1e-30)); // of load^2 h
-    return Viscosity(load * load * h * most, 1 / max(most, 1e-6));
+    const float most = min(0.15, 0.8 * max(1 - flat_load, 0) / max(strength, 1e-30)); // of load^1.5 h
+    return Viscosity(load * sqrt(load) * h * most, 1 / max(most, 1e-6));
 }
 
 // The scale of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic

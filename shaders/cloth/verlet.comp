@@ -4,8 +4,8 @@
 //
 // The half kicks at the end of one substep and at the beginning of the next are one: a step of n substeps is n + 1
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
-// after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction,
-// v + a h/2, for the next, which keeps the second order.
+// after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction for the
+// next (stability.glsl), which keeps the second order.
 // A thread moves one vertex. Reads: cloths, chunks, mesh lists, positions and their residuals, predicted and own velocities.
 // Writes: next positions and residuals, velocities, predicted velocities.
 #include "cloth_layout.h"
@@ -52,5 +52,6 @@ void main()
     next_positions[i] = vec4(next.x, stage_x.w);
     next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(v, ends ? touches : 0);
-    next_predicted[i] = vec4(v + 0.5 * push.step * a, 0);
+    const float prediction = verlet_prediction(cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
+    next_predicted[i] = vec4(v + prediction * push.step * a, 0);
 }

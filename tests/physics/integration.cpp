@@ -176,19 +176,21 @@ CaseResult order(Detail detail)
 {
     CaseResult result;
     const Pair pair{1, 0.5};
-    const uint32_t first = detail == Detail::fine ? 40 : 20;
     Plot plot{"order", "Error of a swinging pair", "step, s", "error, m", {}, true, false};
     for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
     {
+        const bool rk4 = integrator == cloth::Integrator::rk4;
+        // RK4's shorter steps meet the rounding of floats; in Verlet's longer ones the pair is fast enough to be
+        // viscous.
+        const uint32_t first = (rk4 ? 20 : 40) * (detail == Detail::fine ? 2 : 1);
         Curve curve{name_of(integrator), {}, {}, false};
         for (uint32_t substeps = first / 2; substeps <= 4 * first; substeps *= 2)
         {
             curve.x.push_back(1.0 / substeps);
             curve.y.push_back(swing_error(pair, integrator, substeps));
         }
-        const bool rk4 = integrator == cloth::Integrator::rk4;
         const double exact = rk4 ? 4 : 2;
-        const Target target = rk4 ? Target{0.002, 0.015} : Target{0.04, 0.008};
+        const Target target = rk4 ? Target{0.002, 0.015} : Target{0.02, 0.003};
         result.measurements.push_back({std::string("slope, ") + name_of(integrator),
                                        std::to_string(first) + " and " + std::to_string(2 * first) + " steps/s",
                                        std::log2(curve.y[1] / curve.y[2]), exact, target.at(detail)});

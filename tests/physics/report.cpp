@@ -101,12 +101,16 @@ a peak, so that no drag enters what they come to rest in. All but what names RK4
 
 int report(const std::filesystem::path& folder, const std::vector<std::string>& only)
 {
+    const std::vector<physics::Case>& cases = physics::all_cases();
+    for (const std::string& name : only)
+        if (std::none_of(cases.begin(), cases.end(), [&](const physics::Case& entry) { return entry.name == name; }))
+            throw std::runtime_error("there is no case \"" + name + "\"; docs/physics.md has them as headings");
     std::ostringstream out;
     const std::filesystem::path plots = only.empty() ? folder / "physics" : "";
     if (only.empty())
         std::filesystem::create_directories(plots);
     long missed = 0;
-    for (const physics::Case& entry : physics::all_cases())
+    for (const physics::Case& entry : cases)
         if (only.empty() || std::find(only.begin(), only.end(), entry.name) != only.end())
             missed += run_case(entry, only.empty() ? out : std::cout, plots);
     if (!only.empty())

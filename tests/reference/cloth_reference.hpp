@@ -89,9 +89,10 @@ public:
     void step(double h, const Environment& environment) { rk4_step(*this, state, h, environment); }
 
     // Velocity Verlet, `substeps` of h seconds each.
-    void verlet_step(double h, uint32_t substeps, const Environment& environment)
+    // `load`: of the solver's Stability for the step.
+    void verlet_step(double h, uint32_t substeps, const Environment& environment, double load)
     {
-        reference::verlet_step(*this, state, h, substeps, environment);
+        reference::verlet_step(*this, state, h, substeps, environment, load);
     }
 
     [[nodiscard]] double energy(const Environment& environment) const // kinetic, elastic and potential, J

@@ -48,18 +48,19 @@ void rk4_step(const Cloth& cloth, ClothState& s, double h, const Environment& en
     }
 }
 
-// Swope et al. 1982: x += h v + h^2/2 a, v += h/2 (a + a'). Where a' depends on the velocity it sees v + h a: the half
-// kick that was made, and another by the acceleration before. The last a' of a substep is the first a of the next, so
-// that a step of n substeps evaluates n + 1 of them.
+// Swope et al. 1982: x += h v + h^2/2 a, v += h/2 (a + a'). Where a' depends on the velocity it sees v + (1/2 + p) h a:
+// the half kick that was made, and p of another by the acceleration before, p = (1 - load) / 2. The last a' of a
+// substep is the first a of the next, so that a step of n substeps evaluates n + 1 of them.
 template <typename Cloth>
-void verlet_step(const Cloth& cloth, ClothState& s, double h, uint32_t substeps, const Environment& environment)
+void verlet_step(const Cloth& cloth, ClothState& s, double h, uint32_t substeps, const Environment& environment,
+                 double load)
 {
     auto a = cloth.accelerations(s, environment);
     for (uint32_t substep = 0; substep < substeps; ++substep)
     {
         const auto halfway = sum(s.v, h / 2, a);
         s.x = sum(s.x, h, halfway);
-        a = cloth.accelerations({s.x, sum(halfway, h / 2, a)}, environment);
+        a = cloth.accelerations({s.x, sum(halfway, (1 - load) / 2 * h, a)}, environment);
         s.v = sum(halfway, h / 2, a);
     }
 }

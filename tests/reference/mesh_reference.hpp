@@ -53,9 +53,10 @@ public:
 
     [[nodiscard]] size_t size() const { return rest_.size(); }
     void step(double h, const Environment& environment) { rk4_step(*this, state, h, environment); }
-    void verlet_step(double h, uint32_t substeps, const Environment& environment)
+    // `load`: of the solver's Stability for the step.
+    void verlet_step(double h, uint32_t substeps, const Environment& environment, double load)
     {
-        reference::verlet_step(*this, state, h, substeps, environment);
+        reference::verlet_step(*this, state, h, substeps, environment, load);
     }
 
     [[nodiscard]] std::vector<glm::dvec3> accelerations(const ClothState& s, const Environment& environment) const

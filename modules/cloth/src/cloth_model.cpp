@@ -117,7 +117,7 @@ Rates grid_rates(const shared::ClothRecord& record, const glm::vec2& spacing, do
 
 // Verlet heats up where modes of the flat cloth, whose springs lie along the way, take up nearly all of its reach: they
 // may take up this share of it (bench/NOTES.md has the energies).
-constexpr double k_flat_share = 0.67;
+constexpr double k_flat_share = 0.75;
 
 // 1/s^2, for the substeps.
 double with_verlet_margin(const shared::ClothRecord& record, double omega_squared, double flat_omega_squared)

@@ -206,6 +206,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     const StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
     result.stiffness_share = static_cast<float>(scales.stiffness);
     result.damping_share = static_cast<float>(scales.damping);
+    result.load = static_cast<float>(scales.load);
     return result;
 }
 

@@ -29,13 +29,15 @@ StabilityScales stability_scales(const shared::ClothRecord& record, double subst
     const auto decay = static_cast<double>(record.decay);
     if (uses_verlet(record))
     {
-        const double load = 0.25 * omega_squared * substep * substep + decay * substep;
+        const double load = 0.25 * omega_squared * substep * substep + 0.5 * decay * substep;
         const double scale = std::min(1.0, k_margin * k_margin / std::max(load, 1e-30));
-        return {scale, scale};
+        return {scale, scale, scale * load};
     }
     const double reach = k_margin * k_rk4_reach / substep;
-    return {std::min(1.0, reach * reach / std::max(omega_squared, 1e-30)),
-            std::min(1.0, reach / std::max(decay, 1e-30))};
+    const double stiffness = std::min(1.0, reach * reach / std::max(omega_squared, 1e-30));
+    const double damping = std::min(1.0, reach / std::max(decay, 1e-30));
+    const double load = std::max(std::sqrt(stiffness * omega_squared), damping * decay) * substep / k_rk4_reach;
+    return {stiffness, damping, load};
 }
 
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
@@ -46,8 +48,8 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     double fastest = 0; // 1/s
     if (uses_verlet(record))
     {
-        // (omega h / 2)^2 + decay h = margin^2, solved for 1 / h.
-        const double half = 0.5 * decay;
+        // (omega h / 2)^2 + decay h / 2 = margin^2, solved for 1 / h.
+        const double half = 0.25 * decay;
         longest = k_margin * k_margin;
         fastest = half + std::sqrt(half * half + 0.25 * omega * omega * longest);
     }

@@ -13,6 +13,7 @@ struct StabilityScales
 {
     double stiffness = 1;
     double damping = 1;
+    double load = 0; // what is left of both takes up so much of what the step bears, 0..1
 };
 StabilityScales stability_scales(const shared::ClothRecord& record, double substep);
 
