@@ -30,6 +30,7 @@ cloth::Grid dust(uint32_t side, float size)
 std::vector<glm::dvec3> wind_over(ClothHarness& harness, cloth::ClothId cloth, cloth::Step step)
 {
     step.duration = k_dragged;
+    step.time -= 0.5 * static_cast<double>(step.duration); // so that the step is around the time
     engine::take(harness.solver.reset(cloth));
     harness.step(step);
     std::vector<glm::dvec3> winds;
@@ -125,4 +126,32 @@ TEST_CASE("gusts have the strength that they are given, and depend on place and 
     const std::vector<glm::dvec3> start = wind_over(harness, coarse, step);
     step.gust_length = 8;
     CHECK(largest_difference(wind_over(harness, large, step), start) < 2.5e-5);
+}
+
+TEST_CASE("in gusts RK4 keeps its fourth order, velocity Verlet its second")
+{
+    const auto blown = [](cloth::Integrator integrator, uint32_t substeps)
+    {
+        ClothHarness harness;
+        cloth::Grid grid = dust(5, 4);
+        tests::raw(grid).linear_drag = 0.05f;
+        grid.integrator = integrator;
+        const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
+        harness.upload();
+        harness.step({.duration = 1, .substeps = substeps, .gravity = glm::vec3(0), .wind = {4, 0, 1}, .gust = 0.5f});
+        const std::vector<glm::vec4> v = harness.velocities(id);
+        return std::vector<glm::dvec3>(v.begin(), v.end());
+    };
+    const std::vector<glm::dvec3> exact = blown(cloth::Integrator::rk4, 640);
+    for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    {
+        const bool rk4 = integrator == cloth::Integrator::rk4;
+        CAPTURE(rk4);
+        const uint32_t substeps = rk4 ? 20 : 40;
+        const double coarse = largest_difference(blown(integrator, substeps), exact);
+        const double fine = largest_difference(blown(integrator, 2 * substeps), exact);
+        CAPTURE(coarse);
+        CAPTURE(fine);
+        CHECK(std::log2(coarse / fine) == tests::close_to(rk4 ? 4 : 2, 0.05));
+    }
 }

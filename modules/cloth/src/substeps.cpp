@@ -64,9 +64,8 @@ void SubstepRecorder::record()
             record_collider_reach(substep);
         if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
             record_feature_reach(substep);
-        const shared::StagePush push = make_push(substep);
-        record_rk4(push, substep);
-        record_verlet(push, substep);
+        record_rk4(substep);
+        record_verlet(make_push(substep), substep);
         record_holds(substep, h_);
         if (solver_.passes.features)
             record_features(substep);
@@ -78,7 +77,7 @@ void SubstepRecorder::record()
         record_strain_limit();
 }
 
-shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
+shared::StagePush SubstepRecorder::make_push(double substeps) const
 {
     shared::StagePush push{};
     push.gravity = step_.gravity;
@@ -88,19 +87,23 @@ shared::StagePush SubstepRecorder::make_push(uint32_t substep) const
     push.gust_speed = step_.gust * glm::length(step_.wind);
     if (push.gust_speed > 0)
     {
-        push.gust_phases = gust_phases(step_, step_.time + static_cast<double>(h_) * substep);
+        push.gust_phases = gust_phases(step_, step_.time + static_cast<double>(h_) * substeps);
         push.gust_wavenumber = 2 * std::numbers::pi_v<float> / step_.gust_length;
     }
     return push;
 }
 
-void SubstepRecorder::record_rk4(shared::StagePush push, uint32_t substep)
+void SubstepRecorder::record_rk4(uint32_t substep)
 {
+    constexpr double k_stage_times[] = {0, 0.5, 0.5, 1}; // of the substep
     const auto& sets = device_.stages[commits_ && in_stage_b(substep) ? 1 : 0];
-    for (push.stage = 1; push.stage <= 4; ++push.stage)
-        recorder_.dispatch(kernels_.stage,
-                           push.stage == 4 && !commits_ ? device_.last_stage_alone : sets[push.stage - 1],
+    for (uint32_t stage = 1; stage <= 4; ++stage)
+    {
+        shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
+        push.stage = stage;
+        recorder_.dispatch(kernels_.stage, stage == 4 && !commits_ ? device_.last_stage_alone : sets[stage - 1],
                            device_.rk4_chunks * group_, group_, push);
+    }
 }
 
 uint32_t SubstepRecorder::verlet_threads() const

@@ -22,8 +22,8 @@ public:
     void record();
 
 private:
-    [[nodiscard]] shared::StagePush make_push(uint32_t substep) const;
-    void record_rk4(shared::StagePush push, uint32_t substep);
+    [[nodiscard]] shared::StagePush make_push(double substeps) const; // after so many of them
+    void record_rk4(uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
     // At the substep's end, over `duration` s; over 0 springs add nothing, and bounds still hold.
