@@ -174,6 +174,7 @@ TEST_CASE("line ends, blanks, comments, continued lines, weights, colours, a byt
     const engine::Mesh plain = load(k_triangle + "f 1 2 3\n").mesh;
     for (const std::string& text : {
              std::string("v 0 0 0\r\nv 0 0 1\r\nv 1 0 0\r\nf 1 2 3\r\n"),
+             std::string("v 0 0 0\rv 0 0 1\rv 1 0 0\rf 1 2 3\r"),
              "\xEF\xBB\xBF" + k_triangle + "f 1 2 3", // and no line feed at the end
              std::string("# C:\\models\\\n\n  v\t0 0   0 # first\nv 0 0 1 #\nv +1 -0 .0e1\n\nf 1 2 3 # all\n"),
              std::string("v 0 \\\n0 0\nv 0 0 1\nv 1 0 0\nf 1 \\\r\n2 \\\n3\n"),

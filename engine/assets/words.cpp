@@ -12,9 +12,11 @@ namespace engine
 
 std::string_view take_line(std::string_view& text)
 {
-    const size_t length = std::min(text.find('\n'), text.size());
+    const auto end = std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
+    const auto length = static_cast<size_t>(end - text.begin());
     const std::string_view line = text.substr(0, length);
-    text.remove_prefix(std::min(length + 1, text.size()));
+    const size_t ending = text.substr(length).starts_with("\r\n") ? 2 : 1;
+    text.remove_prefix(std::min(length + ending, text.size()));
     return line;
 }
 

@@ -13,10 +13,10 @@
 namespace engine
 {
 
-// What separates words within a line; a carriage return counts, so that lines may end either way.
+// What separates words within a line.
 inline constexpr std::string_view k_blank = " \t\r\v\f";
 
-// Takes the first line off the text, without its line feed.
+// Takes the first line off the text, without its end: a line feed, a carriage return, or the one after the other.
 std::string_view take_line(std::string_view& text);
 
 // Appends the line's words.
