@@ -1,5 +1,6 @@
 // The viewer's command line.
 #include "samples/viewer/options.hpp"
+#include "samples/viewer/output_check.hpp"
 
 #include "gpu/printable.hpp"
 #include "test_folder.hpp"
@@ -10,10 +11,13 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace
 {
+
+namespace fs = std::filesystem;
 
 gpu::Result<viewer::Options> parse(std::vector<const char*> arguments)
 {
@@ -199,4 +203,38 @@ TEST_CASE("what --debug draws")
     CHECK(message({"--debug", "boxes:49"}) == "--debug boxes: \"49\" is not within 0 to 48");
     CHECK(message({"--debug", "boxes:"}) == "--debug boxes: the value is empty");
     CHECK(message({"--debug", "boxes:deep"}) == "--debug boxes: \"deep\" is not a whole number");
+}
+
+TEST_CASE("what is written cannot take the place of a mesh of the scene")
+{
+    const TestFolder folder;
+    folder.write("cape.obj", "");
+    folder.write("ground.ply", "");
+    folder.write("walk1.obj", "");
+    const auto scene = viewer::load_scene(folder.write("s.json", R"({"cloths": [{"name": "cape", "mesh": "cape.obj"}],
+        "colliders": [{"mesh": "ground.ply"}, {"frames": "walk%d.obj", "rate": 30}]})"));
+    REQUIRE_MESSAGE(scene, scene.error().message);
+    const auto check = [&](viewer::Options options)
+    {
+        const auto result = viewer::check_outputs(options, scene.value());
+        return result ? "accepted" : result.error().message;
+    };
+    const std::string cape = (folder / "cape.obj").string();
+    CHECK(check({.export_file = cape}) == "--export: \"" + cape + "\" is the mesh of cloth \"cape\", too");
+    const std::string ground = (folder / "." / "ground.ply").string();
+    CHECK(check({.export_file = ground}) == "--export: \"" + ground + "\" is a collider's mesh, too");
+    const std::string frame = (folder / "walk1.obj").string();
+    CHECK(check({.export_file = frame}) == "--export: \"" + frame + "\" is a frame of a collider's mesh, too");
+    const std::string scene_file = (folder / "s.json").string();
+    CHECK(check({.stats = scene_file}) == "--stats: \"" + scene_file + "\" is the scene's file, too");
+    CHECK(check({.stats = folder / "stats.json", .export_file = folder / "cape.ply"}) == "accepted");
+}
+
+TEST_CASE("a link to itself is told from a file that is not there")
+{
+    const TestFolder folder;
+    const std::string loop = (folder / "loop.obj").string();
+    fs::create_symlink("loop.obj", loop);
+    CHECK(message({"--collider", loop.c_str()}) ==
+          "--collider: \"" + loop + "\": " + std::make_error_code(std::errc::too_many_symbolic_link_levels).message());
 }

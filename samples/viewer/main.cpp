@@ -1,6 +1,7 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
 #include "samples/viewer/debug_view.hpp"
 #include "samples/viewer/frame_outputs.hpp"
+#include "samples/viewer/output_check.hpp"
 #include "samples/viewer/progress.hpp"
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
@@ -141,6 +142,7 @@ int exit_code(engine::App& app, const Statistics& statistics)
 int run_scene(const Options& options)
 {
     const SceneFile scene = engine::take(load_scene(engine::take(find_scene(options.scene))));
+    engine::take(check_outputs(options, scene));
     const std::vector<Solid> solids = engine::take(load_solids(scene, options));
     check_targets(options);
     std::optional<engine::Capture> capture; // before the instance

@@ -1,5 +1,6 @@
 #include "samples/viewer/options.hpp"
 
+#include "samples/viewer/output_check.hpp"
 #include "samples/viewer/scene_file.hpp"
 #include "samples/viewer/text.hpp"
 
@@ -8,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <exception>
 #include <memory>
@@ -230,7 +230,8 @@ void convert_colliders(Converter& convert, const std::vector<std::string>& value
         if (extension != ".obj" && extension != ".ply")
             convert.fail("--collider", path_in_quotes(value) + " does not end in .obj or .ply");
         else if (!fs::exists(value, problem))
-            convert.fail("--collider", path_in_quotes(value) + " does not exist");
+            convert.fail("--collider",
+                         path_in_quotes(value) + (problem ? ": " + problem.message() : " does not exist"));
         else if (fs::is_directory(value, problem))
             convert.fail("--collider", path_in_quotes(value) + " is a folder");
         options.colliders.emplace_back(value);
@@ -268,39 +269,6 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
     }
 }
 
-// What is written must not take the place of what is read, or of what else is written. Devices may be given more than
-// once.
-void check_files(Converter& convert, const Options& options)
-{
-    struct File
-    {
-        std::string what;
-        fs::path path;
-    };
-    std::error_code problem;
-    const auto same = [&](const File& one, const File& other)
-    {
-        const fs::path path = fs::weakly_canonical(fs::absolute(one.path, problem), problem);
-        return path == fs::weakly_canonical(fs::absolute(other.path, problem), problem) &&
-               (!fs::exists(path, problem) || fs::is_regular_file(path, problem));
-    };
-    std::vector<File> taken{{"the scene", options.scene}};
-    for (const fs::path& collider : options.colliders)
-        taken.push_back({"--collider", collider});
-    const std::array<std::pair<const char*, std::optional<fs::path>>, 3> written{
-        {{"--video", options.video}, {"--stats", options.stats}, {"--export", options.export_file}}};
-    for (const auto& [name, path] : written)
-    {
-        if (!path)
-            continue;
-        const File file{name, *path};
-        for (const File& other : taken)
-            if (same(file, other))
-                convert.fail(name, path_in_quotes(*path) + " is " + other.what + "'s file, too");
-        taken.push_back(file);
-    }
-}
-
 gpu::Result<Options> convert_all(const Typed& typed, Options options)
 {
     Converter convert;
@@ -327,9 +295,10 @@ gpu::Result<Options> convert_all(const Typed& typed, Options options)
     options.capture = convert.integer("--capture", typed.capture, 0, k_most_frames);
     convert_debug(convert, typed.debug, options.debug);
     check_together(convert, typed, options);
-    check_files(convert, options);
     if (convert.error)
         return gpu::Error{*convert.error};
+    if (auto result = check_outputs(options); !result)
+        return result.error();
     return options;
 }
 

@@ -1,0 +1,74 @@
+#include "samples/viewer/output_check.hpp"
+
+#include "samples/viewer/text.hpp"
+
+#include <utility>
+
+namespace viewer
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+struct UsedFile
+{
+    std::string what; // "the scene's file"
+    fs::path path;
+};
+
+bool is_same_file(const fs::path& one, const fs::path& other)
+{
+    std::error_code problem;
+    const fs::path path = fs::weakly_canonical(fs::absolute(one, problem), problem);
+    return path == fs::weakly_canonical(fs::absolute(other, problem), problem) &&
+           (!fs::exists(path, problem) || fs::is_regular_file(path, problem));
+}
+
+gpu::Result<void> check(const Options& options, std::vector<UsedFile> used)
+{
+    const std::pair<const char*, const std::optional<fs::path>&> outputs[] = {
+        {"--video", options.video}, {"--stats", options.stats}, {"--export", options.export_file}};
+    for (const auto& [name, path] : outputs)
+    {
+        if (!path)
+            continue;
+        for (const UsedFile& file : used)
+            if (is_same_file(*path, file.path))
+                return gpu::Error{std::string(name) + ": " + path_in_quotes(*path) + " is " + file.what + ", too"};
+        used.push_back({name + std::string("'s file"), *path});
+    }
+    return {};
+}
+
+} // namespace
+
+gpu::Result<void> check_outputs(const Options& options)
+{
+    std::vector<UsedFile> used{{"the scene's file", options.scene}};
+    for (const fs::path& collider : options.colliders)
+        used.push_back({"--collider's file", collider});
+    return check(options, std::move(used));
+}
+
+gpu::Result<void> check_outputs(const Options& options, const SceneFile& scene)
+{
+    std::vector<UsedFile> used{{"the scene's file", scene.path}};
+    for (const ClothEntry& cloth : scene.cloths)
+        if (const auto* mesh = std::get_if<fs::path>(&cloth.form))
+            used.push_back({"the mesh of cloth " + in_quotes(cloth.name), *mesh});
+    for (const ColliderEntry& collider : scene.colliders)
+    {
+        if (const auto* mesh = std::get_if<MeshShape>(&collider.shape); mesh != nullptr && !mesh->file.empty())
+            used.push_back({"a collider's mesh", mesh->file});
+        if (!collider.frames)
+            continue;
+        if (const auto frames = frame_files(*collider.frames))
+            for (const fs::path& frame : frames.value())
+                used.push_back({"a frame of a collider's mesh", frame});
+    }
+    return check(options, std::move(used));
+}
+
+} // namespace viewer
