@@ -85,7 +85,7 @@ gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
     const std::string list = known_scenes(folders);
     const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
-    if (fs::exists(name, problem); problem)
+    if (!fs::exists(name, problem) && problem)
         return gpu::Error{engine::path_text(name) + ": " + problem.message()};
     if (looks_like_path)
         return gpu::Error{engine::path_text(name) + ": the file does not exist; " + known};

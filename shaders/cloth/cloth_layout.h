@@ -259,7 +259,7 @@ struct StagePush
     float air_density;     // kg/m^3
     vec4 gust_phases;      // rad, of the four waves of the gusts at this time
     float gust_speed;      // m/s, of all waves together, root mean square
-    float gust_wavenumber; // rad/m, of the longest wave
+    float gust_frequency;  // 1/m, of the longest wave
     uint first_chunk;      // of the dispatch
     float kick;            // Verlet: s, how long the acceleration acts on the velocity
     float drift;           // Verlet: s, how far the position moves on; 0 ends a step

@@ -14,15 +14,43 @@ const vec3 k_gust_directions[4] = vec3[](vec3(0.5883, 0.1961, -0.7845), vec3(0.5
                                          vec3(0.6441, -0.0067, 0.7649), vec3(0.9487, 0.3162, 0));
 const float k_gust_amplitudes[4] = float[](0.9372, 0.7439, 0.5904, 0.4686);
 
-vec3 wind_at(vec3 place)
+const float k_two_pi = 6.28318531;
+
+// The upper 12 bits of a float's 24, so that products of two such are exact.
+float upper_half(float a)
+{
+    precise const float scaled = 4097 * a;
+    precise const float upper = scaled - (scaled - a);
+    return upper;
+}
+
+// a b without whole turns, a in turns/m, b in m. Far from the origin the product has more turns than a float can hold with a
+// fraction; what rounding takes from it is kept (Dekker 1971, "A floating-point technique for extending the available
+// precision"). Vulkan's fma may round twice.
+float turns(float a, float b, float b_residual)
+{
+    const float a_upper = upper_half(a);
+    const float b_upper = upper_half(b);
+    precise const float a_lower = a - a_upper;
+    precise const float b_lower = b - b_upper;
+    precise const float product = a * b;
+    precise const float rest =
+        ((a_upper * b_upper - product) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower;
+    return fract(product) + (rest + a * b_residual);
+}
+
+vec3 wind_at(FinePosition place)
 {
     vec3 wind = push.wind;
     if (push.gust_speed == 0)
         return wind;
     for (int i = 0; i < 4; ++i)
     {
-        const float phase = push.gust_wavenumber * dot(k_gust_waves[i], place) - push.gust_phases[i];
-        wind += push.gust_speed * k_gust_amplitudes[i] * sin(phase) * k_gust_directions[i];
+        const vec3 wave = push.gust_frequency * k_gust_waves[i];
+        const float along = turns(wave.x, place.x.x, place.residual.x) + turns(wave.y, place.x.y, place.residual.y) +
+                            turns(wave.z, place.x.z, place.residual.z);
+        wind += push.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along) - push.gust_phases[i]) *
+                k_gust_directions[i];
     }
     return wind;
 }

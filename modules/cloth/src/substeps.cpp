@@ -88,7 +88,7 @@ shared::StagePush SubstepRecorder::make_push(double substeps) const
     if (push.gust_speed > 0)
     {
         push.gust_phases = gust_phases(step_, step_.time + static_cast<double>(h_) * substeps);
-        push.gust_wavenumber = 2 * std::numbers::pi_v<float> / step_.gust_length;
+        push.gust_frequency = 1 / step_.gust_length;
     }
     return push;
 }
