@@ -59,11 +59,12 @@ struct Material
     float strain_limit = 0;        // 0.001..10, the largest l / L - 1 at the end of a step; 0: none
 };
 
-// The strain limit acts at the end of each step, by corrections that keep momentum and take their energy from the
-// cloth's own (shaders/cloth/limit_strain.comp, limit_scale.comp): none is added. They undo what the step has
-// stretched; beyond that, motion and damping pay for them. A grid whose springs alone would stretch to several times
-// the limit stays below 1.2 times it as it swings down for a second, and hangs at rest within 1.03 times it. Where
-// stiff springs are pressed together for it, less can be paid for: cotton that falls on a sphere from 0.1 m is
+// The strain limit acts at the end of each step, by corrections that keep linear momentum and take their energy from
+// the cloth's own (shaders/cloth/limit_strain.comp, limit_scale.comp): none is added. Where it holds together what
+// turns at omega, a step of h seconds takes up to (omega h)^2 / 2 of the angular momentum. Corrections undo what the
+// step has stretched; beyond that, motion and damping pay for them. A grid whose springs alone would stretch to several
+// times the limit stays below 1.2 times it as it swings down for a second, and hangs at rest within 1.03 times it.
+// Where stiff springs are pressed together for it, less can be paid for: cotton that falls on a sphere from 0.1 m is
 // stretched to 2 times a limit of 1 % for a moment and rests at 1.5 times it; of a limit of 0.1 % it is 21 times and 6
 // times. On a mesh, where corrections have no coarse levels to travel on, the lower end of a very soft cloth follows
 // over some steps: tethers help there.
