@@ -31,6 +31,39 @@ Pose pose_at(uint collider, float progress)
     return pose;
 }
 
+// What a pose changes by from one progress of the step to another. Differences of two poses have the rounding of both: it would
+// shake cloth on a collider that moves evenly by more than its weight.
+struct PoseChange
+{
+    vec4 rotation;
+    vec3 place; // m
+};
+
+PoseChange pose_change(uint collider, float from, float to)
+{
+    const ColliderMotion motion = collider_motions[collider];
+    const float part = to - from;
+    const vec4 turn = motion.rotation_to - motion.rotation_from;
+    const vec4 chord_from = motion.rotation_from + from * turn;
+    const float length_from = length(chord_from);
+    const float length_to = length(motion.rotation_from + to * turn);
+    // Of unit quaternions, |q + s turn|^2 = 1 - s (1 - s) |turn|^2.
+    const float shortened = part * (1 - from - to) * dot(turn, turn) / (length_from + length_to); // length_from - length_to
+    PoseChange change;
+    change.rotation = (part * turn + shortened / length_from * chord_from) / length_to;
+    change.place = part * (motion.place_to - motion.place_from);
+    return change;
+}
+
+// m, world: by how much a point of the collider's space moves as the pose changes.
+vec3 displacement(Pose pose, PoseChange change, vec3 point)
+{
+    const vec4 d = change.rotation;
+    const vec4 turned = pose.rotation + d;
+    return change.place + 2 * (cross(d.xyz, cross(turned.xyz, point) + turned.w * point) +
+                               cross(pose.rotation.xyz, cross(d.xyz, point) + d.w * point));
+}
+
 // m, of a position from the collider's origin as the step starts, rounded: floats are fine there.
 vec3 from_origin(uint c, uint flags, FinePosition p)
 {

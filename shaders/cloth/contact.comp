@@ -102,6 +102,7 @@ struct Passage
     bool moves;
     Pose end;   // where it moves
     Pose start;
+    PoseChange change; // from start to end
     vec3 from;
     vec3 to;
 };
@@ -117,6 +118,7 @@ Passage passage_of(uint c, uint flags, Motion motion)
     {
         result.start = pose_at(c, push.progress_from);
         result.end = pose_at(c, push.progress_to);
+        result.change = pose_change(c, push.progress_from, push.progress_to);
         result.from = to_collider(result.start, result.from);
         result.to = to_collider(result.end, result.to);
     }
@@ -126,7 +128,9 @@ Passage passage_of(uint c, uint flags, Motion motion)
 // By how much the surface moves in the substep, m, at a place of its end in the collider's space. `way`: by deforming.
 vec3 surface_way(Passage passage, vec3 place, vec3 way)
 {
-    return passage.moves ? to_world(passage.end, place) - to_world(passage.start, place - way) : way;
+    if (!passage.moves)
+        return way;
+    return displacement(passage.start, passage.change, place) + rotate(passage.start.rotation, way);
 }
 
 vec3 world_direction(Passage passage, vec3 direction)

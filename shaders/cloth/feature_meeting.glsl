@@ -122,7 +122,7 @@ void respond(Meeting meeting, vec3 place, float portion, vec3 velocity)
     if (collider_moves)
     {
         n = rotate(pose_to.rotation, n);
-        relative -= (to_world(pose_to, place) - to_world(pose_from, place)) / push.step;
+        relative -= displacement(pose_from, change_of_pose, place) / push.step;
     }
     // What other meetings have done in this direction is done.
     response.shift += max(portion * (meeting.wanted - meeting.gap) - dot(response.shift, n), 0) * n;

@@ -26,6 +26,7 @@ uint collider_flags;
 bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
+PoseChange change_of_pose;
 
 void select_collider(uint c)
 {
@@ -36,6 +37,7 @@ void select_collider(uint c)
     {
         pose_from = pose_at(c, push.progress_from);
         pose_to = pose_at(c, push.progress_to);
+        change_of_pose = pose_change(c, push.progress_from, push.progress_to);
     }
 }
 
@@ -45,7 +47,7 @@ vec3 surface_displacement()
     if (!collider_moves)
         return vec3(0);
     const vec3 point = to_collider(pose_from, from_origin(collider_index, collider_flags, self.earlier));
-    return to_world(pose_to, point) - to_world(pose_from, point);
+    return displacement(pose_from, change_of_pose, point);
 }
 
 // A vertex of the cloth: where it was before the substep and where it is, in the collider's space.
