@@ -253,17 +253,17 @@ struct ColliderMotion
 // Push constants of the integration passes.
 struct StagePush
 {
-    vec3 gravity;          // m/s^2
-    float step;            // s, of the whole substep
-    vec3 wind;             // m/s
-    float air_density;     // kg/m^3
-    vec4 gust_phases;      // rad, of the four waves of the gusts at this time
-    float gust_speed;      // m/s, of all waves together, root mean square
-    float gust_frequency;  // 1/m, of the longest wave
-    uint first_chunk;      // of the dispatch
-    float kick;            // Verlet: s, how long the acceleration acts on the velocity
-    float drift;           // Verlet: s, how far the position moves on; 0 ends a step
-    uint stage;            // RK4: 1 to 4
+    vec3 gravity;         // m/s^2
+    float step;           // s, of the whole substep
+    vec3 wind;            // m/s
+    float air_density;    // kg/m^3
+    vec4 gust_phases;     // rad, of the four waves of the gusts at this time
+    float gust_speed;     // m/s, of all waves together, root mean square
+    float gust_frequency; // 1/m, of the longest wave
+    uint first_chunk;     // of the dispatch
+    float kick;           // Verlet: s, how long the acceleration acts on the velocity
+    float drift;          // Verlet: s, how far the position moves on; 0 ends a step
+    uint stage;           // RK4: 1 to 4
 };
 
 // Push constants of the contact pass.

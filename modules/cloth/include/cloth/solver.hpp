@@ -290,7 +290,7 @@ public:
     // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
     // 0 for a duration that record refuses. From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of
     // the cloth, crumpled and stretched: RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
-    // Where springs of one direction carry nearly all, Verlet takes up to 15 % more substeps, or it would heat up.
+    // Where springs of one direction carry nearly all, Verlet takes up to 16 % more substeps, or it would heat up.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     // needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
