@@ -3,6 +3,7 @@
 #include "close_to.hpp"
 #include "cloth_meshes.hpp"
 #include "energy_balance.hpp"
+#include "momenta.hpp"
 #include "slide.hpp"
 
 #include "cloth/fabrics.hpp"
@@ -248,36 +249,6 @@ cloth::Fabric plain(float damping_ratio)
     return fabric;
 }
 
-struct Momenta
-{
-    glm::dvec3 linear{0};  // kg m/s
-    glm::dvec3 angular{0}; // kg m^2/s, about the center of mass
-    double speeds = 0;     // kg m/s, of all vertices whatever their direction
-};
-
-Momenta momenta_of(ClothHarness& harness, cloth::ClothId id)
-{
-    const auto x = harness.positions(id);
-    const auto v = harness.velocities(id);
-    glm::dvec3 center(0);
-    double mass = 0;
-    for (const glm::vec4& p : x)
-    {
-        center += glm::dvec3(p) / static_cast<double>(p.w);
-        mass += 1 / static_cast<double>(p.w);
-    }
-    center /= mass;
-    Momenta result;
-    for (size_t i = 0; i < x.size(); ++i)
-    {
-        const glm::dvec3 momentum = glm::dvec3(v[i]) / static_cast<double>(x[i].w);
-        result.linear += momentum;
-        result.angular += glm::cross(glm::dvec3(x[i]) - center, momentum);
-        result.speeds += glm::length(momentum);
-    }
-    return result;
-}
-
 } // namespace
 
 TEST_CASE("a squeezed or stretched mesh never has more energy than at its start")
@@ -322,12 +293,12 @@ TEST_CASE("a crumpled free mesh keeps its momentum and gets no spin")
     {
         harness.step({.gravity = glm::vec3(0)}, 4);
         for (size_t i = 0; i < subjects.size(); ++i)
-            moving[i] = std::max(moving[i], momenta_of(harness, subjects[i].id).speeds);
+            moving[i] = std::max(moving[i], tests::momenta_of(harness, subjects[i].id).speeds);
     }
     for (size_t i = 0; i < subjects.size(); ++i)
     {
         CAPTURE(i);
-        const Momenta end = momenta_of(harness, subjects[i].id);
+        const tests::Momenta end = tests::momenta_of(harness, subjects[i].id);
         CHECK(glm::length(end.linear) < 3e-7 * moving[i]); // measured: 8e-8
         // m, measured: 3.4e-5, by the error of RK4 at its longest step; Verlet 1e-8.
         CHECK(glm::length(end.angular) < 1e-4 * moving[i]);

@@ -1,5 +1,5 @@
 // The strain limit: kept at the end of each step, without jitter, and without a change of momentum.
-#include "cloth_harness.hpp"
+#include "momenta.hpp"
 
 #include "cloth/fabrics.hpp"
 
@@ -37,39 +37,6 @@ cloth::Grid sheet(uint32_t side, cloth::Integrator integrator)
     for (uint32_t column = 0; column < side; ++column)
         grid.held.push_back(column);
     return grid;
-}
-
-struct Moments
-{
-    glm::dvec3 centre{0.0};   // kg m
-    glm::dvec3 momentum{0.0}; // kg m/s
-    double size = 0;          // kg m/s, sum of |m v|
-};
-
-Moments moments(ClothHarness& harness, cloth::ClothId id)
-{
-    const auto x = harness.positions(id);
-    const auto v = harness.velocities(id);
-    Moments result;
-    for (size_t i = 0; i < x.size(); ++i)
-    {
-        const double mass = 1 / static_cast<double>(x[i].w);
-        result.centre += mass * glm::dvec3(x[i]);
-        result.momentum += mass * glm::dvec3(v[i]);
-        result.size += mass * glm::length(glm::dvec3(v[i]));
-    }
-    return result;
-}
-
-// kg m^2/s, about the origin.
-glm::dvec3 angular_momentum(ClothHarness& harness, cloth::ClothId id)
-{
-    const auto x = harness.positions(id);
-    const auto v = harness.velocities(id);
-    glm::dvec3 sum(0);
-    for (size_t i = 0; i < x.size(); ++i)
-        sum += glm::cross(glm::dvec3(x[i]), glm::dvec3(v[i])) / static_cast<double>(x[i].w);
-    return sum;
 }
 
 } // namespace
@@ -136,14 +103,14 @@ TEST_CASE("the strain limit keeps momentum and centre of mass of a free cloth")
         ClothHarness harness;
         const cloth::ClothId id = engine::take(harness.solver.add_cloth(grid));
         harness.upload();
-        const Moments before = moments(harness, id);
+        const tests::Momenta before = tests::momenta_of(harness, id);
         harness.step({.duration = 1e-4f, .gravity = {0, 0, 0}, .air_density = 0});
-        const Moments after = moments(harness, id);
+        const tests::Momenta after = tests::momenta_of(harness, id);
         CHECK(static_cast<double>(harness.statistics().max_stretch) < 0.2); // from 0.3, in one step
         // Each of about 70 passes rounds each value once, at random: sqrt(70) ulp of each vertex, far fewer of the sum.
         const double rounding = 10 * std::exp2(-24);
-        CHECK(glm::length(after.momentum - before.momentum) < rounding * before.size);
-        CHECK(glm::length(after.centre - before.centre - 1e-4 * before.momentum) < rounding * 0.2);
+        CHECK(glm::length(after.linear - before.linear) < rounding * before.speeds);
+        CHECK(glm::length(after.moment - before.moment - 1e-4 * before.linear) < rounding * 0.2);
     }
 }
 
@@ -164,11 +131,11 @@ TEST_CASE("what turns under a strain limit loses angular momentum no faster than
     for (const glm::vec4& x : harness.positions(id))
         turning.emplace_back(glm::vec3(glm::cross(glm::dvec3(0, k_turn, 0), glm::dvec3(x))), 0.f);
     harness.set_velocities(id, turning);
-    const double start = angular_momentum(harness, id).y;
+    const double start = tests::momenta_of(harness, id).angular.y;
     constexpr uint32_t k_steps = 120;
     harness.step({.gravity = glm::vec3(0), .air_density = 0}, k_steps);
-    const double end = angular_momentum(harness, id).y / start;
+    const double end = tests::momenta_of(harness, id).angular.y / start;
     CHECK(end > std::pow(1 - 0.5 * std::pow(k_turn / 60, 2), k_steps)); // 0.55; measured: 0.73
     CHECK(end < 0.9);                                                   // the limit holds what flies apart
-    CHECK(glm::length(moments(harness, id).momentum) < 1e-6 * moments(harness, id).size);
+    CHECK(glm::length(tests::momenta_of(harness, id).linear) < 1e-6 * tests::momenta_of(harness, id).speeds);
 }

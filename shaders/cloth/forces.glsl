@@ -299,8 +299,7 @@ vec3 acceleration(ChunkVertex self, FinePosition x, float inverse_mass, vec3 v)
     const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
     Viscosity viscosity = k_no_viscosity;
     if (VERLET)
-        viscosity = viscosity_of(scales, cloths[cloth].omega_squared, cloths[cloth].flat_omega_squared,
-                                 cloths[cloth].decay, push.step);
+        viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, push.step);
     const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(inverse_mass * g.air_rate, push.step);

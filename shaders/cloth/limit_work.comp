@@ -49,7 +49,7 @@ Conservative conservative_forces(ChunkVertex self, FinePosition x, float mass)
 {
     const uint cloth = self.cloth;
     const float stiffness = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
-    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0));
+    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
     return Conservative(g.energy, g.force, g.bending + mass * push.gravity);
 }
 

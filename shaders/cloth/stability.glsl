@@ -26,6 +26,7 @@ struct StabilityScales
 {
     float stiffness; // 0..1
     float damping;   // 0..1
+    float load;      // Verlet: what they leave takes up so much of the reach, 0..1
 };
 
 // The scales of a cloth's stiffness and damping that a step of h seconds bears, one for the whole cloth: forces stay equal
@@ -36,18 +37,14 @@ StabilityScales stability_scales(float omega_squared, float decay, float h)
     {
         const float load = verlet_load(omega_squared, decay, h) / (k_stability_margin * k_stability_margin);
         const float scale = min(1, 1 / max(load, 1e-30));
-        return StabilityScales(scale, scale);
+        return StabilityScales(scale, scale, verlet_load(scale * omega_squared, scale * decay, h));
     }
     const float reach = k_stability_margin * k_rk4_reach / h;
-    return StabilityScales(min(1, reach * reach / max(omega_squared, 1e-30)), min(1, reach / max(decay, 1e-30)));
+    return StabilityScales(min(1, reach * reach / max(omega_squared, 1e-30)), min(1, reach / max(decay, 1e-30)), 0);
 }
 
 // p above, of a cloth with what the step leaves of its stiffness and damping.
-float verlet_prediction(float omega_squared, float decay, float h)
-{
-    const StabilityScales scales = stability_scales(omega_squared, decay, h);
-    return 0.5 * (1 - verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h));
-}
+float verlet_prediction(StabilityScales scales) { return 0.5 * (1 - scales.load); }
 
 struct Viscosity
 {
@@ -60,13 +57,12 @@ const Viscosity k_no_viscosity = Viscosity(0, 0);
 // How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach: D up
 // to twice that, of which less than half goes along a spring and across it each. A step far within the reach needs none:
 // there it vanishes with the fourth power of the step, faster than the method's own error.
-Viscosity viscosity_of(StabilityScales scales, float omega_squared, float flat_omega_squared, float decay, float h)
+Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float decay, float h)
 {
-    const float load = verlet_load(scales.stiffness * omega_squared, scales.damping * decay, h);
     const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);
     const float strength = scales.stiffness * flat_omega_squared * h * h;
     const float most = min(0.15, 0.8 * max(1 - flat_load, 0) / max(strength, 1e-30)); // of load^1.5 h
-    return Viscosity(load * sqrt(load) * h * most, 1 / max(most, 1e-6));
+    return Viscosity(scales.load * sqrt(scales.load) * h * most, 1 / max(most, 1e-6));
 }
 
 // The scale of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic

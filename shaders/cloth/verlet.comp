@@ -52,6 +52,7 @@ void main()
     next_positions[i] = vec4(next.x, stage_x.w);
     next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(v, ends ? touches : 0);
-    const float prediction = verlet_prediction(cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
-    next_predicted[i] = vec4(v + prediction * push.step * a, 0);
+    const StabilityScales scales =
+        stability_scales(cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
+    next_predicted[i] = vec4(v + verlet_prediction(scales) * push.step * a, 0);
 }
