@@ -4,8 +4,8 @@
 #include "heart.hpp"
 #include "timed_queue.hpp"
 
-#include "cloth/solver.hpp"
-#include "engine/assets/shapes.hpp"
+#include "voile/engine/assets/shapes.hpp"
+#include "voile/solver.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -18,10 +18,10 @@ namespace
 {
 
 // 2 million triangles, open: hills of 0.3 m on 10 m x 10 m.
-engine::Mesh make_terrain()
+voile::engine::Mesh make_terrain()
 {
     constexpr uint32_t k_side = 1000; // squares
-    engine::Mesh mesh;
+    voile::engine::Mesh mesh;
     for (uint32_t row = 0; row <= k_side; ++row)
         for (uint32_t column = 0; column <= k_side; ++column)
         {
@@ -42,9 +42,9 @@ engine::Mesh make_terrain()
 }
 
 // 2 million triangles, closed: every edge has to be looked at.
-engine::Mesh make_ball()
+voile::engine::Mesh make_ball()
 {
-    return engine::make_sphere({0, 0, 0}, 1, 708);
+    return voile::engine::make_sphere({0, 0, 0}, 1, 708);
 }
 
 constexpr AddCase k_cases[] = {
@@ -54,11 +54,11 @@ constexpr AddCase k_cases[] = {
 };
 
 // Milliseconds.
-double time_add(const engine::Device& device, const cloth::MeshCollider& collider)
+double time_add(const voile::engine::Device& device, const voile::MeshCollider& collider)
 {
-    cloth::Solver solver = engine::take(cloth::Solver::create(device.context().handles, {}));
+    voile::Solver solver = voile::engine::take(voile::Solver::create(device.context().handles, {}));
     const auto begin = std::chrono::steady_clock::now();
-    (void)engine::take(solver.add_collider(collider));
+    (void)voile::engine::take(solver.add_collider(collider));
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -76,21 +76,21 @@ const AddCase* find_add_case(std::string_view name)
     return found != std::end(k_cases) ? found : nullptr;
 }
 
-AddMeasurement measure_add(const engine::Device& device, const AddCase& item)
+AddMeasurement measure_add(const voile::engine::Device& device, const AddCase& item)
 {
-    const engine::Mesh mesh = item.make();
-    const cloth::MeshCollider collider{.positions = mesh.positions, .triangles = mesh.triangles};
+    const voile::engine::Mesh mesh = item.make();
+    const voile::MeshCollider collider{.positions = mesh.positions, .triangles = mesh.triangles};
     std::vector<double> built;
     std::vector<double> again;
     for (uint32_t i = 0; i < item.repetitions; ++i)
     {
-        cloth::set_hierarchy_cache_limit(0);
-        cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+        voile::set_hierarchy_cache_limit(0);
+        voile::set_hierarchy_cache_limit(voile::k_default_hierarchy_cache_limit);
         built.push_back(time_add(device, collider));
         again.push_back(time_add(device, collider));
     }
-    cloth::set_hierarchy_cache_limit(0); // later measurements are to have the memory
-    cloth::set_hierarchy_cache_limit(cloth::k_default_hierarchy_cache_limit);
+    voile::set_hierarchy_cache_limit(0); // later measurements are to have the memory
+    voile::set_hierarchy_cache_limit(voile::k_default_hierarchy_cache_limit);
     return {mesh.triangles.size(), quantile(built, 0.5), quantile(built, 0), quantile(again, 0.5)};
 }
 

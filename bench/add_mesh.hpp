@@ -1,8 +1,8 @@
 // What adding a mesh collider takes of the host: preparing the mesh, building its hierarchy, copying both.
 #pragma once
 
-#include "engine/assets/mesh.hpp"
-#include "engine/gpu/device.hpp"
+#include "voile/engine/assets/mesh.hpp"
+#include "voile/engine/gpu/device.hpp"
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ struct AddCase
 {
     const char* name = nullptr;
     const char* purpose = nullptr; // one line
-    engine::Mesh (*make)() = nullptr;
+    voile::engine::Mesh (*make)() = nullptr;
     uint32_t repetitions = 0;
 };
 std::span<const AddCase> add_cases();
@@ -30,6 +30,6 @@ struct AddMeasurement
 };
 
 // Every repetition adds to a solver of its own. StartupError with the solver's message.
-AddMeasurement measure_add(const engine::Device& device, const AddCase& item);
+AddMeasurement measure_add(const voile::engine::Device& device, const AddCase& item);
 
 } // namespace bench

@@ -4,8 +4,8 @@
 #include "heart.hpp"
 #include "icosphere.hpp"
 
-#include "engine/assets/shapes.hpp"
-#include "engine/gpu/device.hpp"
+#include "voile/engine/assets/shapes.hpp"
+#include "voile/engine/gpu/device.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -18,41 +18,41 @@ namespace bench
 namespace
 {
 
-using Cloths = std::vector<cloth::ClothId>;
+using Cloths = std::vector<voile::ClothId>;
 
 constexpr float k_reference_spacing = 0.08f; // m
 
 // The reference scene's cloth: flat at y = 4.8, its first corner at x, z.
-cloth::Grid reference_grid(uint32_t side, float x, float z)
+voile::GridCloth reference_grid(uint32_t side, float x, float z)
 {
     const float size = k_reference_spacing * static_cast<float>(side - 1);
-    cloth::Grid grid;
+    voile::GridCloth grid;
     grid.columns = side;
     grid.rows = side;
     grid.width = size;
     grid.depth = size;
     grid.transform[3] = {x + size / 2, 4.8f, z + size / 2, 1};
-    grid.material = cloth::reference_material();
+    grid.material = voile::reference_material();
     return grid;
 }
 
 template <uint32_t side>
-Cloths add_reference_cloth(cloth::Solver& solver)
+Cloths add_reference_cloth(voile::Solver& solver)
 {
-    return {engine::take(solver.add_cloth(reference_grid(side, 0, 0)))};
+    return {voile::engine::take(solver.add_cloth(reference_grid(side, 0, 0)))};
 }
 
-void add_mesh(cloth::Solver& solver, const char* name, const engine::Mesh& mesh)
+void add_mesh(voile::Solver& solver, const char* name, const voile::engine::Mesh& mesh)
 {
-    cloth::MeshCollider collider;
+    voile::MeshCollider collider;
     collider.name = name;
     collider.positions = mesh.positions;
     collider.triangles = mesh.triangles;
-    collider.friction = cloth::Friction{0.4f, 0.4f};
-    (void)engine::take(solver.add_collider(collider));
+    collider.friction = voile::Friction{0.4f, 0.4f};
+    (void)voile::engine::take(solver.add_collider(collider));
 }
 
-Cloths add_reference_scene(cloth::Solver& solver)
+Cloths add_reference_scene(voile::Solver& solver)
 {
     add_mesh(solver, "heart", scenes::make_reference_heart());
     add_mesh(solver, "ground", scenes::make_ground());
@@ -60,7 +60,7 @@ Cloths add_reference_scene(cloth::Solver& solver)
 }
 
 // A 10 x 10 field, a spacing apart.
-Cloths add_hundred_cloths(cloth::Solver& solver)
+Cloths add_hundred_cloths(voile::Solver& solver)
 {
     constexpr uint32_t k_along = 10;
     constexpr uint32_t k_side = 13;
@@ -69,32 +69,32 @@ Cloths add_hundred_cloths(cloth::Solver& solver)
         for (uint32_t column = 0; column < k_along; ++column)
         {
             const float pitch = k_reference_spacing * k_side;
-            cloth::Grid grid =
+            voile::GridCloth grid =
                 reference_grid(k_side, pitch * static_cast<float>(column), pitch * static_cast<float>(row));
             grid.name = "cloth " + std::to_string(cloths.size());
-            cloths.push_back(engine::take(solver.add_cloth(grid)));
+            cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }
     return cloths;
 }
 
 template <uint32_t side>
-Cloths add_drape_sheet(cloth::Solver& solver)
+Cloths add_drape_sheet(voile::Solver& solver)
 {
-    return {engine::take(solver.add_cloth(drape_grid(side)))};
+    return {voile::engine::take(solver.add_cloth(drape_grid(side)))};
 }
 
-Cloths add_verlet_sheet(cloth::Solver& solver)
+Cloths add_verlet_sheet(voile::Solver& solver)
 {
-    cloth::Grid grid = drape_grid(128);
-    grid.integrator = cloth::Integrator::verlet;
-    return {engine::take(solver.add_cloth(grid))};
+    voile::GridCloth grid = drape_grid(128);
+    grid.integrator = voile::Integrator::verlet;
+    return {voile::engine::take(solver.add_cloth(grid))};
 }
 
 // The sheet as a mesh of triangles, cut as the solver cuts a grid.
-cloth::ClothId add_mesh_sheet(cloth::Solver& solver, bool shuffled, cloth::BendingModel bending)
+voile::ClothId add_mesh_sheet(voile::Solver& solver, bool shuffled, voile::BendingModel bending)
 {
     constexpr uint32_t k_side = 128;
-    const cloth::Grid grid = drape_grid(k_side);
+    const voile::GridCloth grid = drape_grid(k_side);
     std::vector<uint32_t> place(size_t{k_side} * k_side);
     std::iota(place.begin(), place.end(), 0u);
     if (shuffled) // as a file may have its vertices in any order
@@ -112,97 +112,97 @@ cloth::ClothId add_mesh_sheet(cloth::Solver& solver, bool shuffled, cloth::Bendi
             triangles.emplace_back(place[corner], place[corner + k_side], place[corner + 1]);
             triangles.emplace_back(place[corner + 1], place[corner + k_side], place[corner + k_side + 1]);
         }
-    cloth::MeshCloth mesh;
+    voile::MeshCloth mesh;
     mesh.positions = positions;
     mesh.triangles = triangles;
-    cloth::Fabric fabric = std::get<cloth::Fabric>(grid.material);
+    voile::Fabric fabric = std::get<voile::Fabric>(grid.material);
     fabric.bending_model = bending;
     mesh.material = fabric;
-    return engine::take(solver.add_cloth(mesh));
+    return voile::engine::take(solver.add_cloth(mesh));
 }
 
 template <bool shuffled, bool isometric>
-Cloths add_mesh_sheet(cloth::Solver& solver)
+Cloths add_mesh_sheet(voile::Solver& solver)
 {
     return {
-        add_mesh_sheet(solver, shuffled, isometric ? cloth::BendingModel::isometric : cloth::BendingModel::springs)};
+        add_mesh_sheet(solver, shuffled, isometric ? voile::BendingModel::isometric : voile::BendingModel::springs)};
 }
 
 // The sheet of 128 x 128 with one thing more, to see what that costs.
-template <void (*change)(cloth::Fabric&)>
-Cloths add_changed_sheet(cloth::Solver& solver)
+template <void (*change)(voile::Fabric&)>
+Cloths add_changed_sheet(voile::Solver& solver)
 {
-    cloth::Grid grid = drape_grid(128);
-    change(std::get<cloth::Fabric>(grid.material));
-    return {engine::take(solver.add_cloth(grid))};
+    voile::GridCloth grid = drape_grid(128);
+    change(std::get<voile::Fabric>(grid.material));
+    return {voile::engine::take(solver.add_cloth(grid))};
 }
 
-void bend_isometrically(cloth::Fabric& fabric)
+void bend_isometrically(voile::Fabric& fabric)
 {
-    fabric.bending_model = cloth::BendingModel::isometric;
+    fabric.bending_model = voile::BendingModel::isometric;
 }
 
-void feel_air(cloth::Fabric& fabric)
+void feel_air(voile::Fabric& fabric)
 {
     fabric.air_drag_normal = 1.28f;
     fabric.air_drag_tangential = 0.05f;
 }
 
-void limit_strain(cloth::Fabric& fabric)
+void limit_strain(voile::Fabric& fabric)
 {
     fabric.strain_limit = 0.05f;
 }
 
 // The sheet of 128 x 128 on a sphere.
 template <uint32_t subdivisions>
-Cloths add_icosphere(cloth::Solver& solver)
+Cloths add_icosphere(voile::Solver& solver)
 {
     add_mesh(solver, "icosphere", case_icosphere(subdivisions));
-    return {engine::take(solver.add_cloth(drape_grid(128)))};
+    return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
-// As a scan is: no triangle lies in its neighbour's plane.
-Cloths add_rough_sphere(cloth::Solver& solver)
+// As a scan is: no triangle lies in its neighbor's plane.
+Cloths add_rough_sphere(voile::Solver& solver)
 {
     constexpr float k_roughness = 0.004f; // m, either way; edges are 15 mm long
-    engine::Mesh mesh = case_icosphere(6);
+    voile::engine::Mesh mesh = case_icosphere(6);
     std::mt19937 random(1);
     for (glm::vec3& p : mesh.positions)
         p += glm::normalize(p) * k_roughness * (static_cast<float>(random()) / 0x1p31f - 1);
     add_mesh(solver, "rough sphere", mesh);
-    return {engine::take(solver.add_cloth(drape_grid(128)))};
+    return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
 // A sheet eight times as thick as the triangles are long.
-Cloths add_thick_sheet(cloth::Solver& solver)
+Cloths add_thick_sheet(voile::Solver& solver)
 {
     add_mesh(solver, "icosphere", case_icosphere(8));
-    cloth::Grid grid = drape_grid(128);
-    std::get<cloth::Fabric>(grid.material).thickness = 0.03f;
-    return {engine::take(solver.add_cloth(grid))};
+    voile::GridCloth grid = drape_grid(128);
+    std::get<voile::Fabric>(grid.material).thickness = 0.03f;
+    return {voile::engine::take(solver.add_cloth(grid))};
 }
 
 // And on a box, over whose edges it hangs.
-Cloths add_box(cloth::Solver& solver)
+Cloths add_box(voile::Solver& solver)
 {
-    add_mesh(solver, "box", engine::make_box({-0.6f, -1.2f, -0.6f}, {0.6f, 0.8f, 0.6f}));
-    return {engine::take(solver.add_cloth(drape_grid(128)))};
+    add_mesh(solver, "box", voile::engine::make_box({-0.6f, -1.2f, -0.6f}, {0.6f, 0.8f, 0.6f}));
+    return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
 // Held by its first row, which moves; all other vertices tethered to it, or on a leash.
 template <bool tethers>
-Cloths add_held_sheet(cloth::Solver& solver)
+Cloths add_held_sheet(voile::Solver& solver)
 {
-    const cloth::ClothId id = engine::take(solver.add_cloth(drape_grid(128)));
-    std::vector<cloth::Hold> holds;
+    const voile::ClothId id = voile::engine::take(solver.add_cloth(drape_grid(128)));
+    std::vector<voile::Hold> holds;
     for (uint32_t i = 0; i < 128 * 128; ++i)
         if (i < 128)
             holds.push_back({.vertex = i});
         else if (!tethers)
             holds.push_back({.vertex = i, .stiffness = 0, .max_distance = 10});
-    engine::take(solver.set_holds(id, holds));
+    voile::engine::take(solver.set_holds(id, holds));
     if (tethers)
-        engine::take(solver.set_tethers(id, cloth::Tethers{}));
+        voile::engine::take(solver.set_tethers(id, voile::Tethers{}));
     return {id};
 }
 
@@ -211,21 +211,22 @@ constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart
 
 constexpr uint32_t k_sphere_frames = 90; // 1.5 s
 
-constexpr auto k_nearest = cloth::ContactMethod::nearest_point;
+constexpr auto k_nearest = voile::ContactMethod::nearest_point;
 // Capsules at rest 20 m and more away from a sheet.
 template <uint32_t count>
-Cloths add_far_capsules(cloth::Solver& solver)
+Cloths add_far_capsules(voile::Solver& solver)
 {
     for (uint32_t i = 0; i < count; ++i)
     {
         const glm::vec3 from(20, 0, static_cast<float>(i));
-        (void)engine::take(solver.add_collider(cloth::CapsuleCollider{.from = from, .to = from + glm::vec3(1, 1, 0)}));
+        (void)voile::engine::take(
+            solver.add_collider(voile::CapsuleCollider{.from = from, .to = from + glm::vec3(1, 1, 0)}));
     }
     return add_drape_sheet<128>(solver);
 }
 
-constexpr auto k_interleaved = cloth::MeshLayout::interleaved;
-constexpr auto k_ray = cloth::ContactMethod::normal_ray;
+constexpr auto k_interleaved = voile::MeshLayout::interleaved;
+constexpr auto k_ray = voile::ContactMethod::normal_ray;
 
 constexpr Case k_cases[] = {
     {"reference-free", "the reference cloth, 128 x 128, falls freely", add_reference_cloth<128>},
@@ -251,7 +252,7 @@ constexpr Case k_cases[] = {
     {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
     {"mesh-128-compact", "its lists one after the other", add_mesh_sheet<false, false>, k_nearest, 0, false,
-     cloth::MeshLayout::compact, 0, 0, false, 12},
+     voile::MeshLayout::compact, 0, 0, false, 12},
     {"mesh-128-shuffled", "its vertices in random order", add_mesh_sheet<true, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
     {"mesh-128-isometric", "bending by the isometric model", add_mesh_sheet<false, true>, k_nearest, 0, false,
@@ -278,9 +279,9 @@ constexpr Case k_cases[] = {
 
 } // namespace
 
-cloth::Grid drape_grid(uint32_t side)
+voile::GridCloth drape_grid(uint32_t side)
 {
-    cloth::Fabric fabric;
+    voile::Fabric fabric;
     fabric.areal_density = 0.3f;
     fabric.stretch_stiffness = {1000, 1000};
     fabric.shear_stiffness = 333;
@@ -290,7 +291,7 @@ cloth::Grid drape_grid(uint32_t side)
     fabric.kinetic_friction = 0.4f;
     fabric.air_drag_normal = 0;
     fabric.air_drag_tangential = 0;
-    cloth::Grid grid;
+    voile::GridCloth grid;
     grid.columns = side;
     grid.rows = side;
     grid.width = 2.4f;
@@ -300,7 +301,7 @@ cloth::Grid drape_grid(uint32_t side)
     return grid;
 }
 
-engine::Mesh case_icosphere(uint32_t subdivisions)
+voile::engine::Mesh case_icosphere(uint32_t subdivisions)
 {
     return make_icosphere({0, 0, 0}, 0.8f, subdivisions);
 }

@@ -1,9 +1,9 @@
 // The benchmark's cases: what is put into a solver, and how far it runs before it is measured.
 #pragma once
 
-#include "cloth/solver.hpp"
+#include "voile/solver.hpp"
 
-#include "engine/assets/mesh.hpp"
+#include "voile/engine/assets/mesh.hpp"
 
 #include <optional>
 #include <span>
@@ -18,11 +18,11 @@ struct Case
     const char* name = nullptr;
     const char* purpose = nullptr; // one line
     // Adds everything; the cloths added. StartupError with the solver's message.
-    std::vector<cloth::ClothId> (*build)(cloth::Solver& solver) = nullptr;
-    cloth::ContactMethod method = cloth::ContactMethod::nearest_point;
+    std::vector<voile::ClothId> (*build)(voile::Solver& solver) = nullptr;
+    voile::ContactMethod method = voile::ContactMethod::nearest_point;
     uint32_t frames_before = 0; // of 1/60 s, simulated before anything is measured
     bool in_contact = false;    // vertices must touch a collider then, or the case measures something else
-    cloth::MeshLayout layout = cloth::MeshLayout::interleaved;
+    voile::MeshLayout layout = voile::MeshLayout::interleaved;
     float wind = 0; // m/s along x
     float gust = 0; // of the wind
     bool verlet = false;
@@ -31,12 +31,12 @@ struct Case
 };
 
 // That sphere, of radius 0.8 m.
-engine::Mesh case_icosphere(uint32_t subdivisions);
+voile::engine::Mesh case_icosphere(uint32_t subdivisions);
 
 std::span<const Case> cases();
 
 // The drape scene's cloth (samples/scenes/drape.json): 2.4 m square, side x side vertices, no air.
-cloth::Grid drape_grid(uint32_t side);
+voile::GridCloth drape_grid(uint32_t side);
 
 // Null if there is none of that name.
 const Case* find_case(std::string_view name);

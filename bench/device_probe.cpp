@@ -2,7 +2,7 @@
 #include "device_probe.hpp"
 
 #include "cloth_bench_shaders.hpp"
-#include "gpu/recorder.hpp"
+#include "voile/gpu/recorder.hpp"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ double copy_bandwidth(TimedQueue& queue)
 {
     constexpr uint32_t k_group = 256;
     constexpr VkDeviceSize k_group_bytes = VkDeviceSize{16} * k_group;
-    const gpu::Context& context = queue.context();
+    const voile::gpu::Context& context = queue.context();
     const VkDeviceSize wanted = queue.device().is_cpu() ? VkDeviceSize{128} << 20 : VkDeviceSize{1} << 30;
     // One group a dispatch's x: 65,535 of them are what every device takes.
     const VkDeviceSize groups = std::min<VkDeviceSize>(std::min(wanted, context.max_buffer_bytes) / k_group_bytes,
@@ -38,32 +38,32 @@ double copy_bandwidth(TimedQueue& queue)
     const VkDeviceSize bytes = groups * k_group_bytes;
     const auto buffer = [&](const char* name)
     {
-        return engine::take(gpu::create_buffer(context, name, bytes,
-                                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                               gpu::Memory::device));
+        return voile::engine::take(voile::gpu::create_buffer(
+            context, name, bytes,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+            voile::gpu::Memory::device));
     };
-    const gpu::Buffer source = buffer("copy source");
-    const gpu::Buffer destination = buffer("copy destination");
+    const voile::gpu::Buffer source = buffer("copy source");
+    const voile::gpu::Buffer destination = buffer("copy destination");
     // Written once: pages that were never touched may all be the same page of zeros.
     queue.run(
         [&](VkCommandBuffer cmd)
         {
-            for (const gpu::Buffer* target : {&source, &destination})
+            for (const voile::gpu::Buffer* target : {&source, &destination})
                 context.fn.vkCmdFillBuffer(cmd, target->handle(), 0, VK_WHOLE_SIZE, 0x3f800000);
-            gpu::Recorder(context, cmd)
+            voile::gpu::Recorder(context, cmd)
                 .barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
         });
-    const gpu::Kernel kernel =
-        engine::take(gpu::Kernel::create(context, {"bench copy", shaders::k_copy_comp, 2, 0, {k_group}}));
-    gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context, 1, 2));
-    const VkDescriptorSet set = engine::take(pool.bind(kernel, {source.handle(), destination.handle()}));
+    const voile::gpu::Kernel kernel =
+        voile::engine::take(voile::gpu::Kernel::create(context, {"bench copy", shaders::k_copy_comp, 2, 0, {k_group}}));
+    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 2));
+    const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {source.handle(), destination.handle()}));
     const double by_kernel = median_time(queue,
                                          [&](VkCommandBuffer cmd)
                                          {
-                                             gpu::Recorder recorder(context, cmd);
+                                             voile::gpu::Recorder recorder(context, cmd);
                                              recorder.dispatch(kernel, set, static_cast<uint32_t>(groups) * k_group,
                                                                k_group, std::span<const std::byte>{});
                                          });
@@ -81,18 +81,18 @@ double empty_dispatch(TimedQueue& queue)
 {
     constexpr uint32_t k_dispatches = 1000;
     constexpr uint32_t k_group = 64;
-    const gpu::Context& context = queue.context();
-    const gpu::Kernel kernel =
-        engine::take(gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, 1, 0, {k_group}}));
-    const gpu::Buffer unused = engine::take(
-        gpu::create_buffer(context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::device));
-    gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context, 1, 1));
-    const VkDescriptorSet set = engine::take(pool.bind(kernel, {unused.handle()}));
+    const voile::gpu::Context& context = queue.context();
+    const voile::gpu::Kernel kernel = voile::engine::take(
+        voile::gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, 1, 0, {k_group}}));
+    const voile::gpu::Buffer unused = voile::engine::take(voile::gpu::create_buffer(
+        context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::gpu::Memory::device));
+    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 1));
+    const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {unused.handle()}));
     const double microseconds =
         median_time(queue,
                     [&](VkCommandBuffer cmd)
                     {
-                        gpu::Recorder recorder(context, cmd);
+                        voile::gpu::Recorder recorder(context, cmd);
                         for (uint32_t i = 0; i < k_dispatches; ++i)
                             recorder.dispatch(kernel, set, k_group, k_group, std::span<const std::byte>{});
                     });

@@ -4,8 +4,8 @@
 #include "cases.hpp"
 #include "heart.hpp"
 
-#include "cloth/mesh_checks.hpp"
-#include "engine/gpu/download.hpp"
+#include "voile/engine/gpu/download.hpp"
+#include "voile/mesh_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr uint32_t k_frames = 90;
 constexpr uint32_t k_first_timed = 30;
 constexpr float k_frame = 1.f / 60; // s
 
-constexpr auto k_rk4 = cloth::Integrator::rk4;
-constexpr auto k_verlet = cloth::Integrator::verlet;
+constexpr auto k_rk4 = voile::Integrator::rk4;
+constexpr auto k_verlet = voile::Integrator::verlet;
 constexpr DrapeCase k_cases[] = {
     {"drape-128-rk4", 128, k_rk4},       {"drape-128-verlet", 128, k_verlet}, {"drape-256-rk4", 256, k_rk4},
     {"drape-256-verlet", 256, k_verlet}, {"drape-512-rk4", 512, k_rk4},       {"drape-512-verlet", 512, k_verlet},
@@ -56,37 +56,37 @@ double mean_height(const Positions& x)
     return sum / static_cast<double>(x.size());
 }
 
-double share_deeper(const Positions& x, const cloth::MeshCollider& heart, double depth)
+double share_deeper(const Positions& x, const voile::MeshCollider& heart, double depth)
 {
-    const cloth::MeshDistance distance = engine::take(cloth::MeshDistance::create(heart));
+    const voile::MeshDistance distance = voile::engine::take(voile::MeshDistance::create(heart));
     size_t deep = 0;
     for (const glm::vec4& p : x)
         deep += distance.nearest(glm::dvec3(p)).signed_distance < -depth ? 1 : 0;
     return static_cast<double>(deep) / static_cast<double>(x.size());
 }
 
-void upload(TimedQueue& queue, cloth::Solver& solver)
+void upload(TimedQueue& queue, voile::Solver& solver)
 {
-    cloth::Upload kept;
-    queue.run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+    voile::Upload kept;
+    queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
 }
 
 struct Scene
 {
-    cloth::Solver solver;
-    cloth::ClothId cloth;
+    voile::Solver solver;
+    voile::ClothId cloth;
 };
 
-Scene make_scene(TimedQueue& queue, const DrapeCase& item, const cloth::MeshCollider& heart, uint32_t workgroup_size)
+Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshCollider& heart, uint32_t workgroup_size)
 {
-    cloth::SolverOptions options;
+    voile::SolverOptions options;
     options.workgroup_size = workgroup_size;
-    Scene scene{engine::take(cloth::Solver::create(queue.context().handles, options)), {}};
-    cloth::Grid grid = drape_grid(item.side);
+    Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
+    voile::GridCloth grid = drape_grid(item.side);
     grid.integrator = item.integrator;
-    scene.cloth = engine::take(scene.solver.add_cloth(grid));
-    (void)engine::take(scene.solver.add_collider(heart));
-    (void)engine::take(scene.solver.add_collider(cloth::PlaneCollider{.offset = -0.4f}));
+    scene.cloth = voile::engine::take(scene.solver.add_cloth(grid));
+    (void)voile::engine::take(scene.solver.add_collider(heart));
+    (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
     upload(queue, scene.solver);
     return scene;
 }
@@ -107,13 +107,13 @@ const DrapeCase* find_drape_case(std::string_view name)
 
 DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const Settings& settings)
 {
-    const engine::Mesh mesh = scenes::make_drape_heart();
-    const cloth::MeshCollider heart{.name = "heart", .positions = mesh.positions, .triangles = mesh.triangles};
+    const voile::engine::Mesh mesh = scenes::make_drape_heart();
+    const voile::MeshCollider heart{.name = "heart", .positions = mesh.positions, .triangles = mesh.triangles};
     Scene scene = make_scene(queue, item, heart, settings.workgroup_size);
     Scene other = make_scene(queue, item, heart, settings.workgroup_size);
-    cloth::Solver& solver = scene.solver;
+    voile::Solver& solver = scene.solver;
 
-    const cloth::Step step{.duration = k_frame};
+    const voile::Step step{.duration = k_frame};
     DrapeMeasurement result;
     result.vertices = solver.vertex_count();
     result.triangles = solver.triangle_count();
@@ -125,23 +125,24 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     {
         // The host looks at the state between frames, and the device's clocks fall while it waits: the frame runs once
         // unmeasured in a second scene, so that it is measured as in a row of frames.
-        const auto warm_up = [&](VkCommandBuffer cmd) { engine::take(other.solver.record(cmd, step)); };
+        const auto warm_up = [&](VkCommandBuffer cmd) { voile::engine::take(other.solver.record(cmd, step)); };
         const double time =
-            queue.time([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
+            queue.time([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
         if (frame >= k_first_timed)
             times.push_back(time);
-        const cloth::VertexStreams streams = solver.vertices(scene.cloth);
-        x = engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
+        const voile::VertexStreams streams = solver.vertices(scene.cloth);
+        x = voile::engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset,
+                                                      streams.vertices);
         result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));
         if (frame + 1 == k_first_timed)
             result.height = mean_height(x);
     }
     if (settings.passes)
     {
-        const cloth::Snapshot start = engine::take(solver.create_snapshot());
-        queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record_save(cmd, start)); });
+        const voile::Snapshot start = voile::engine::take(solver.create_snapshot());
+        queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_save(cmd, start)); });
         print_passes(queue, solver, step,
-                     [&](VkCommandBuffer cmd) { engine::take(solver.record_restore(cmd, start)); });
+                     [&](VkCommandBuffer cmd) { voile::engine::take(solver.record_restore(cmd, start)); });
     }
     const std::vector<double> stretches = structural_stretches(x, item.side);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());

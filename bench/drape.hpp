@@ -4,7 +4,7 @@
 #include "passes.hpp"
 #include "timed_queue.hpp"
 
-#include "cloth/solver.hpp"
+#include "voile/solver.hpp"
 
 #include <span>
 #include <string_view>
@@ -16,7 +16,7 @@ struct DrapeCase
 {
     const char* name = nullptr;
     uint32_t side = 0; // vertices along each side
-    cloth::Integrator integrator = cloth::Integrator::rk4;
+    voile::Integrator integrator = voile::Integrator::rk4;
 };
 std::span<const DrapeCase> drape_cases();
 const DrapeCase* find_drape_case(std::string_view name); // null if there is none

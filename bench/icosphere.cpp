@@ -1,7 +1,7 @@
 // Spheres of 20 * 4^n triangles, and what a query of their hierarchy visits.
 #include "icosphere.hpp"
 
-#include "bvh.hpp"
+#include "geometry/bvh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,10 @@ namespace
 {
 
 // On the unit sphere.
-engine::Mesh make_icosahedron()
+voile::engine::Mesh make_icosahedron()
 {
     constexpr float k_golden = std::numbers::phi_v<float>;
-    engine::Mesh mesh;
+    voile::engine::Mesh mesh;
     for (const float a : {-1.f, 1.f})
         for (const float b : {-k_golden, k_golden})
         {
@@ -45,7 +45,7 @@ engine::Mesh make_icosahedron()
     return mesh;
 }
 
-void subdivide(engine::Mesh& mesh)
+void subdivide(voile::engine::Mesh& mesh)
 {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t i, uint32_t j)
@@ -76,9 +76,9 @@ bool overlap(const glm::vec3& a_min, const glm::vec3& a_max, const glm::vec3& b_
 
 } // namespace
 
-engine::Mesh make_icosphere(const glm::vec3& center, float radius, uint32_t subdivisions)
+voile::engine::Mesh make_icosphere(const glm::vec3& center, float radius, uint32_t subdivisions)
 {
-    engine::Mesh mesh = make_icosahedron();
+    voile::engine::Mesh mesh = make_icosahedron();
     for (uint32_t i = 0; i < subdivisions; ++i)
         subdivide(mesh);
     for (glm::vec3& p : mesh.positions)
@@ -86,9 +86,9 @@ engine::Mesh make_icosphere(const glm::vec3& center, float radius, uint32_t subd
     return mesh;
 }
 
-double node_visits(const engine::Mesh& mesh, std::span<const glm::vec4> positions, float reach)
+double node_visits(const voile::engine::Mesh& mesh, std::span<const glm::vec4> positions, float reach)
 {
-    const cloth::Bvh bvh = cloth::build_bvh(mesh.positions, mesh.triangles);
+    const voile::Bvh bvh = voile::build_bvh(mesh.positions, mesh.triangles);
     uint64_t visits = 0;
     std::vector<uint32_t> stack;
     for (const glm::vec4& p : positions)
@@ -98,7 +98,7 @@ double node_visits(const engine::Mesh& mesh, std::span<const glm::vec4> position
         stack.assign(1, 0);
         while (!stack.empty())
         {
-            const cloth::shared::BvhNode& node = bvh.nodes[stack.back()];
+            const voile::shared::BvhNode& node = bvh.nodes[stack.back()];
             stack.pop_back();
             ++visits;
             if (overlap(min, max, node.left_min, node.left_max) && (node.left & VOILE_BVH_LEAF_BIT) == 0)

@@ -23,7 +23,7 @@ struct Options
     std::string device;
     std::string csv;
     uint32_t repetitions = 0; // 0: by device
-    uint32_t workgroup = cloth::SolverOptions().workgroup_size;
+    uint32_t workgroup = voile::SolverOptions().workgroup_size;
     bool passes = false;
 };
 
@@ -72,7 +72,7 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
         else if (const bench::AddCase* add = bench::find_add_case(name))
             chosen.adds.push_back(add);
         else
-            throw engine::StartupError("--case " + name + ": there is no such case; --list shows them");
+            throw voile::engine::StartupError("--case " + name + ": there is no such case; --list shows them");
     }
     if (!names.empty())
         return chosen;
@@ -103,7 +103,7 @@ void list_cases()
 void list_devices()
 {
     uint32_t index = 0;
-    for (const engine::DeviceInfo& device : engine::list_devices())
+    for (const voile::engine::DeviceInfo& device : voile::engine::list_devices())
         std::printf("%u  %s%s%s\n", index++, device.name.c_str(), device.unusable.empty() ? "" : ": ",
                     device.unusable.c_str());
 }
@@ -113,11 +113,11 @@ void run(const Options& options)
     (void)choose(options.names, false); // an unknown name is told before a device is opened
     std::optional<bench::CsvFile> csv;
     if (!options.csv.empty())
-        csv = engine::take(bench::CsvFile::open(options.csv));
+        csv = voile::engine::take(bench::CsvFile::open(options.csv));
 
-    engine::DeviceOptions wanted;
+    voile::engine::DeviceOptions wanted;
     wanted.device = options.device;
-    const engine::Device device(wanted);
+    const voile::engine::Device device(wanted);
     bench::TimedQueue queue(device);
     const bench::DeviceProbe probe = bench::probe_device(queue);
     const uint32_t repetitions = options.repetitions > 0 ? options.repetitions : device.is_cpu() ? 20 : 100;
@@ -131,7 +131,7 @@ void run(const Options& options)
         const bench::Measurement measurement = bench::measure(queue, *item, repetitions, settings);
         bench::print_row(*item, measurement, probe);
         if (csv)
-            engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
+            voile::engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
     }
     if (!chosen.refits.empty())
         bench::print_refit_header();
@@ -140,7 +140,7 @@ void run(const Options& options)
         const bench::RefitMeasurement measurement = bench::measure_refit(queue, *item, repetitions);
         bench::print_refit_row(*item, measurement, probe);
         if (csv)
-            engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
+            voile::engine::take(csv->append(device.info(), probe, *item, measurement, repetitions));
     }
     if (!chosen.drapes.empty())
         bench::print_drape_header();
@@ -149,7 +149,7 @@ void run(const Options& options)
         const bench::DrapeMeasurement measurement = bench::measure_drape(queue, *item, settings);
         bench::print_drape_row(*item, measurement);
         if (csv)
-            engine::take(csv->append(device.info(), probe, *item, measurement));
+            voile::engine::take(csv->append(device.info(), probe, *item, measurement));
     }
     if (!chosen.adds.empty())
         bench::print_add_header();

@@ -4,9 +4,9 @@
 #include "allocations.hpp"
 #include "icosphere.hpp"
 
-#include "engine/gpu/download.hpp"
+#include "voile/engine/gpu/download.hpp"
 
-#include "gpu/recorder.hpp"
+#include "voile/gpu/recorder.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +20,9 @@ namespace
 
 constexpr float k_frame = 1.f / 60; // s
 
-// Bytes that the passes move, every value that a vertex owns counted once a pass: the neighbours' values that a gather
-// reads again, the few bytes of cloths and chunks, and the colliders' hierarchy are taken to come from the caches. A
-// value is a vec4 of 16 bytes (buffer table in cloth/solver.hpp); "state" and "stage" are two of them, x and v.
+// Bytes that the passes move, every value that a vertex owns counted once a pass: the neighbors' values that a gather
+// reads again, the few bytes of cloths and patches, and the colliders' hierarchy are taken to come from the caches. A
+// value is a vec4 of 16 bytes (buffer table in voile/solver.hpp); "state" and "stage" are two of them, x and v.
 // A residual is half of one, and belongs to its positions.
 //   stage 1   reads state                          writes stage A        2.5 + 2.5 = 5
 //   stage 2   reads stage A, state                 writes stage B        5 + 2.5   = 7.5
@@ -40,7 +40,7 @@ constexpr double k_verlet = 7 * k_value;
 constexpr double k_contact = 3 * k_value;
 constexpr double k_normals = 2.5 * k_value;
 
-double bytes_a_substep(const cloth::Solver& solver, const Case& item, uint32_t substeps)
+double bytes_a_substep(const voile::Solver& solver, const Case& item, uint32_t substeps)
 {
     const double list = item.lists > 0 ? (1 + item.lists) * k_value : 0;
     const double forces = item.verlet ? k_verlet + list : k_rk4 + 4 * list;
@@ -49,7 +49,7 @@ double bytes_a_substep(const cloth::Solver& solver, const Case& item, uint32_t s
 }
 
 // Substeps that are timed: the whole frame on a GPU. A CPU device would take minutes over the finest grids.
-uint32_t measured_substeps(const engine::Device& device, const cloth::Solver& solver, uint32_t substeps)
+uint32_t measured_substeps(const voile::engine::Device& device, const voile::Solver& solver, uint32_t substeps)
 {
     constexpr uint32_t k_vertices_on_cpu = 1u << 19;
     constexpr uint32_t k_fewest = 4; // the normals pass, once, must not count for much
@@ -62,13 +62,13 @@ uint32_t measured_substeps(const engine::Device& device, const cloth::Solver& so
 class Snapshot
 {
 public:
-    Snapshot(TimedQueue& queue, const cloth::Solver& solver, std::span<const cloth::ClothId> cloths)
+    Snapshot(TimedQueue& queue, const voile::Solver& solver, std::span<const voile::ClothId> cloths)
         : context_(queue.context())
     {
         VkDeviceSize bytes = 0;
-        for (const cloth::ClothId cloth : cloths)
+        for (const voile::ClothId cloth : cloths)
         {
-            const cloth::VertexStreams streams = solver.vertices(cloth);
+            const voile::VertexStreams streams = solver.vertices(cloth);
             const VkDeviceSize size = streams.vertices * sizeof(glm::vec4);
             regions_.push_back({streams.offset, streams.offset, size});
             bytes = std::max(bytes, streams.offset + size);
@@ -76,10 +76,10 @@ public:
             live_velocities_ = streams.velocities;
         }
         constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-        positions_ =
-            engine::take(gpu::create_buffer(context_, "snapshot positions", bytes, k_usage, gpu::Memory::device));
-        velocities_ =
-            engine::take(gpu::create_buffer(context_, "snapshot velocities", bytes, k_usage, gpu::Memory::device));
+        positions_ = voile::engine::take(
+            voile::gpu::create_buffer(context_, "snapshot positions", bytes, k_usage, voile::gpu::Memory::device));
+        velocities_ = voile::engine::take(
+            voile::gpu::create_buffer(context_, "snapshot velocities", bytes, k_usage, voile::gpu::Memory::device));
         queue.run(
             [&](VkCommandBuffer cmd)
             {
@@ -101,7 +101,7 @@ private:
     // Whatever wrote the buffers before, in this submission or an earlier one.
     void record_wait(VkCommandBuffer cmd) const
     {
-        gpu::Recorder(context_, cmd)
+        voile::gpu::Recorder(context_, cmd)
             .barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT_KHR, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
                      VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
@@ -112,48 +112,48 @@ private:
         context_.fn.vkCmdCopyBuffer(cmd, source, destination, static_cast<uint32_t>(regions_.size()), regions_.data());
     }
 
-    const gpu::Context& context_;
+    const voile::gpu::Context& context_;
     std::vector<VkBufferCopy> regions_;
     VkBuffer live_positions_ = VK_NULL_HANDLE;
     VkBuffer live_velocities_ = VK_NULL_HANDLE;
-    gpu::Buffer positions_;
-    gpu::Buffer velocities_;
+    voile::gpu::Buffer positions_;
+    voile::gpu::Buffer velocities_;
 };
 
-cloth::Statistics statistics(TimedQueue& queue, const cloth::Solver& solver)
+voile::Statistics statistics(TimedQueue& queue, const voile::Solver& solver)
 {
-    queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
+    queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_statistics(cmd, 0)); });
     return solver.statistics(0);
 }
 
-void check_finite(const Case& item, const cloth::Statistics& state, const char* when)
+void check_finite(const Case& item, const voile::Statistics& state, const char* when)
 {
     if (state.nan_vertices > 0)
-        throw engine::StartupError("case " + std::string(item.name) + ": " + std::to_string(state.nan_vertices) +
-                                   " vertices are not finite " + when);
+        throw voile::engine::StartupError("case " + std::string(item.name) + ": " + std::to_string(state.nan_vertices) +
+                                          " vertices are not finite " + when);
 }
 
 // Runs the case up to where it is measured; the vertices that touch a collider there.
-uint32_t advance(TimedQueue& queue, cloth::Solver& solver, const Case& item)
+uint32_t advance(TimedQueue& queue, voile::Solver& solver, const Case& item)
 {
     for (uint32_t i = 0; i < item.frames_before; ++i)
-        queue.run([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, {.duration = k_frame})); });
-    const cloth::Statistics state = statistics(queue, solver);
+        queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, {.duration = k_frame})); });
+    const voile::Statistics state = statistics(queue, solver);
     check_finite(item, state, "before the measurement");
     if (item.in_contact && state.contacts == 0)
-        throw engine::StartupError("case " + std::string(item.name) + ": no vertex touches a collider");
+        throw voile::engine::StartupError("case " + std::string(item.name) + ": no vertex touches a collider");
     return state.contacts;
 }
 
-void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Case& item, const Snapshot& start, uint32_t repetitions,
+void time_gpu(TimedQueue& queue, voile::Solver& solver, const Case& item, const Snapshot& start, uint32_t repetitions,
               Measurement& result)
 {
-    const cloth::Step step{.duration =
+    const voile::Step step{.duration =
                                k_frame * static_cast<float>(result.measured) / static_cast<float>(result.substeps),
                            .substeps = result.measured,
                            .wind = {item.wind, 0, 0},
                            .gust = item.gust};
-    const auto record = [&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); };
+    const auto record = [&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); };
     const auto restore = [&](VkCommandBuffer cmd) { start.record_restore(cmd); };
     std::vector<double> times;
     (void)queue.time(record, restore); // warms up
@@ -163,20 +163,20 @@ void time_gpu(TimedQueue& queue, cloth::Solver& solver, const Case& item, const 
     result.gpu_p95 = quantile(times, 0.95);
 }
 
-void time_recording(TimedQueue& queue, cloth::Solver& solver, uint32_t repetitions, Measurement& result)
+void time_recording(TimedQueue& queue, voile::Solver& solver, uint32_t repetitions, Measurement& result)
 {
     using Clock = std::chrono::steady_clock;
-    const cloth::Step step{.duration = k_frame, .substeps = result.substeps};
+    const voile::Step step{.duration = k_frame, .substeps = result.substeps};
     std::vector<double> times;
     times.reserve(repetitions);
-    queue.record_only([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); });
+    queue.record_only([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); });
     for (uint32_t i = 0; i < repetitions; ++i)
         queue.record_only(
             [&](VkCommandBuffer cmd)
             {
                 const uint64_t allocated = allocations();
                 const Clock::time_point begin = Clock::now();
-                engine::take(solver.record(cmd, step));
+                voile::engine::take(solver.record(cmd, step));
                 const Clock::time_point end = Clock::now();
                 result.record_allocations += allocations() - allocated;
                 times.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
@@ -185,12 +185,12 @@ void time_recording(TimedQueue& queue, cloth::Solver& solver, uint32_t repetitio
 }
 
 // Of the query that takes the thickness to every side, as traversals do that find no list of candidates.
-double measure_visits(TimedQueue& queue, const cloth::Solver& solver, cloth::ClothId cloth, uint32_t subdivisions)
+double measure_visits(TimedQueue& queue, const voile::Solver& solver, voile::ClothId cloth, uint32_t subdivisions)
 {
-    const cloth::VertexStreams streams = solver.vertices(cloth);
+    const voile::VertexStreams streams = solver.vertices(cloth);
     const auto positions =
-        engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
-    const float thickness = std::get<cloth::Fabric>(solver.material(cloth)).thickness;
+        voile::engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
+    const float thickness = std::get<voile::Fabric>(solver.material(cloth)).thickness;
     return node_visits(case_icosphere(subdivisions), positions, thickness);
 }
 
@@ -198,15 +198,15 @@ double measure_visits(TimedQueue& queue, const cloth::Solver& solver, cloth::Clo
 
 Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, const Settings& settings)
 {
-    cloth::SolverOptions options;
+    voile::SolverOptions options;
     options.contact_method = item.method;
     options.workgroup_size = settings.workgroup_size;
     options.mesh_layout = item.layout;
-    cloth::Solver solver = engine::take(cloth::Solver::create(queue.context().handles, options));
-    const std::vector<cloth::ClothId> cloths = item.build(solver);
+    voile::Solver solver = voile::engine::take(voile::Solver::create(queue.context().handles, options));
+    const std::vector<voile::ClothId> cloths = item.build(solver);
     {
-        cloth::Upload kept;
-        queue.run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+        voile::Upload kept;
+        queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
     }
 
     Measurement result;

@@ -1,6 +1,6 @@
 #include "passes.hpp"
 
-#include "gpu/timestamps.hpp"
+#include "voile/gpu/timestamps.hpp"
 
 #include <cstdio>
 #include <map>
@@ -9,12 +9,12 @@
 namespace bench
 {
 
-void print_passes(TimedQueue& queue, cloth::Solver& solver, const cloth::Step& step, const TimedQueue::Record& restore)
+void print_passes(TimedQueue& queue, voile::Solver& solver, const voile::Step& step, const TimedQueue::Record& restore)
 {
     constexpr int k_steps = 21;
     constexpr uint32_t k_most_passes = 16384;
-    auto timestamps =
-        engine::take(gpu::Timestamps::create(queue.context(), queue.device().queue_family(), 1, k_most_passes));
+    auto timestamps = voile::engine::take(
+        voile::gpu::Timestamps::create(queue.context(), queue.device().queue_family(), 1, k_most_passes));
     std::map<std::string, std::vector<double>> times;
     for (int i = 0; i < k_steps; ++i)
     {
@@ -23,7 +23,7 @@ void print_passes(TimedQueue& queue, cloth::Solver& solver, const cloth::Step& s
             {
                 restore(cmd);
                 timestamps.begin_frame(cmd, 0);
-                engine::take(solver.record(cmd, step, &timestamps));
+                voile::engine::take(solver.record(cmd, step, &timestamps));
             });
         for (const auto& pass : timestamps.read(0))
             times[std::string(pass.name)].push_back(pass.milliseconds * 1000);

@@ -3,7 +3,7 @@
 
 #include "timed_queue.hpp"
 
-#include "cloth/solver.hpp"
+#include "voile/solver.hpp"
 
 namespace bench
 {
@@ -17,6 +17,6 @@ struct Settings
 // Prints the median time of each pass of a step, microseconds a substep, over 21 steps that begin alike: `restore`
 // records what brings the solver back. Timestamps between passes keep these from overlapping, so that the sum is more
 // than the step.
-void print_passes(TimedQueue& queue, cloth::Solver& solver, const cloth::Step& step, const TimedQueue::Record& restore);
+void print_passes(TimedQueue& queue, voile::Solver& solver, const voile::Step& step, const TimedQueue::Record& restore);
 
 } // namespace bench

@@ -1,11 +1,11 @@
 // Refit cases. Repetitions need no state of their own: a refit of the same vertices does the same work.
 #include "refit_case.hpp"
 
-#include "padded_tree.hpp"
-#include "refit.hpp"
+#include "colliders/refit.hpp"
+#include "geometry/padded_tree.hpp"
 
-#include "engine/gpu/download.hpp"
-#include "engine/gpu/upload.hpp"
+#include "voile/engine/gpu/download.hpp"
+#include "voile/engine/gpu/upload.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -70,16 +70,16 @@ Sheet make_sheet(const RefitCase& item)
 
 // Bytes that must be moved, each once: the slots and both places of every vertex read, every box written, and read
 // again where the next dispatch goes on from it. A vertex's six gathers are taken to come from the caches.
-double bytes_moved(const cloth::PaddedTree& tree, const Sheet& sheet, uint32_t levels_a_dispatch)
+double bytes_moved(const voile::PaddedTree& tree, const Sheet& sheet, uint32_t levels_a_dispatch)
 {
     double boxes = static_cast<double>(tree.boxes());
     for (uint32_t level = tree.levels; level > levels_a_dispatch;)
         boxes += std::exp2(level -= levels_a_dispatch);
-    return static_cast<double>(tree.leaves.size() * sizeof(cloth::shared::PaddedLeaf)) +
-           static_cast<double>(sheet.positions.size() * sizeof(glm::vec4)) + boxes * sizeof(cloth::shared::PaddedBox);
+    return static_cast<double>(tree.leaves.size() * sizeof(voile::shared::PaddedLeaf)) +
+           static_cast<double>(sheet.positions.size() * sizeof(glm::vec4)) + boxes * sizeof(voile::shared::PaddedBox);
 }
 
-void check_root(const RefitCase& item, const cloth::shared::PaddedBox& root, const Sheet& sheet)
+void check_root(const RefitCase& item, const voile::shared::PaddedBox& root, const Sheet& sheet)
 {
     glm::vec3 min(sheet.positions.front());
     glm::vec3 max = min;
@@ -89,7 +89,8 @@ void check_root(const RefitCase& item, const cloth::shared::PaddedBox& root, con
         max = glm::max(max, glm::vec3(p));
     }
     if (root.min != min || root.max != max)
-        throw engine::StartupError("case " + std::string(item.name) + ": the root's box is not that of all vertices");
+        throw voile::engine::StartupError("case " + std::string(item.name) +
+                                          ": the root's box is not that of all vertices");
 }
 
 } // namespace
@@ -114,44 +115,44 @@ double refit_floor(const RefitMeasurement& measurement, const DeviceProbe& probe
 RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_t repetitions)
 {
     using Clock = std::chrono::steady_clock;
-    const gpu::Context& context = queue.context();
+    const voile::gpu::Context& context = queue.context();
     const Sheet sheet = make_sheet(item);
     const auto vertices = static_cast<uint32_t>(sheet.positions.size() / 2);
     const std::vector<glm::vec3> start(sheet.positions.begin(), sheet.positions.begin() + vertices);
     const Clock::time_point begin = Clock::now();
-    const cloth::PaddedTree tree = cloth::build_padded_tree(start, sheet.triangles);
+    const voile::PaddedTree tree = voile::build_padded_tree(start, sheet.triangles);
     const Clock::time_point end = Clock::now();
-    const cloth::RefitKernels kernels = engine::take(cloth::create_refit_kernels(context, item.workgroup_size));
-    const cloth::RefitPlace where{cloth::aligned_first_box(0), 0, 0, vertices, tree.triangles};
+    const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context, item.workgroup_size));
+    const voile::RefitPlace where{voile::aligned_first_box(0), 0, 0, vertices, tree.triangles};
 
-    engine::UploadBatch batch(context);
-    const gpu::Buffer leaves = batch.buffer("leaves", tree.leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const gpu::Buffer positions = batch.buffer("positions", sheet.positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const gpu::Buffer boxes = engine::take(
-        gpu::create_buffer(context, "boxes", (where.first_box + tree.boxes()) * sizeof(cloth::shared::PaddedBox),
-                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::device));
+    voile::engine::UploadBatch batch(context);
+    const voile::gpu::Buffer leaves = batch.buffer("leaves", tree.leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const voile::gpu::Buffer positions = batch.buffer("positions", sheet.positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const voile::gpu::Buffer boxes = voile::engine::take(voile::gpu::create_buffer(
+        context, "boxes", (where.first_box + tree.boxes()) * sizeof(voile::shared::PaddedBox),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::gpu::Memory::device));
     queue.run([&](VkCommandBuffer cmd) { batch.record(cmd); });
-    gpu::BindingPool pool = engine::take(gpu::BindingPool::create(context, 1, 3));
+    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 3));
     const VkDescriptorSet set =
-        engine::take(pool.bind(kernels.leaves, {leaves.handle(), positions.handle(), boxes.handle()}));
+        voile::engine::take(pool.bind(kernels.leaves, {leaves.handle(), positions.handle(), boxes.handle()}));
 
     const auto record = [&](VkCommandBuffer cmd)
     {
-        gpu::Recorder recorder(context, cmd);
-        cloth::record_refit(recorder, kernels, set, where);
+        voile::gpu::Recorder recorder(context, cmd);
+        voile::record_refit(recorder, kernels, set, where);
     };
     queue.run(record); // warms up
     std::vector<double> times;
     for (uint32_t i = 0; i < repetitions; ++i)
         times.push_back(queue.time(record));
     check_root(item,
-               engine::download_values<cloth::shared::PaddedBox>(queue.device(), boxes.handle(),
-                                                                 where.first_box * sizeof(cloth::shared::PaddedBox), 1)
+               voile::engine::download_values<voile::shared::PaddedBox>(
+                   queue.device(), boxes.handle(), where.first_box * sizeof(voile::shared::PaddedBox), 1)
                    .front(),
                sheet);
     return {.vertices = vertices,
             .triangles = tree.triangles,
-            .dispatches = cloth::refit_dispatches(kernels, tree.triangles),
+            .dispatches = voile::refit_dispatches(kernels, tree.triangles),
             .build = std::chrono::duration<double, std::milli>(end - begin).count(),
             .gpu_median = quantile(times, 0.5),
             .gpu_p95 = quantile(times, 0.95),

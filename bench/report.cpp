@@ -42,7 +42,7 @@ double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe)
     return share_of_copy(measurement.bytes, measurement.gpu_median, probe);
 }
 
-void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe)
+void print_device(const voile::engine::DeviceInfo& device, const DeviceProbe& probe)
 {
     std::printf("device          %s\n", device.name.c_str());
     std::printf("driver          %s\n", device.driver.c_str());
@@ -122,24 +122,24 @@ void print_add_row(const AddCase& item, const AddMeasurement& m)
     std::fflush(stdout);
 }
 
-gpu::Result<CsvFile> CsvFile::open(const std::string& path)
+voile::gpu::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;
     if (std::ifstream existing(path); existing)
         std::getline(existing, first_line);
     if (!first_line.empty() && first_line != k_columns)
-        return gpu::Error{path + ": its first line is not the header of this program's columns"};
+        return voile::gpu::Error{path + ": its first line is not the header of this program's columns"};
     std::ofstream file(path, std::ios::app);
     if (first_line.empty())
         file << k_columns << '\n';
     file.flush();
     if (!file)
-        return gpu::Error{path + ": cannot be written"};
+        return voile::gpu::Error{path + ": cannot be written"};
     return CsvFile(path);
 }
 
-gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
-                                  const Measurement& m, uint32_t repetitions) const
+voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                         const Case& item, const Measurement& m, uint32_t repetitions) const
 {
     std::ostringstream row;
     row.precision(6);
@@ -151,8 +151,8 @@ gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const Device
     return append(row.str());
 }
 
-gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const DeviceProbe& probe, const DrapeCase& item,
-                                  const DrapeMeasurement& m) const
+voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                         const DrapeCase& item, const DrapeMeasurement& m) const
 {
     const double microseconds = 1000. / m.substeps;
     std::ostringstream row;
@@ -164,8 +164,8 @@ gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const Device
     return append(row.str());
 }
 
-gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const DeviceProbe& probe, const RefitCase& item,
-                                  const RefitMeasurement& m, uint32_t repetitions) const
+voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                         const RefitCase& item, const RefitMeasurement& m, uint32_t repetitions) const
 {
     std::ostringstream row;
     row.precision(6);
@@ -176,13 +176,13 @@ gpu::Result<void> CsvFile::append(const engine::DeviceInfo& device, const Device
     return append(row.str());
 }
 
-gpu::Result<void> CsvFile::append(const std::string& row) const
+voile::gpu::Result<void> CsvFile::append(const std::string& row) const
 {
     std::ofstream file(path_, std::ios::app);
     file << row;
     file.flush();
     if (!file)
-        return gpu::Error{path_ + ": cannot be written"};
+        return voile::gpu::Error{path_ + ": cannot be written"};
     return {};
 }
 

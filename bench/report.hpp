@@ -12,7 +12,7 @@
 namespace bench
 {
 
-void print_device(const engine::DeviceInfo& device, const DeviceProbe& probe);
+void print_device(const voile::engine::DeviceInfo& device, const DeviceProbe& probe);
 void print_header();
 void print_row(const Case& item, const Measurement& measurement, const DeviceProbe& probe);
 
@@ -34,20 +34,21 @@ class CsvFile
 {
 public:
     // Writes the header if the file is new or empty. Errors: it cannot be written, or has other columns.
-    static gpu::Result<CsvFile> open(const std::string& path);
+    static voile::gpu::Result<CsvFile> open(const std::string& path);
 
-    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
-                             const Measurement& measurement, uint32_t repetitions) const;
+    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
+                                    const Measurement& measurement, uint32_t repetitions) const;
     // A substep's part of a whole frame. Bytes and recording are not measured there and stay empty.
-    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const DrapeCase& item,
-                             const DrapeMeasurement& measurement) const;
+    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                    const DrapeCase& item, const DrapeMeasurement& measurement) const;
     // A refit in a substep's place. Recording is not measured there and stays empty.
-    gpu::Result<void> append(const engine::DeviceInfo& device, const DeviceProbe& probe, const RefitCase& item,
-                             const RefitMeasurement& measurement, uint32_t repetitions) const;
+    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                    const RefitCase& item, const RefitMeasurement& measurement,
+                                    uint32_t repetitions) const;
 
 private:
     explicit CsvFile(std::string path) : path_(std::move(path)) {}
-    gpu::Result<void> append(const std::string& row) const;
+    voile::gpu::Result<void> append(const std::string& row) const;
     std::string path_;
 };
 

@@ -7,15 +7,15 @@
 namespace bench
 {
 
-TimedQueue::TimedQueue(const engine::Device& device)
+TimedQueue::TimedQueue(const voile::engine::Device& device)
     : device_(device), frames_(device, 1),
-      timestamps_(engine::take(gpu::Timestamps::create(device.context(), device.queue_family(), 1, 1)))
+      timestamps_(voile::engine::take(voile::gpu::Timestamps::create(device.context(), device.queue_family(), 1, 1)))
 {
 }
 
 void TimedQueue::run(const Record& record)
 {
-    const engine::FrameRing::Frame frame = frames_.begin();
+    const voile::engine::FrameRing::Frame frame = frames_.begin();
     record(frame.cmd);
     frames_.submit(frame);
     frames_.wait(frame.slot);
@@ -35,7 +35,7 @@ double TimedQueue::time(const Record& record, const Record& before)
         });
     const auto times = timestamps_.read(0);
     if (times.empty())
-        throw engine::StartupError("the device gave no timestamps");
+        throw voile::engine::StartupError("the device gave no timestamps");
     return times.front().milliseconds * 1000;
 }
 

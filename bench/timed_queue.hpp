@@ -1,10 +1,10 @@
 // TimedQueue: commands submitted and waited for one at a time, with the GPU's time between two timestamps.
 #pragma once
 
-#include "engine/gpu/device.hpp"
-#include "engine/gpu/frames.hpp"
+#include "voile/engine/gpu/device.hpp"
+#include "voile/engine/gpu/frames.hpp"
 
-#include "gpu/timestamps.hpp"
+#include "voile/gpu/timestamps.hpp"
 
 #include <functional>
 #include <vector>
@@ -18,10 +18,10 @@ public:
     using Record = std::function<void(VkCommandBuffer)>;
 
     // StartupError if the queue has no timestamps.
-    explicit TimedQueue(const engine::Device& device);
+    explicit TimedQueue(const voile::engine::Device& device);
 
-    [[nodiscard]] const gpu::Context& context() const { return device_.context(); }
-    [[nodiscard]] const engine::Device& device() const { return device_; }
+    [[nodiscard]] const voile::gpu::Context& context() const { return device_.context(); }
+    [[nodiscard]] const voile::engine::Device& device() const { return device_; }
 
     void run(const Record& record);
 
@@ -32,9 +32,9 @@ public:
     void record_only(const Record& record);
 
 private:
-    const engine::Device& device_;
-    engine::FrameRing frames_;
-    gpu::Timestamps timestamps_;
+    const voile::engine::Device& device_;
+    voile::engine::FrameRing frames_;
+    voile::gpu::Timestamps timestamps_;
 };
 
 // The smallest value that at least `share` of the values do not exceed (nearest rank). 0 for no values.

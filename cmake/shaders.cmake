@@ -11,9 +11,10 @@ function(voile_add_shaders)
     file(MAKE_DIRECTORY ${generated}/spirv)
     set(declarations "")
     foreach(shader IN LISTS ARG_SHADERS)
-        string(REPLACE "." "_" symbol ${shader})
+        get_filename_component(name ${shader} NAME)
+        string(REPLACE "." "_" symbol ${name})
         set(source ${ARG_FOLDER}/${shader})
-        set(spirv ${generated}/spirv/${shader}.spv)
+        set(spirv ${generated}/spirv/${name}.spv)
         set(cpp ${generated}/${symbol}.cpp)
         add_custom_command(
             OUTPUT ${spirv}

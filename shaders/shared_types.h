@@ -7,7 +7,7 @@
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
-namespace shader_types
+namespace voile::shader_types
 {
 using uint = uint32_t;
 using uvec3 = glm::uvec3;
@@ -15,11 +15,11 @@ using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
-} // namespace shader_types
+} // namespace voile::shader_types
 #define VOILE_SHARED_BEGIN(name)                                                                                       \
     namespace name::shared                                                                                             \
     {                                                                                                                  \
-    using namespace shader_types;
+    using namespace voile::shader_types;
 #define VOILE_SHARED_END }
 #else
 #define VOILE_SHARED_BEGIN(name)

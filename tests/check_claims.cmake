@@ -1,4 +1,4 @@
-# Checks that the tests which docs/claims.md names exist: every test_* is a file of this folder, and what follows a colon, up
+# Checks that the tests which docs/claims.md names exist: every test_* is a file below this folder, and what follows a colon, up
 # to a semicolon, stands in it (pieces around "..." one by one; what is in parentheses is a remark).
 cmake_minimum_required(VERSION 3.25)
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../docs/claims.md rows REGEX "^[|]")
@@ -17,8 +17,8 @@ foreach(row IN LISTS rows)
         if(part MATCHES "^(test_[a-z_]+)(: (.*))?$")
             set(name ${CMAKE_MATCH_1})
             set(phrase "${CMAKE_MATCH_3}")
-            set(file ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
-            if(NOT EXISTS ${file})
+            file(GLOB file ${CMAKE_CURRENT_LIST_DIR}/*/${name}.cpp)
+            if(NOT file)
                 message(SEND_ERROR "docs/claims.md names ${name}, which is no file of tests/:\n  ${row}")
                 set(file "")
                 continue()

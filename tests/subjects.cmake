@@ -1,40 +1,40 @@
-voile_add_test(test_hello_cloth SOURCES test_hello_cloth.cpp LIBRARIES voile::engine)
+voile_add_test(test_hello_cloth SOURCES viewer/test_hello_cloth.cpp LIBRARIES voile::engine)
 add_dependencies(test_hello_cloth hello_cloth)
-voile_add_test(test_assets SOURCES test_files.cpp test_obj.cpp test_ply.cpp test_shapes.cpp test_image_file.cpp
+voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
-voile_add_test(test_bvh SOURCES test_bvh.cpp test_bvh_cache.cpp test_closedness.cpp test_mesh_parts.cpp test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_refit SOURCES test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} SHADERS visit_padded.comp)
-voile_add_test(test_integration SOURCES test_integration.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_refit SOURCES colliders/test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SOURCE_DIR}/shaders/cloth SHADERS ../../tests/colliders/visit_padded.comp)
+voile_add_test(test_integration SOURCES integration/test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
-    SOURCES test_scene_file.cpp test_scene_errors.cpp test_options.cpp test_exports.cpp test_statistics_file.cpp
-            test_film.cpp test_progress.cpp test_frame_sequence.cpp
+    SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_statistics_file.cpp
+            viewer/test_film.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
-voile_add_test(test_contact SOURCES test_contact.cpp test_swept_contact.cpp test_candidates.cpp test_features.cpp test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_scene_meshes SOURCES test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
+voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_scene_meshes SOURCES viewer/test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer
-               SOURCES test_viewer.cpp test_viewer_solids.cpp test_viewer_frames.cpp test_viewer_inputs.cpp
-                       test_signals.cpp test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
+               SOURCES viewer/test_viewer.cpp viewer/test_viewer_solids.cpp viewer/test_viewer_frames.cpp viewer/test_viewer_inputs.cpp
+                       viewer/test_signals.cpp viewer/test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
                LIBRARIES voile_viewer_parts voile_scene_meshes voile::cloth_component)
 add_dependencies(test_viewer viewer scene_meshes)
-voile_add_test(test_statistics SOURCES test_statistics.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_mesh_cloth SOURCES test_mesh_cloth.cpp test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_membrane SOURCES test_membrane.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_verlet SOURCES test_verlet.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_static_friction SOURCES test_static_friction.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_energy SOURCES test_energy.cpp test_energy_random.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_stability SOURCES test_stability.cpp test_slivers.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_fabric SOURCES test_fabric.cpp test_air.cpp test_far.cpp test_far_contact.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_statistics SOURCES statistics/test_statistics.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_mesh_cloth SOURCES forces/test_mesh_cloth.cpp geometry/test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_membrane SOURCES forces/test_membrane.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_verlet SOURCES integration/test_verlet.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_static_friction SOURCES contact/test_static_friction.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_energy SOURCES integration/test_energy.cpp integration/test_energy_random.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_stability SOURCES forces/test_stability.cpp forces/test_slivers.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_fabric SOURCES forces/test_fabric.cpp forces/test_air.cpp forces/test_far.cpp contact/test_far_contact.cpp LIBRARIES voile::cloth voile::engine)
 if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
-    voile_add_test(test_frame SOURCES test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
+    voile_add_test(test_frame SOURCES engine/test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()
-voile_add_test(test_hazards SOURCES test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_renderer SOURCES test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
+voile_add_test(test_hazards SOURCES solver/test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_renderer SOURCES engine/test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
 
 # A captured frame, read with RenderDoc's Python module (Debian's, hence its Python).
 if(EXISTS /usr/bin/python3)
     add_test(NAME "capture: the frame in RenderDoc"
-             COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/check_capture.py $<TARGET_FILE:viewer> reference)
+             COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_capture.py $<TARGET_FILE:viewer> reference)
     set_tests_properties("capture: the frame in RenderDoc" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 endif()
 
@@ -53,17 +53,19 @@ if(VOILE_SANITIZE)
     set(consumer_linker_flags -fsanitize=${VOILE_SANITIZE})
 endif()
 set(consumer_prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
+add_test(NAME "consumer: clean" COMMAND ${CMAKE_COMMAND} -E rm -rf ${consumer_prefix})
 add_test(NAME "consumer: install" COMMAND ${CMAKE_COMMAND} --install ${CMAKE_BINARY_DIR} --prefix ${consumer_prefix})
 add_test(NAME "consumer: find_package"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer
                  ${CMAKE_CURRENT_BINARY_DIR}/consumer --build-generator ${CMAKE_GENERATOR}
                  --build-options -DCMAKE_PREFIX_PATH=${consumer_prefix} "-DCMAKE_EXE_LINKER_FLAGS=${consumer_linker_flags}"
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
-set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed)
+set_tests_properties("consumer: clean" PROPERTIES FIXTURES_SETUP installed)
+set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: clean")
 set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
-voile_add_test(test_holds SOURCES test_holds.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_edits SOURCES test_edits.cpp test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_moving_colliders SOURCES test_moving_colliders.cpp test_many_colliders.cpp test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_hard_contacts SOURCES test_hard_contacts.cpp test_softened.cpp shots.cpp test_odd_colliders.cpp test_spinning_collider.cpp test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_lifetime SOURCES test_uploads.cpp test_ids.cpp test_limits.cpp test_ranges.cpp test_lifetime.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_recovery SOURCES test_recovery.cpp test_depenetration.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_holds SOURCES constraints/test_holds.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_edits SOURCES solver/test_edits.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_ranges.cpp solver/test_lifetime.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_recovery SOURCES contact/test_recovery.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)

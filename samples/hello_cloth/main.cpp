@@ -1,11 +1,11 @@
 // The shortest complete program: a cloth falls on a sphere. With a display it opens a window; without, it simulates one
 // second and writes hello_cloth.png.
-#include "component/cloth_component.hpp"
+#include "voile/cloth_component.hpp"
 
-#include "engine/app/app.hpp"
-#include "engine/assets/shapes.hpp"
-#include "engine/render/readback.hpp"
-#include "engine/scene/static_mesh.hpp"
+#include "voile/engine/app/app.hpp"
+#include "voile/engine/assets/shapes.hpp"
+#include "voile/engine/render/readback.hpp"
+#include "voile/engine/scene/static_mesh.hpp"
 
 #include <cstdio>
 #include <string_view>
@@ -15,36 +15,37 @@ namespace
 
 void run(bool headless)
 {
-    engine::App app({.title = "hello cloth", .headless = headless});
-    engine::Scene& scene = app.scene();
+    voile::engine::App app({.title = "hello cloth", .headless = headless});
+    voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.6f, 1.7f, 2.6f}, .target = {0, 0.55f, 0}};
     scene.focus = {0, 0.5f, 0};
     scene.focus_radius = 2;
 
     // The world holds the solver; colliders are added to it, sheets of cloth live in it.
-    auto& world = scene.add("cloth").add<cloth::component::ClothWorld>(app.device(), app.slots());
-    world.add_collider(cloth::SphereCollider{.center = {0, 0.5f, 0}, .radius = 0.5f});
-    world.add_collider(cloth::PlaneCollider{});
+    auto& world = scene.add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
+    world.add_collider(voile::SphereCollider{.center = {0, 0.5f, 0}, .radius = 0.5f});
+    world.add_collider(voile::PlaneCollider{});
 
-    cloth::Grid sheet{.name = "sheet", .width = 2, .depth = 2};
+    voile::GridCloth sheet{.name = "sheet", .width = 2, .depth = 2};
     sheet.transform[3] = {0, 1.2f, 0, 1};
-    scene.add("sheet").add<cloth::component::Sheet>(
-        world, app.uploads(), sheet, cloth::component::fabric_surface({0.55f, 0.05f, 0.08f}, {0.6f, 0.5f, 0.35f}, 2));
+    scene.add("sheet").add<voile::component::Sheet>(
+        world, app.uploads(), sheet, voile::component::fabric_surface({0.55f, 0.05f, 0.08f}, {0.6f, 0.5f, 0.35f}, 2));
 
-    scene.add("sphere").add<engine::StaticMesh>(app.uploads(), engine::make_sphere({0, 0.5f, 0}, 0.495f),
-                                                engine::Surface{.base_color{0.75f, 0.72f, 0.65f}});
-    scene.add("ground").add<engine::StaticMesh>(app.uploads(), engine::make_ground(60), engine::ground_surface());
+    scene.add("sphere").add<voile::engine::StaticMesh>(app.uploads(), voile::engine::make_sphere({0, 0.5f, 0}, 0.495f),
+                                                       voile::engine::Surface{.base_color{0.75f, 0.72f, 0.65f}});
+    scene.add("ground").add<voile::engine::StaticMesh>(app.uploads(), voile::engine::make_ground(60),
+                                                       voile::engine::ground_surface());
 
-    engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
-    const engine::IdleGuard idle(app.device());
+    voile::engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
+    const voile::engine::IdleGuard idle(app.device());
     if (!app.has_window())
-        app.after_render = [&](VkCommandBuffer cmd, const engine::FrameInfo& frame)
+        app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
         { readback.record(cmd, app.renderer().color(), frame.slot); };
     uint32_t last_slot = 0;
-    app.completed = [&](const engine::FrameInfo& frame) { last_slot = frame.slot; };
+    app.completed = [&](const voile::engine::FrameInfo& frame) { last_slot = frame.slot; };
     app.run(60);
     if (!app.has_window())
-        engine::take(engine::save_png("hello_cloth.png", readback.picture(last_slot)));
+        voile::engine::take(voile::engine::save_png("hello_cloth.png", readback.picture(last_slot)));
 }
 
 } // namespace
@@ -56,7 +57,7 @@ int main(int argc, char** argv)
         run(argc > 1 && std::string_view(argv[1]) == "--headless");
         return 0;
     }
-    catch (const engine::StartupError& error)
+    catch (const voile::engine::StartupError& error)
     {
         std::fprintf(stderr, "hello_cloth: %s\n", error.what());
         return 1;

@@ -157,7 +157,7 @@ void flip_to_delaunay(const Points& points, Triangles& triangles, Edges& edges)
 
 } // namespace
 
-engine::Mesh make_even_mesh(const Surface& surface)
+voile::engine::Mesh make_even_mesh(const Surface& surface)
 {
     Box box;
     std::vector<bool> is_fixed;
@@ -174,7 +174,7 @@ engine::Mesh make_even_mesh(const Surface& surface)
     }
     flip_to_delaunay(box.points, box.triangles, edges);
 
-    engine::Mesh mesh;
+    voile::engine::Mesh mesh;
     mesh.positions.assign(box.points.begin(), box.points.end());
     mesh.triangles = std::move(box.triangles);
     return mesh;

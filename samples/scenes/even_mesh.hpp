@@ -1,7 +1,7 @@
 // Even triangles on a closed surface that a sphere can be mapped to.
 #pragma once
 
-#include "engine/assets/mesh.hpp"
+#include "voile/engine/assets/mesh.hpp"
 
 #include <functional>
 
@@ -21,6 +21,6 @@ struct Surface
 // Then, in turn, vertices move to the middle of their triangles and edges flip until they are Delaunay's, which makes
 // triangles nearly equilateral and of one size (Alliez et al. 2003, "Isotropic surface remeshing"). The two vertices on
 // the y axis stay where they are.
-engine::Mesh make_even_mesh(const Surface& surface);
+voile::engine::Mesh make_even_mesh(const Surface& surface);
 
 } // namespace scenes

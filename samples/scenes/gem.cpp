@@ -42,7 +42,7 @@ std::array<Face, 20> icosahedron()
     return faces;
 }
 
-void add_face(engine::Mesh& mesh, const Face& face)
+void add_face(voile::engine::Mesh& mesh, const Face& face)
 {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), face.begin(), face.end());
@@ -51,9 +51,9 @@ void add_face(engine::Mesh& mesh, const Face& face)
 
 } // namespace
 
-engine::Mesh make_gem()
+voile::engine::Mesh make_gem()
 {
-    engine::Mesh mesh;
+    voile::engine::Mesh mesh;
     for (const Face& face : icosahedron())
     {
         Face between;
@@ -66,12 +66,12 @@ engine::Mesh make_gem()
     return mesh;
 }
 
-engine::Mesh make_jelly(double seconds)
+voile::engine::Mesh make_jelly(double seconds)
 {
     const double around = 2 * std::numbers::pi * seconds;
     const auto height = static_cast<float>(0.83 + 0.17 * std::cos(around / 1.6)); // of the gem's
     const auto sway = static_cast<float>(0.35 * std::sin(around / 2.5));          // 1/m
-    engine::Mesh mesh = make_gem();
+    voile::engine::Mesh mesh = make_gem();
     for (glm::vec3& p : mesh.positions)
     {
         const float y = height * (p.y + k_corner);

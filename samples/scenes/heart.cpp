@@ -11,7 +11,7 @@ namespace scenes
 namespace
 {
 
-// The reference heart's box, in metres.
+// The reference heart's box, in meters.
 constexpr glm::dvec3 k_box_min{3.385, 1.507, 5.958};
 constexpr glm::dvec3 k_box_max{6.615, 4.534, 8.042};
 
@@ -74,9 +74,9 @@ glm::dvec3 reference_from_space(const glm::dvec3& p)
     return reference_from_sphere(glm::normalize(s));
 }
 
-void stretch_to_box(engine::Mesh& mesh, const glm::dvec3& min, const glm::dvec3& max)
+void stretch_to_box(voile::engine::Mesh& mesh, const glm::dvec3& min, const glm::dvec3& max)
 {
-    const engine::Bounds box = engine::bounds(mesh);
+    const voile::engine::Bounds box = voile::engine::bounds(mesh);
     const glm::dvec3 from = box.min;
     const glm::dvec3 size = glm::dvec3(box.max) - from;
     for (glm::vec3& p : mesh.positions)
@@ -103,29 +103,29 @@ glm::dvec3 drape_from_space(const glm::dvec3& p)
 
 } // namespace
 
-engine::Mesh make_reference_heart()
+voile::engine::Mesh make_reference_heart()
 {
-    engine::Mesh mesh = make_even_mesh({reference_from_sphere, reference_from_space});
+    voile::engine::Mesh mesh = make_even_mesh({reference_from_sphere, reference_from_space});
     stretch_to_box(mesh, k_box_min, k_box_max);
     return mesh;
 }
 
-engine::Mesh make_drape_heart()
+voile::engine::Mesh make_drape_heart()
 {
-    engine::Mesh mesh = make_even_mesh({drape_from_space, drape_from_space});
+    voile::engine::Mesh mesh = make_even_mesh({drape_from_space, drape_from_space});
     for (glm::vec3& p : mesh.positions)
         p *= 0.6f;
     return mesh;
 }
 
-engine::Mesh make_ground()
+voile::engine::Mesh make_ground()
 {
     constexpr uint32_t k_side = 50; // vertices
-    constexpr double k_size = 100.; // metres
-    constexpr double k_centre = 5.08;
-    engine::Mesh mesh;
+    constexpr double k_size = 100.; // meters
+    constexpr double k_center = 5.08;
+    voile::engine::Mesh mesh;
     const auto coordinate = [](uint32_t i)
-    { return static_cast<float>(k_centre + k_size * (static_cast<double>(i) / (k_side - 1) - 0.5)); };
+    { return static_cast<float>(k_center + k_size * (static_cast<double>(i) / (k_side - 1) - 0.5)); };
     for (uint32_t row = 0; row < k_side; ++row)
         for (uint32_t column = 0; column < k_side; ++column)
             mesh.positions.emplace_back(coordinate(column), 0.f, coordinate(row));

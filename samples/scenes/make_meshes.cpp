@@ -2,7 +2,7 @@
 #include "gem.hpp"
 #include "heart.hpp"
 
-#include "engine/assets/obj.hpp"
+#include "voile/engine/assets/obj.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -12,9 +12,9 @@
 namespace
 {
 
-bool save(const std::filesystem::path& path, const engine::Mesh& mesh)
+bool save(const std::filesystem::path& path, const voile::engine::Mesh& mesh)
 {
-    const gpu::Result<void> saved = engine::save_obj(path, mesh);
+    const voile::gpu::Result<void> saved = voile::engine::save_obj(path, mesh);
     if (!saved)
         std::fprintf(stderr, "make_meshes: %s\n", saved.error().message.c_str());
     return saved.ok();

@@ -4,8 +4,8 @@
 #include "samples/viewer/materials.hpp"
 #include "samples/viewer/text.hpp"
 
-#include "engine/assets/load_mesh.hpp"
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/load_mesh.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <utility>
 
@@ -22,7 +22,7 @@ struct Vertices
     uint32_t rows = 0;
 };
 
-std::vector<glm::vec3> grid_places(const cloth::Grid& grid)
+std::vector<glm::vec3> grid_places(const voile::GridCloth& grid)
 {
     std::vector<glm::vec3> places;
     places.reserve(size_t{grid.columns} * grid.rows);
@@ -76,13 +76,13 @@ std::vector<uint32_t> pinned_vertices(const Vertices& vertices, const PinEntry& 
 }
 
 // The holds of all pins; where two pins name a vertex, the later one holds it.
-gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                           const Vertices& vertices, AddedCloth& added)
+voile::gpu::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                  const Vertices& vertices, AddedCloth& added)
 {
-    std::vector<std::optional<cloth::Hold>> held(vertices.start.size());
+    std::vector<std::optional<voile::Hold>> held(vertices.start.size());
     for (const PinEntry& pin : entry.pins)
     {
-        cloth::Hold hold;
+        voile::Hold hold;
         if (pin.motion)
         {
             auto anchor = solver.add_anchor(matrix(*pin.motion, 0));
@@ -102,8 +102,8 @@ gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const 
         {
             if (vertex >= vertices.start.size())
                 return error_at(scene, pin.place,
-                          "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
-                              ", but it has " + std::to_string(vertices.start.size()) + " vertices");
+                                "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
+                                    ", but it has " + std::to_string(vertices.start.size()) + " vertices");
             hold.vertex = vertex;
             hold.place.reset();
             if (hold.anchor) // as seen from the anchor, which is at its place of time 0
@@ -111,23 +111,23 @@ gpu::Result<void> add_pins(cloth::Solver& solver, const SceneFile& scene, const 
             held[vertex] = hold;
         }
     }
-    std::vector<cloth::Hold> holds;
-    for (const std::optional<cloth::Hold>& hold : held)
+    std::vector<voile::Hold> holds;
+    for (const std::optional<voile::Hold>& hold : held)
         if (hold)
             holds.push_back(*hold);
     if (auto set = solver.set_holds(added.id, holds); !set)
         return error_at(scene, entry.place, set.error().message);
     if (!entry.tethers)
         return {};
-    if (auto set = solver.set_tethers(added.id, cloth::Tethers{*entry.tethers}); !set)
+    if (auto set = solver.set_tethers(added.id, voile::Tethers{*entry.tethers}); !set)
         return error_at(scene, entry.place, set.error().message);
     return {};
 }
 
-gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                     const GridEntry& form, const Options& options, Vertices& vertices)
+voile::gpu::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                            const GridEntry& form, const Options& options, Vertices& vertices)
 {
-    cloth::Grid grid;
+    voile::GridCloth grid;
     grid.name = entry.name;
     grid.columns = options.cloth_resolution.value_or(form.columns);
     grid.rows = options.cloth_resolution.value_or(form.rows);
@@ -136,7 +136,7 @@ gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& sce
     grid.transform = matrix(entry.transform);
     grid.velocity = entry.velocity;
     grid.layers = entry.layers;
-    grid.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
+    grid.integrator = entry.integrator == Integrator::verlet ? voile::Integrator::verlet : voile::Integrator::rk4;
     auto material = make_cloth_material(
         scene, entry.material,
         glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
@@ -148,7 +148,7 @@ gpu::Result<cloth::ClothId> add_grid(cloth::Solver& solver, const SceneFile& sce
     return id ? id : error_at(scene, entry.place, id.error().message);
 }
 
-void tell(const cloth::MeshReport& report, const std::string& name)
+void tell(const voile::MeshReport& report, const std::string& name)
 {
     std::string odd;
     const auto add = [&](uint32_t count, const char* what)
@@ -165,32 +165,32 @@ void tell(const cloth::MeshReport& report, const std::string& name)
         note("cloth " + in_quotes(name) + ": " + odd);
 }
 
-gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                     const std::filesystem::path& file, Vertices& vertices)
+voile::gpu::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                            const std::filesystem::path& file, Vertices& vertices)
 {
-    engine::MeshReport changes;
-    auto loaded = engine::load_mesh(file, &changes, engine::MeshVertices::positions);
+    voile::engine::MeshReport changes;
+    auto loaded = voile::engine::load_mesh(file, &changes, voile::engine::MeshVertices::positions);
     if (!loaded)
         return error_at(scene, entry.place, loaded.error().message);
-    const engine::Mesh& mesh = loaded.value();
+    const voile::engine::Mesh& mesh = loaded.value();
     auto material = make_cloth_material(scene, entry.material, std::nullopt);
     if (!material)
         return material.error();
-    cloth::MeshCloth cloth;
+    voile::MeshCloth cloth;
     cloth.name = entry.name;
     cloth.positions = mesh.positions;
     cloth.triangles = mesh.triangles;
     cloth.transform = matrix(entry.transform);
     cloth.velocity = entry.velocity;
     cloth.layers = entry.layers;
-    cloth.integrator = entry.integrator == Integrator::verlet ? cloth::Integrator::verlet : cloth::Integrator::rk4;
+    cloth.integrator = entry.integrator == Integrator::verlet ? voile::Integrator::verlet : voile::Integrator::rk4;
     cloth.material = material.value();
     for (const glm::vec3& p : mesh.positions)
         vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
     auto id = solver.add_cloth(cloth);
     if (!id)
-        return error_at(scene, entry.place, engine::path_text(file) + ": " + id.error().message);
-    cloth::MeshReport report = solver.mesh_report(id.value());
+        return error_at(scene, entry.place, voile::engine::path_text(file) + ": " + id.error().message);
+    voile::MeshReport report = solver.mesh_report(id.value());
     report.degenerate_triangles += changes.degenerate_triangles;
     tell(report, entry.name);
     return id;
@@ -198,8 +198,8 @@ gpu::Result<cloth::ClothId> add_mesh(cloth::Solver& solver, const SceneFile& sce
 
 } // namespace
 
-gpu::Result<AddedCloth> add_cloth(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                  const Options& options)
+voile::gpu::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                         const Options& options)
 {
     Vertices vertices;
     const auto* form = std::get_if<GridEntry>(&entry.form);

@@ -4,7 +4,7 @@
 #include "samples/viewer/options.hpp"
 #include "samples/viewer/scene_file.hpp"
 
-#include "cloth/solver.hpp"
+#include "voile/solver.hpp"
 
 namespace viewer
 {
@@ -12,20 +12,20 @@ namespace viewer
 // Pins that move together.
 struct MovingPin
 {
-    cloth::AnchorId anchor; // the identity at time 0
+    voile::AnchorId anchor; // the identity at time 0
     MotionEntry motion;
 };
 
 struct AddedCloth
 {
-    cloth::ClothId id;
+    voile::ClothId id;
     std::vector<glm::vec3> start; // m, where its vertices are before the first step
     std::vector<MovingPin> moving_pins;
 };
 
 // Reads the mesh, if it has one, and adds the cloth with its pins and tethers. What is odd about a mesh goes to
 // standard error, in one line. Errors name the file and the place in it.
-gpu::Result<AddedCloth> add_cloth(cloth::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                  const Options& options);
+voile::gpu::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                         const Options& options);
 
 } // namespace viewer

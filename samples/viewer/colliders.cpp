@@ -1,8 +1,8 @@
 // Loading and placing the solids.
 #include "samples/viewer/colliders.hpp"
 
-#include "engine/assets/load_mesh.hpp"
-#include "gpu/printable.hpp"
+#include "voile/engine/assets/load_mesh.hpp"
+#include "voile/gpu/printable.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -14,9 +14,9 @@ namespace viewer
 namespace
 {
 
-engine::Bounds transformed(const engine::Bounds& box, const glm::mat4& transform)
+voile::engine::Bounds transformed(const voile::engine::Bounds& box, const glm::mat4& transform)
 {
-    engine::Bounds result{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    voile::engine::Bounds result{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::vec3 p((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
@@ -29,16 +29,16 @@ engine::Bounds transformed(const engine::Bounds& box, const glm::mat4& transform
 }
 
 // The box around a cloth at the start. Of a mesh that cannot be read, which is told later, a point.
-engine::Bounds cloth_bounds(const ClothEntry& cloth)
+voile::engine::Bounds cloth_bounds(const ClothEntry& cloth)
 {
-    engine::Bounds box;
+    voile::engine::Bounds box;
     if (const auto* grid = std::get_if<GridEntry>(&cloth.form))
     {
         const glm::vec3 half(0.5f * grid->size.x, 0, 0.5f * grid->size.y);
         box = {-half, half};
     }
-    else if (const auto mesh = engine::load_mesh(std::get<std::filesystem::path>(cloth.form)))
-        box = engine::bounds(mesh.value());
+    else if (const auto mesh = voile::engine::load_mesh(std::get<std::filesystem::path>(cloth.form)))
+        box = voile::engine::bounds(mesh.value());
     return transformed(box, matrix(cloth.transform));
 }
 
@@ -67,7 +67,7 @@ BoxShape scaled(const BoxShape& box, float scale)
 }
 
 // The solver is told of both ends of a frame and takes the shorter way between them.
-gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
+voile::gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
 {
     const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
     if (spin.x + spin.y + spin.z < 180 * scene.step.rate)
@@ -75,26 +75,26 @@ gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
     return error_at(scene, {entry.place.line, entry.place.path + ".motion.spin"}, "is half a turn per frame or more");
 }
 
-gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
+voile::gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
 {
     auto loaded = MeshSequence::load(*entry.frames, std::get<MeshShape>(entry.shape).file);
     if (!loaded)
         return loaded.error();
     const auto frames = std::make_shared<const MeshSequence>(std::move(loaded.value()));
-    return Solid{.name = gpu::printable(entry.frames->pattern.stem().string()),
+    return Solid{.name = voile::gpu::printable(entry.frames->pattern.stem().string()),
                  .shape = frames->first(),
                  .transform = matrix(entry.transform),
                  .frames = frames};
 }
 
-gpu::Result<Solid> load_shape(const ColliderEntry& entry)
+voile::gpu::Result<Solid> load_shape(const ColliderEntry& entry)
 {
     if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
     {
-        auto loaded = engine::load_mesh(mesh->file);
+        auto loaded = voile::engine::load_mesh(mesh->file);
         if (!loaded)
             return loaded.error();
-        return Solid{.name = gpu::printable(mesh->file.stem().string()),
+        return Solid{.name = voile::gpu::printable(mesh->file.stem().string()),
                      .shape = std::move(loaded.value()),
                      .transform = matrix(entry.transform)};
     }
@@ -109,7 +109,7 @@ gpu::Result<Solid> load_shape(const ColliderEntry& entry)
     return Solid{.name = "box", .shape = scaled(std::get<BoxShape>(entry.shape), scale), .transform = transform};
 }
 
-gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
+voile::gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
 {
     if (auto spin = check_spin(scene, entry); !spin)
         return spin.error();
@@ -128,13 +128,13 @@ gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry
 
 bool is_replaced(const Solid& solid)
 {
-    return std::holds_alternative<engine::Mesh>(solid.shape) && !solid.is_ground();
+    return std::holds_alternative<voile::engine::Mesh>(solid.shape) && !solid.is_ground();
 }
 
 // Where the scene's meshes stand, above the ground; without one, a cube below the cloths that they cover.
-engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& solids)
+voile::engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& solids)
 {
-    std::optional<engine::Bounds> box;
+    std::optional<voile::engine::Bounds> box;
     for (const Solid& solid : solids)
         if (is_replaced(solid))
             box = merge(box, *solid.bounds());
@@ -145,7 +145,7 @@ engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& so
                 box->min.y = std::max(box->min.y, *height);
         return *box;
     }
-    std::optional<engine::Bounds> cloths;
+    std::optional<voile::engine::Bounds> cloths;
     for (const ClothEntry& cloth : scene.cloths)
         cloths = merge(cloths, cloth_bounds(cloth));
     const glm::vec3 size = cloths->max - cloths->min;
@@ -157,17 +157,17 @@ engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& so
 }
 
 // The i-th of n equal parts along the longer horizontal side.
-engine::Bounds part_of(const engine::Bounds& box, size_t i, size_t n)
+voile::engine::Bounds part_of(const voile::engine::Bounds& box, size_t i, size_t n)
 {
     const int axis = box.max.x - box.min.x >= box.max.z - box.min.z ? 0 : 2;
     const float width = (box.max[axis] - box.min[axis]) / static_cast<float>(n);
-    engine::Bounds part = box;
+    voile::engine::Bounds part = box;
     part.min[axis] = box.min[axis] + static_cast<float>(i) * width;
     part.max[axis] = part.min[axis] + width;
     return part;
 }
 
-glm::mat4 fit(const engine::Bounds& mesh, const engine::Bounds& box)
+glm::mat4 fit(const voile::engine::Bounds& mesh, const voile::engine::Bounds& box)
 {
     float scale = INFINITY;
     for (int axis = 0; axis < 3; ++axis)
@@ -185,7 +185,7 @@ glm::mat4 fit(const engine::Bounds& mesh, const engine::Bounds& box)
 bool Solid::is_ground() const
 {
     const auto box = bounds();
-    if (!box || !std::holds_alternative<engine::Mesh>(shape) || frames)
+    if (!box || !std::holds_alternative<voile::engine::Mesh>(shape) || frames)
         return false;
     const glm::vec3 size = box->max - box->min;
     return size.y <= 1e-3f * std::max(size.x, size.z);
@@ -198,25 +198,25 @@ std::optional<float> Solid::ground_height() const
     return is_ground() ? std::optional(bounds()->max.y) : std::nullopt;
 }
 
-std::optional<engine::Bounds> Solid::bounds() const
+std::optional<voile::engine::Bounds> Solid::bounds() const
 {
     const auto placed = [&](const glm::vec3& p) { return glm::vec3(transform * glm::vec4(p, 1)); };
-    if (const auto* mesh = std::get_if<engine::Mesh>(&shape))
-        return transformed(engine::bounds(*mesh), transform);
+    if (const auto* mesh = std::get_if<voile::engine::Mesh>(&shape))
+        return transformed(voile::engine::bounds(*mesh), transform);
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        return engine::Bounds{placed(sphere->center) - sphere->radius, placed(sphere->center) + sphere->radius};
+        return voile::engine::Bounds{placed(sphere->center) - sphere->radius, placed(sphere->center) + sphere->radius};
     if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
     {
         const glm::vec3 from = placed(capsule->from);
         const glm::vec3 to = placed(capsule->to);
-        return engine::Bounds{glm::min(from, to) - capsule->radius, glm::max(from, to) + capsule->radius};
+        return voile::engine::Bounds{glm::min(from, to) - capsule->radius, glm::max(from, to) + capsule->radius};
     }
     if (const auto* box = std::get_if<BoxShape>(&shape))
         return transformed({box->min, box->max}, transform);
     return std::nullopt;
 }
 
-std::optional<engine::Bounds> Solid::reach() const
+std::optional<voile::engine::Bounds> Solid::reach() const
 {
     const auto still = frames ? transformed(frames->bounds(), transform) : bounds();
     if (!still || !motion)
@@ -226,18 +226,18 @@ std::optional<engine::Bounds> Solid::reach() const
     const float spin = glm::length(there.spin);
     const float period = std::max(spin > 0 ? 360 / spin : 0.f, there.sway ? there.sway->period : 0.f);
     constexpr int k_samples = 64;
-    engine::Bounds all = *still;
+    voile::engine::Bounds all = *still;
     for (int i = 0; i < k_samples; ++i)
         all = merge(all, transformed(*still, matrix(there, static_cast<double>(period) * i / k_samples)));
     return all;
 }
 
-engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b)
+voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const voile::engine::Bounds& b)
 {
-    return a ? engine::Bounds{glm::min(a->min, b.min), glm::max(a->max, b.max)} : b;
+    return a ? voile::engine::Bounds{glm::min(a->min, b.min), glm::max(a->max, b.max)} : b;
 }
 
-gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
+voile::gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
 {
     std::vector<Solid> solids;
     for (const ColliderEntry& entry : scene.colliders)
@@ -250,19 +250,19 @@ gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Option
     if (options.colliders.empty())
         return solids;
 
-    const engine::Bounds box = collider_box(scene, solids);
+    const voile::engine::Bounds box = collider_box(scene, solids);
     const auto replaced = std::find_if(solids.begin(), solids.end(), is_replaced);
     const auto motion = replaced != solids.end() ? replaced->motion : std::nullopt;
     const uint32_t layers = replaced != solids.end() ? replaced->layers : ~0u;
     std::erase_if(solids, is_replaced);
     for (size_t i = 0; i < options.colliders.size(); ++i)
     {
-        auto mesh = engine::load_mesh(options.colliders[i]);
+        auto mesh = voile::engine::load_mesh(options.colliders[i]);
         if (!mesh)
             return mesh.error();
         Solid solid;
-        solid.name = gpu::printable(options.colliders[i].stem().string());
-        solid.transform = fit(engine::bounds(mesh.value()), part_of(box, i, options.colliders.size()));
+        solid.name = voile::gpu::printable(options.colliders[i].stem().string());
+        solid.transform = fit(voile::engine::bounds(mesh.value()), part_of(box, i, options.colliders.size()));
         solid.shape = std::move(mesh.value());
         solid.motion = motion;
         solid.layers = layers;

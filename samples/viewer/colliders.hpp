@@ -5,7 +5,7 @@
 #include "samples/viewer/options.hpp"
 #include "samples/viewer/scene_file.hpp"
 
-#include "engine/assets/mesh.hpp"
+#include "voile/engine/assets/mesh.hpp"
 
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace viewer
 struct Solid
 {
     std::string name;
-    std::variant<engine::Mesh, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
+    std::variant<voile::engine::Mesh, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
     glm::mat4 transform{1.f}; // world from shape, at time 0; of all but a mesh rigid, their scale is in the shape
     std::optional<FrictionEntry> friction{};
     std::optional<MotionEntry> motion{};
@@ -29,17 +29,17 @@ struct Solid
     // Of a plane or a mesh that is level.
     [[nodiscard]] std::optional<float> ground_height() const;
     // In the scene at time 0. A plane has none.
-    [[nodiscard]] std::optional<engine::Bounds> bounds() const;
+    [[nodiscard]] std::optional<voile::engine::Bounds> bounds() const;
     // Of all forms that it takes, at all places that it spins and sways through; its velocity is not looked at.
-    [[nodiscard]] std::optional<engine::Bounds> reach() const;
+    [[nodiscard]] std::optional<voile::engine::Bounds> reach() const;
 };
 
 // Loads all meshes. The files of --collider take the place of the scene's meshes (its ground stays): each is scaled
-// evenly, centred and set on the floor of the box that those filled, side by side where there are several. In a scene
+// evenly, centerd and set on the floor of the box that those filled, side by side where there are several. In a scene
 // without such a mesh the box lies below the cloths. They move, and meet cloth, as the first of the meshes did whose
 // place they take; they do not deform. Errors name the file.
-gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
+voile::gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
-engine::Bounds merge(const std::optional<engine::Bounds>& a, const engine::Bounds& b);
+voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const voile::engine::Bounds& b);
 
 } // namespace viewer

@@ -14,10 +14,10 @@ constexpr glm::vec3 k_box_color{0.02f, 0.25f, 0.9f}; // linear, as all of them
 constexpr glm::vec3 k_contact_color{1.f, 0.75f, 0.02f};
 constexpr glm::vec3 k_normal_color{0.1f, 0.8f, 0.25f};
 constexpr float k_normal_length = 0.02f; // of the cloth's longest side
-constexpr uint32_t k_touches = 1 | 4;    // in the w of a velocity, see cloth::VertexStreams
+constexpr uint32_t k_touches = 1 | 4;    // in the w of a velocity, see voile::VertexStreams
 
 // The twelve edges of a box.
-void add_edges(const cloth::BoundingBox& box, std::vector<glm::vec4>& from, std::vector<glm::vec4>& to)
+void add_edges(const voile::BoundingBox& box, std::vector<glm::vec4>& from, std::vector<glm::vec4>& to)
 {
     const auto corner = [&](int bits)
     {
@@ -53,7 +53,7 @@ void tell_no_boxes(const Solid& solid)
 
 } // namespace
 
-DebugView::DebugView(engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
+DebugView::DebugView(voile::engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
                      const DebugOptions& options)
     : world_(*stage.world), motions_(*stage.motions), options_(options)
 {
@@ -64,11 +64,11 @@ DebugView::DebugView(engine::App& app, const Stage& stage, const std::vector<Sol
             solids[i].frames ? tell_no_boxes(solids[i]) : add_boxes(app, stage, i, *options.boxes);
 }
 
-void DebugView::add_boxes(engine::App& app, const Stage& stage, size_t solid, uint32_t level)
+void DebugView::add_boxes(voile::engine::App& app, const Stage& stage, size_t solid, uint32_t level)
 {
     std::vector<glm::vec4> from;
     std::vector<glm::vec4> to;
-    for (const cloth::BoundingBox& box : world_.solver().hierarchy_boxes(stage.colliders[solid], level))
+    for (const voile::BoundingBox& box : world_.solver().hierarchy_boxes(stage.colliders[solid], level))
         add_edges(box, from, to);
     if (from.empty()) // no mesh
         return;
@@ -79,37 +79,37 @@ void DebugView::add_boxes(engine::App& app, const Stage& stage, size_t solid, ui
     boxes.edges = static_cast<uint32_t>(from.size());
 }
 
-void DebugView::record_draw(VkCommandBuffer cmd, engine::View& view)
+void DebugView::record_draw(VkCommandBuffer cmd, voile::engine::View& view)
 {
     for (const Boxes& boxes : boxes_)
-        view.draw(cmd, engine::Lines{.from = boxes.from.handle(),
-                                     .to = boxes.to.handle(),
-                                     .count = boxes.edges,
-                                     .color = k_box_color,
-                                     .model = motions_.pose(boxes.solid),
-                                     .label = "boxes"});
+        view.draw(cmd, voile::engine::Lines{.from = boxes.from.handle(),
+                                            .to = boxes.to.handle(),
+                                            .count = boxes.edges,
+                                            .color = k_box_color,
+                                            .model = motions_.pose(boxes.solid),
+                                            .label = "boxes"});
     for (const Cloth& cloth : cloths_)
     {
-        const cloth::VertexStreams streams = world_.solver().vertices(cloth.id);
+        const voile::VertexStreams streams = world_.solver().vertices(cloth.id);
         if (options_.normals)
-            view.draw(cmd, engine::Lines{.from = streams.positions,
-                                         .to = streams.normals,
-                                         .from_offset = streams.offset,
-                                         .to_offset = streams.offset,
-                                         .count = streams.vertices,
-                                         .length = cloth.normal_length,
-                                         .width = 1.5f,
-                                         .color = k_normal_color,
-                                         .label = "normals"});
+            view.draw(cmd, voile::engine::Lines{.from = streams.positions,
+                                                .to = streams.normals,
+                                                .from_offset = streams.offset,
+                                                .to_offset = streams.offset,
+                                                .count = streams.vertices,
+                                                .length = cloth.normal_length,
+                                                .width = 1.5f,
+                                                .color = k_normal_color,
+                                                .label = "normals"});
         if (options_.contacts)
-            view.draw(cmd, engine::Dots{.positions = streams.positions,
-                                        .flags = streams.velocities,
-                                        .position_offset = streams.offset,
-                                        .flag_offset = streams.offset,
-                                        .count = streams.vertices,
-                                        .mask = k_touches,
-                                        .color = k_contact_color,
-                                        .label = "contacts"});
+            view.draw(cmd, voile::engine::Dots{.positions = streams.positions,
+                                               .flags = streams.velocities,
+                                               .position_offset = streams.offset,
+                                               .flag_offset = streams.offset,
+                                               .count = streams.vertices,
+                                               .mask = k_touches,
+                                               .color = k_contact_color,
+                                               .label = "contacts"});
     }
 }
 

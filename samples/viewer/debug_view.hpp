@@ -9,30 +9,31 @@ namespace viewer
 // Boxes of the hierarchies of mesh colliders, moving with them (of one that deforms a note that there are none);
 // vertices that touch a collider; vertex normals. The
 // latter two are drawn from the solver's own buffers. Lives as long as the stage's solver and motions.
-class DebugView : public engine::Component
+class DebugView : public voile::engine::Component
 {
 public:
-    DebugView(engine::App& app, const Stage& stage, const std::vector<Solid>& solids, const DebugOptions& options);
+    DebugView(voile::engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
+              const DebugOptions& options);
 
-    void record_draw(VkCommandBuffer cmd, engine::View& view) override;
+    void record_draw(VkCommandBuffer cmd, voile::engine::View& view) override;
 
 private:
     struct Boxes // of one solid
     {
         size_t solid = 0;
-        gpu::Buffer from; // of their edges
-        gpu::Buffer to;
+        voile::gpu::Buffer from; // of their edges
+        voile::gpu::Buffer to;
         uint32_t edges = 0;
     };
     struct Cloth
     {
-        cloth::ClothId id;
+        voile::ClothId id;
         float normal_length = 0; // m
     };
 
-    void add_boxes(engine::App& app, const Stage& stage, size_t solid, uint32_t level);
+    void add_boxes(voile::engine::App& app, const Stage& stage, size_t solid, uint32_t level);
 
-    cloth::component::ClothWorld& world_;
+    voile::component::ClothWorld& world_;
     const Motions& motions_;
     DebugOptions options_;
     std::vector<Boxes> boxes_;

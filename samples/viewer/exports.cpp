@@ -2,7 +2,7 @@
 
 #include "samples/viewer/text.hpp"
 
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,10 +39,10 @@ std::optional<size_t> first_not_finite(std::span<const glm::vec3> values)
     return std::nullopt;
 }
 
-gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
+voile::gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
 {
     const auto error = [&](const std::string& reason)
-    { return gpu::Error{engine::path_text(path) + ": cloth " + in_quotes(surface.name) + " " + reason}; };
+    { return voile::gpu::Error{voile::engine::path_text(path) + ": cloth " + in_quotes(surface.name) + " " + reason}; };
     const size_t count = surface.positions.size();
     if (count > k_most_int32 || surface.triangles.size() > k_most_int32)
         return error("has too many vertices or triangles for the format");
@@ -66,7 +66,7 @@ gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surfac
 class LineWriter
 {
 public:
-    explicit LineWriter(engine::AtomicFile& file) : file_(file) {}
+    explicit LineWriter(voile::engine::AtomicFile& file) : file_(file) {}
 
     void vector(std::string_view keyword, const glm::vec3& v)
     {
@@ -105,7 +105,7 @@ private:
         file_.write(text_);
     }
 
-    engine::AtomicFile& file_;
+    voile::engine::AtomicFile& file_;
     std::string text_;
 };
 
@@ -117,7 +117,7 @@ void put(std::string& bytes, const T& value)
 
 std::string ply_header(const ClothSurface& surface)
 {
-    std::string header = "ply\nformat binary_little_endian 1.0\ncomment metres, y up\nelement vertex " +
+    std::string header = "ply\nformat binary_little_endian 1.0\ncomment meters, y up\nelement vertex " +
                          std::to_string(surface.positions.size()) +
                          "\nproperty float x\nproperty float y\nproperty float z\n";
     if (!surface.normals.empty())
@@ -159,16 +159,16 @@ std::vector<fs::path> export_paths(const fs::path& path, const std::vector<std::
     return result;
 }
 
-gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& surface)
+voile::gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& surface)
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    gpu::Result<engine::AtomicFile> created = engine::AtomicFile::create(path);
+    voile::gpu::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
     if (!created)
         return created.error();
-    engine::AtomicFile& file = created.value();
+    voile::engine::AtomicFile& file = created.value();
     LineWriter lines(file);
-    file.write("# metres, y up\no " + gpu::printable(surface.name) + "\n");
+    file.write("# meters, y up\no " + voile::gpu::printable(surface.name) + "\n");
     for (const glm::vec3& position : surface.positions)
         lines.vector("v", position);
     for (const glm::vec3& normal : surface.normals)
@@ -178,14 +178,14 @@ gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& sur
     return file.commit();
 }
 
-gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& surface)
+voile::gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& surface)
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    gpu::Result<engine::AtomicFile> created = engine::AtomicFile::create(path);
+    voile::gpu::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
     if (!created)
         return created.error();
-    engine::AtomicFile& file = created.value();
+    voile::engine::AtomicFile& file = created.value();
     file.write(ply_header(surface));
     std::string bytes;
     for (size_t i = 0; i < surface.positions.size(); ++i)
@@ -205,11 +205,12 @@ gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& sur
     return file.commit();
 }
 
-gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const std::vector<ClothSurface>& surfaces)
+voile::gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path,
+                                                          const std::vector<ClothSurface>& surfaces)
 {
     const std::string extension = lower_extension(path);
     if (extension != ".obj" && extension != ".ply")
-        return gpu::Error{engine::path_text(path) + ": does not end in .obj or .ply"};
+        return voile::gpu::Error{voile::engine::path_text(path) + ": does not end in .obj or .ply"};
     std::vector<std::string> names;
     names.reserve(surfaces.size());
     for (const ClothSurface& surface : surfaces)
@@ -218,12 +219,12 @@ gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const s
     // All are checked before the first is written, so that bad data leaves no part of an export.
     for (size_t i = 0; i < surfaces.size(); ++i)
     {
-        if (const gpu::Result<void> sound = check_surface(paths[i], surfaces[i]); !sound)
+        if (const voile::gpu::Result<void> sound = check_surface(paths[i], surfaces[i]); !sound)
             return sound.error();
     }
     for (size_t i = 0; i < surfaces.size(); ++i)
     {
-        const gpu::Result<void> saved =
+        const voile::gpu::Result<void> saved =
             extension == ".obj" ? save_surface_obj(paths[i], surfaces[i]) : save_surface_ply(paths[i], surfaces[i]);
         if (!saved)
             return saved.error();
@@ -231,12 +232,12 @@ gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const s
     return paths;
 }
 
-gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uint32_t point_count, float start_frame,
-                                                       float sample_rate)
+voile::gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uint32_t point_count,
+                                                              float start_frame, float sample_rate)
 {
     if (point_count > k_most_int32)
-        return gpu::Error{engine::path_text(path) + ": too many points for the format"};
-    gpu::Result<engine::AtomicFile> file = engine::AtomicFile::create(path);
+        return voile::gpu::Error{voile::engine::path_text(path) + ": too many points for the format"};
+    voile::gpu::Result<voile::engine::AtomicFile> file = voile::engine::AtomicFile::create(path);
     if (!file)
         return file.error();
     std::string header("POINTCACHE2\0", 12);
@@ -249,10 +250,12 @@ gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uin
     return PointCacheWriter(std::move(file.value()), path, point_count);
 }
 
-gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
+voile::gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
 {
-    const auto error = [&](const std::string& reason)
-    { return gpu::Error{engine::path_text(path_) + ": sample " + std::to_string(samples_) + " " + reason}; };
+    const auto error = [&](const std::string& reason) {
+        return voile::gpu::Error{voile::engine::path_text(path_) + ": sample " + std::to_string(samples_) + " " +
+                                 reason};
+    };
     if (positions.size() != points_)
         return error("has " + std::to_string(positions.size()) + " points instead of " + std::to_string(points_));
     if (const auto vertex = first_not_finite(positions))
@@ -266,7 +269,7 @@ gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
     return {};
 }
 
-gpu::Result<void> PointCacheWriter::finish()
+voile::gpu::Result<void> PointCacheWriter::finish()
 {
     const auto count = static_cast<int32_t>(samples_);
     file_.seek(k_sample_count_offset);

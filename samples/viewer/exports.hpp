@@ -1,9 +1,9 @@
 // Cloths as files: a state as OBJ or PLY, an animation as PC2. Vertices keep their order, coordinates are the scene's
-// (metres, y up). Every file appears under its name only when it is complete.
+// (meters, y up). Every file appears under its name only when it is complete.
 #pragma once
 
-#include "engine/assets/atomic_file.hpp"
-#include "gpu/result.hpp"
+#include "voile/engine/assets/atomic_file.hpp"
+#include "voile/gpu/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -31,14 +31,14 @@ std::vector<std::filesystem::path> export_paths(const std::filesystem::path& pat
 
 // Text; numbers with as many digits as bring the same float back. Errors: a value that is not finite, an index out of
 // range, a wrong number of normals, and whatever the file system says.
-gpu::Result<void> save_surface_obj(const std::filesystem::path& path, const ClothSurface& surface);
+voile::gpu::Result<void> save_surface_obj(const std::filesystem::path& path, const ClothSurface& surface);
 
 // Binary little endian: float x y z, with normals also float nx ny nz; faces as uchar count and int vertex_indices.
-gpu::Result<void> save_surface_ply(const std::filesystem::path& path, const ClothSurface& surface);
+voile::gpu::Result<void> save_surface_ply(const std::filesystem::path& path, const ClothSurface& surface);
 
 // All cloths, as OBJ or PLY by the extension of `path`. Returns the files written; none is where a cloth is unsound.
-gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std::filesystem::path& path,
-                                                                const std::vector<ClothSurface>& surfaces);
+voile::gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std::filesystem::path& path,
+                                                                       const std::vector<ClothSurface>& surfaces);
 
 // PC2 point cache (as Blender's Mesh Cache modifier reads it), one sample a call. Little endian: "POINTCACHE2\0", int32
 // version 1, int32 points, float start frame, float sample rate (frames between samples), int32 samples; then the
@@ -46,24 +46,24 @@ gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std::files
 class PointCacheWriter
 {
 public:
-    static gpu::Result<PointCacheWriter> create(const std::filesystem::path& path, uint32_t point_count,
-                                                float start_frame = 0.f, float sample_rate = 1.f);
+    static voile::gpu::Result<PointCacheWriter> create(const std::filesystem::path& path, uint32_t point_count,
+                                                       float start_frame = 0.f, float sample_rate = 1.f);
 
     // Errors: another number of points, a value that is not finite, a full disk.
-    gpu::Result<void> append(std::span<const glm::vec3> positions);
+    voile::gpu::Result<void> append(std::span<const glm::vec3> positions);
 
     // Writes the number of samples and gives the file its name. Without it nothing is left behind.
-    gpu::Result<void> finish();
+    voile::gpu::Result<void> finish();
 
     [[nodiscard]] uint32_t samples() const { return samples_; }
 
 private:
-    PointCacheWriter(engine::AtomicFile file, std::filesystem::path path, uint32_t points)
+    PointCacheWriter(voile::engine::AtomicFile file, std::filesystem::path path, uint32_t points)
         : file_(std::move(file)), path_(std::move(path)), points_(points)
     {
     }
 
-    engine::AtomicFile file_;
+    voile::engine::AtomicFile file_;
     std::filesystem::path path_;
     uint32_t points_ = 0;
     uint32_t samples_ = 0;

@@ -1,6 +1,6 @@
 #include "samples/viewer/film.hpp"
 
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -27,9 +27,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-gpu::Error film_error(const fs::path& path, const std::string& reason)
+voile::gpu::Error film_error(const fs::path& path, const std::string& reason)
 {
-    return gpu::Error{engine::path_text(path) + ": no film: " + reason};
+    return voile::gpu::Error{voile::engine::path_text(path) + ": no film: " + reason};
 }
 
 std::vector<std::string> encoder_arguments(const FilmSettings& settings, const fs::path& file)
@@ -72,8 +72,7 @@ int spawn_encoder(std::vector<std::string> arguments, int input, int messages, p
     (void)sigemptyset(&ignored);
     (void)sigaddset(&ignored, SIGPIPE);
     (void)sigaddset(&ignored, SIGXFSZ);
-    (void)posix_spawnattr_setflags(&attributes,
-                                   POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     (void)posix_spawnattr_setpgroup(&attributes, 0);
     (void)posix_spawnattr_setsigmask(&attributes, &none);
     (void)posix_spawnattr_setsigdefault(&attributes, &ignored);
@@ -103,13 +102,13 @@ std::string first_line(std::FILE* file)
 
 } // namespace
 
-gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSettings& settings)
+voile::gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSettings& settings)
 {
     if (settings.width == 0 || settings.height == 0)
         return film_error(path, "a picture without pixels");
     if (!std::isfinite(settings.rate) || settings.rate <= 0)
         return film_error(path, "the frame rate is not positive");
-    const gpu::Result<fs::path> target = engine::resolve_target(path);
+    const voile::gpu::Result<fs::path> target = voile::engine::resolve_target(path);
     if (!target)
         return target.error();
 
@@ -128,13 +127,13 @@ gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSetti
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         return film_error(path, std::string("no socket: ") + std::strerror(errno));
     film.socket_ = ends[0];
-    film.temporary_ = engine::TemporaryFile(film.target_);
+    film.temporary_ = voile::engine::TemporaryFile(film.target_);
     const int problem = spawn_encoder(encoder_arguments(settings, film.temporary_.path()), ends[1],
                                       ::fileno(film.messages_), film.encoder_);
     close_descriptor(ends[1]);
     if (problem == 0)
     {
-        film.encoder_cleanup_ = std::make_unique<engine::Cleanup>(
+        film.encoder_cleanup_ = std::make_unique<voile::engine::Cleanup>(
             [encoder = film.encoder_]
             {
                 (void)::kill(-encoder, SIGKILL);
@@ -187,15 +186,16 @@ void FilmWriter::discard() noexcept
     temporary_.remove();
 }
 
-gpu::Error FilmWriter::encoder_error()
+voile::gpu::Error FilmWriter::encoder_error()
 {
     const std::string said = messages_ != nullptr ? first_line(messages_) : "";
-    const gpu::Error error = film_error(path_, said.empty() ? "the encoder left early" : "the encoder says: " + said);
+    const voile::gpu::Error error =
+        film_error(path_, said.empty() ? "the encoder left early" : "the encoder says: " + said);
     discard();
     return error;
 }
 
-gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
+voile::gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
 {
     if (socket_ < 0)
         return film_error(path_, "the film was ended already");
@@ -218,7 +218,7 @@ gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
     return {};
 }
 
-gpu::Result<void> FilmWriter::finish()
+voile::gpu::Result<void> FilmWriter::finish()
 {
     if (socket_ < 0)
         return film_error(path_, "the film was ended already");
@@ -230,7 +230,7 @@ gpu::Result<void> FilmWriter::finish()
     const int status = wait_for_encoder();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return encoder_error();
-    gpu::Result<void> completed = temporary_.complete(target_);
+    voile::gpu::Result<void> completed = temporary_.complete(target_);
     discard();
     return completed;
 }

@@ -1,8 +1,8 @@
 // Frames as an H.264 film (MP4), encoded by an ffmpeg that runs beside the program and reads them from a socket.
 #pragma once
 
-#include "engine/assets/atomic_file.hpp"
-#include "gpu/result.hpp"
+#include "voile/engine/assets/atomic_file.hpp"
+#include "voile/gpu/result.hpp"
 
 #include <sys/types.h>
 
@@ -28,7 +28,7 @@ class FilmWriter
 {
 public:
     // Starts the encoder. Errors: no ffmpeg, a size or rate of zero, a folder that is not there.
-    static gpu::Result<FilmWriter> create(const std::filesystem::path& path, const FilmSettings& settings);
+    static voile::gpu::Result<FilmWriter> create(const std::filesystem::path& path, const FilmSettings& settings);
 
     ~FilmWriter(); // without finish(), the encoder is stopped and nothing is left behind
     FilmWriter(FilmWriter&& other) noexcept;
@@ -38,24 +38,24 @@ public:
 
     // One frame: width * height * 4 bytes, rows from the top, sRGB; alpha is dropped. Blocks while the encoder is busy.
     // Errors: another number of bytes; what the encoder said when it left early.
-    gpu::Result<void> add(std::span<const uint8_t> rgba);
+    voile::gpu::Result<void> add(std::span<const uint8_t> rgba);
 
     // Waits for the encoder and gives the film its name. An error without any frame.
-    gpu::Result<void> finish();
+    voile::gpu::Result<void> finish();
 
 private:
     FilmWriter() = default;
-    gpu::Error encoder_error();
+    voile::gpu::Error encoder_error();
     int wait_for_encoder();
     void discard() noexcept;
 
-    std::filesystem::path path_;      // as asked for, for messages
-    std::filesystem::path target_;    // links followed
-    engine::TemporaryFile temporary_; // what ffmpeg writes
+    std::filesystem::path path_;             // as asked for, for messages
+    std::filesystem::path target_;           // links followed
+    voile::engine::TemporaryFile temporary_; // what ffmpeg writes
     size_t frame_bytes_ = 0;
     uint64_t frames_ = 0;
     pid_t encoder_ = -1;
-    std::unique_ptr<engine::Cleanup> encoder_cleanup_; // a signal that ends the program ends the encoder first
+    std::unique_ptr<voile::engine::Cleanup> encoder_cleanup_; // a signal that ends the program ends the encoder first
     int socket_ = -1;
     std::FILE* messages_ = nullptr; // an unnamed file that takes the encoder's standard error
 };

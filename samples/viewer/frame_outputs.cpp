@@ -1,8 +1,8 @@
 // FrameOutputs: copies while recording, files once the device is done.
 #include "samples/viewer/frame_outputs.hpp"
 
-#include "engine/assets/words.hpp"
-#include "gpu/recorder.hpp"
+#include "voile/engine/assets/words.hpp"
+#include "voile/gpu/recorder.hpp"
 
 #include <cmath>
 
@@ -11,17 +11,17 @@ namespace viewer
 namespace
 {
 
-gpu::Result<void> make_folder(const std::filesystem::path& folder)
+voile::gpu::Result<void> make_folder(const std::filesystem::path& folder)
 {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
     if (problem || !std::filesystem::is_directory(folder))
-        return gpu::Error{"--out: " + engine::path_text(folder) + ": cannot make the folder: " +
-                          (problem ? problem.message() : "a file of that name is in the way")};
+        return voile::gpu::Error{"--out: " + voile::engine::path_text(folder) + ": cannot make the folder: " +
+                                 (problem ? problem.message() : "a file of that name is in the way")};
     // Folders can be there and still not take files.
-    const auto probe = engine::AtomicFile::create(folder / "frame_0000.png");
+    const auto probe = voile::engine::AtomicFile::create(folder / "frame_0000.png");
     if (!probe)
-        return gpu::Error{"--out: " + probe.error().message};
+        return voile::gpu::Error{"--out: " + probe.error().message};
     return {};
 }
 
@@ -35,8 +35,8 @@ std::filesystem::path picture_name(uint64_t frame)
 
 } // namespace
 
-gpu::Result<FrameOutputs> FrameOutputs::create(engine::App& app, const Stage& stage, const SceneFile& scene,
-                                               const Options& options)
+voile::gpu::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, const Stage& stage,
+                                                      const SceneFile& scene, const Options& options)
 {
     FrameOutputs outputs;
     outputs.app_ = &app;
@@ -67,7 +67,8 @@ gpu::Result<FrameOutputs> FrameOutputs::create(engine::App& app, const Stage& st
     return outputs;
 }
 
-gpu::Result<void> FrameOutputs::create_caches(engine::App& app, const Stage& stage, const Options& options)
+voile::gpu::Result<void> FrameOutputs::create_caches(voile::engine::App& app, const Stage& stage,
+                                                     const Options& options)
 {
     std::vector<std::string> names;
     for (const StageCloth& cloth : stage.cloths)
@@ -82,9 +83,9 @@ gpu::Result<void> FrameOutputs::create_caches(engine::App& app, const Stage& sta
     }
     for (uint32_t slot = 0; slot < app.slots(); ++slot)
     {
-        auto buffer = gpu::create_buffer(app.device().context(), "positions readback",
-                                         solver_->vertex_count() * sizeof(glm::vec4), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                         gpu::Memory::readback);
+        auto buffer = voile::gpu::create_buffer(app.device().context(), "positions readback",
+                                                solver_->vertex_count() * sizeof(glm::vec4),
+                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, voile::gpu::Memory::readback);
         if (!buffer)
             return buffer.error();
         positions_.push_back(std::move(buffer.value()));
@@ -92,35 +93,35 @@ gpu::Result<void> FrameOutputs::create_caches(engine::App& app, const Stage& sta
     return {};
 }
 
-bool FrameOutputs::wants_picture(const engine::FrameInfo& frame) const
+bool FrameOutputs::wants_picture(const voile::engine::FrameInfo& frame) const
 {
     return film_ || (folder_ && frame.index % every_ == 0);
 }
 
-void FrameOutputs::record(VkCommandBuffer cmd, const engine::FrameInfo& frame) const
+void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) const
 {
     if (wants_picture(frame))
         pictures_->record(cmd, app_->renderer().color(), frame.slot);
     if (caches_.empty())
         return;
-    const gpu::Context& context = app_->device().context();
-    const gpu::LabelScope scope(context, cmd, "positions readback");
-    const cloth::VertexStreams streams = solver_->vertices(caches_.front().cloth);
+    const voile::gpu::Context& context = app_->device().context();
+    const voile::gpu::LabelScope scope(context, cmd, "positions readback");
+    const voile::VertexStreams streams = solver_->vertices(caches_.front().cloth);
     const VkBufferCopy region{0, 0, positions_[frame.slot].size()};
     context.fn.vkCmdCopyBuffer(cmd, streams.positions, positions_[frame.slot].handle(), 1, &region);
-    gpu::Recorder(context, cmd)
+    voile::gpu::Recorder(context, cmd)
         .barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
                  VK_ACCESS_2_HOST_READ_BIT_KHR);
 }
 
-gpu::Result<void> FrameOutputs::write(const engine::FrameInfo& frame)
+voile::gpu::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& frame)
 {
     if (wants_picture(frame))
     {
-        const engine::Picture picture = pictures_->picture(frame.slot);
+        const voile::engine::Picture picture = pictures_->picture(frame.slot);
         if (folder_ && frame.index % every_ == 0)
         {
-            if (auto saved = engine::save_png(*folder_ / picture_name(frame.index), picture); !saved)
+            if (auto saved = voile::engine::save_png(*folder_ / picture_name(frame.index), picture); !saved)
                 return saved;
             ++pictures_written_;
         }
@@ -132,8 +133,8 @@ gpu::Result<void> FrameOutputs::write(const engine::FrameInfo& frame)
     }
     for (Cache& cache : caches_)
     {
-        const cloth::VertexStreams streams = solver_->vertices(cache.cloth);
-        const gpu::Buffer& buffer = positions_[frame.slot];
+        const voile::VertexStreams streams = solver_->vertices(cache.cloth);
+        const voile::gpu::Buffer& buffer = positions_[frame.slot];
         buffer.invalidate();
         const auto* values = reinterpret_cast<const glm::vec4*>(buffer.mapped().data() + streams.offset);
         const std::vector<glm::vec3> positions(values, values + streams.vertices);
@@ -143,7 +144,7 @@ gpu::Result<void> FrameOutputs::write(const engine::FrameInfo& frame)
     return {};
 }
 
-void Outcome::add(const gpu::Result<void>& result, std::string what)
+void Outcome::add(const voile::gpu::Result<void>& result, std::string what)
 {
     if (result)
         written.push_back(std::move(what));
@@ -164,7 +165,7 @@ void FrameOutputs::finish(Outcome& outcome)
 std::string written_name(const std::filesystem::path& path)
 {
     constexpr size_t k_longest = 4096; // bytes: scripts may read it, and no path is longer
-    return engine::path_text(path, k_longest);
+    return voile::engine::path_text(path, k_longest);
 }
 
 } // namespace viewer

@@ -1,8 +1,8 @@
 // Reading and blending the meshes of a sequence.
 #include "samples/viewer/frame_sequence.hpp"
 
-#include "engine/assets/load_mesh.hpp"
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/load_mesh.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace
 
 // What a file has other than the first; empty if nothing. Faces are compared as the files have them: how a polygon is
 // cut well depends on its form, which changes.
-std::string difference(const engine::Mesh& faces, const engine::Mesh& first)
+std::string difference(const voile::engine::Mesh& faces, const voile::engine::Mesh& first)
 {
     const auto counts = [](size_t here, size_t there, const char* what)
     { return "has " + std::to_string(here) + " " + what + ", but the first has " + std::to_string(there); };
@@ -32,30 +32,30 @@ std::string difference(const engine::Mesh& faces, const engine::Mesh& first)
 
 } // namespace
 
-gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
+voile::gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
 {
     const auto files = frame_files(entry);
     if (!files)
         return files.error();
     MeshSequence sequence;
     sequence.rate_ = static_cast<double>(entry.rate);
-    auto first = engine::load_mesh(files.value().front(), nullptr, engine::MeshVertices::positions);
+    auto first = voile::engine::load_mesh(files.value().front(), nullptr, voile::engine::MeshVertices::positions);
     if (!first)
         return first.error();
     sequence.first_ = std::move(first.value());
-    sequence.bounds_ = engine::bounds(sequence.first_);
-    engine::Mesh first_faces;
-    const auto faces_of = [&](const std::filesystem::path& file) -> gpu::Result<engine::Mesh>
+    sequence.bounds_ = voile::engine::bounds(sequence.first_);
+    voile::engine::Mesh first_faces;
+    const auto faces_of = [&](const std::filesystem::path& file) -> voile::gpu::Result<voile::engine::Mesh>
     {
-        auto faces = engine::load_mesh(file, nullptr, engine::MeshVertices::faces);
+        auto faces = voile::engine::load_mesh(file, nullptr, voile::engine::MeshVertices::faces);
         if (!faces)
             return faces;
         if (first_faces.positions.empty())
             first_faces = faces.value();
         const std::string other = difference(faces.value(), first_faces);
         if (!other.empty())
-            return gpu::Error{engine::path_text(file) + ": " + other + " (" +
-                              engine::path_text(files.value().front().filename()) + ")"};
+            return voile::gpu::Error{voile::engine::path_text(file) + ": " + other + " (" +
+                                     voile::engine::path_text(files.value().front().filename()) + ")"};
         return faces;
     };
     for (const std::filesystem::path& file : files.value())
@@ -63,7 +63,7 @@ gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const s
         auto faces = faces_of(file);
         if (!faces)
             return faces.error();
-        const engine::Bounds box = engine::bounds(faces.value());
+        const voile::engine::Bounds box = voile::engine::bounds(faces.value());
         sequence.bounds_.min = glm::min(sequence.bounds_.min, box.min);
         sequence.bounds_.max = glm::max(sequence.bounds_.max, box.max);
         sequence.frames_.push_back(std::move(faces.value().positions));

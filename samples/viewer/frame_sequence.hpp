@@ -3,7 +3,7 @@
 
 #include "samples/viewer/scene_file.hpp"
 
-#include "engine/assets/mesh.hpp"
+#include "voile/engine/assets/mesh.hpp"
 
 namespace viewer
 {
@@ -14,11 +14,11 @@ public:
     // Reads all files. A vertex is a position of the file, in its order. `mesh`, where it is not empty, is a file that
     // must have the same topology. Errors name the file: one that is missing or cannot be read, another number of
     // vertices or other triangles than the first has.
-    static gpu::Result<MeshSequence> load(const FrameSequence& entry, const std::filesystem::path& mesh = {});
+    static voile::gpu::Result<MeshSequence> load(const FrameSequence& entry, const std::filesystem::path& mesh = {});
 
     // The first file's: the mesh at time 0. Triangles that have no area there are left out for good.
-    [[nodiscard]] const engine::Mesh& first() const { return first_; }
-    [[nodiscard]] const engine::Bounds& bounds() const { return bounds_; } // of all files
+    [[nodiscard]] const voile::engine::Mesh& first() const { return first_; }
+    [[nodiscard]] const voile::engine::Bounds& bounds() const { return bounds_; } // of all files
     [[nodiscard]] size_t frames() const { return frames_.size(); }
     [[nodiscard]] double duration() const; // s, from the first file to the last
 
@@ -28,8 +28,8 @@ public:
     void positions_at(double seconds, std::vector<glm::vec3>& positions) const;
 
 private:
-    engine::Mesh first_;
-    engine::Bounds bounds_;
+    voile::engine::Mesh first_;
+    voile::engine::Bounds bounds_;
     std::vector<std::vector<glm::vec3>> frames_; // positions
     double rate_ = 60;                           // frames per second
 };

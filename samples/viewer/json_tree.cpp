@@ -2,7 +2,7 @@
 
 #include "samples/viewer/text.hpp"
 
-#include "gpu/printable.hpp"
+#include "voile/gpu/printable.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -109,13 +109,13 @@ public:
     {
         constexpr int k_number_overflow = 406;
         if (problem.id == k_number_overflow)
-            return fail("number " + gpu::printable(token) + " is beyond the largest that can be held");
+            return fail("number " + voile::gpu::printable(token) + " is beyond the largest that can be held");
         // "[json.exception.parse_error.101] parse error at line 3, column 5: REASON": the place is ours to say.
         std::string reason = problem.what();
         if (const size_t at = reason.find(": "); at != std::string::npos)
             reason = reason.substr(at + 2);
         const size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
-        error = file_ + ":" + place_text(text_, offset) + ": " + gpu::printable(reason, k_longest_reason);
+        error = file_ + ":" + place_text(text_, offset) + ": " + voile::gpu::printable(reason, k_longest_reason);
         return false;
     }
 
@@ -183,7 +183,7 @@ private:
             else
                 result += (result.empty() ? "" : ".") + open_[i].keys.back();
         }
-        return result.empty() ? "the scene" : gpu::printable(result);
+        return result.empty() ? "the scene" : voile::gpu::printable(result);
     }
 
     bool fail(const std::string& reason)
@@ -197,7 +197,7 @@ private:
     const size_t* consumed_;
     size_t counted_ = 0;
     uint32_t line_ = 1;
-    std::vector<JsonNode> open_; // the containers that are not closed yet, outermost first
+    std::vector<JsonNode> open_;                             // the containers that are not closed yet, outermost first
     std::vector<std::unordered_set<std::string>> open_keys_; // theirs, to find repetitions
 };
 
@@ -229,19 +229,19 @@ const char* describe(JsonNode::Kind kind)
     return "unknown";
 }
 
-gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
+voile::gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
 {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return gpu::Error{file + ": the file is empty"};
+        return voile::gpu::Error{file + ": the file is empty"};
     // The parser would take it for the end of the text.
     if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
-        return gpu::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
+        return voile::gpu::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
     size_t consumed = 0;
     TreeBuilder builder(text, file, &consumed);
     const CountingIterator begin(text.data(), &consumed);
     const CountingIterator end(text.data() + text.size(), &consumed);
     if (!nlohmann::json::sax_parse(begin, end, &builder))
-        return gpu::Error{builder.error.value_or(file + ": not valid JSON")};
+        return voile::gpu::Error{builder.error.value_or(file + ": not valid JSON")};
     return std::move(builder.root);
 }
 

@@ -6,9 +6,9 @@
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
 
-#include "engine/app/signals.hpp"
-#include "engine/gpu/capture.hpp"
-#include "gpu/printable.hpp"
+#include "voile/engine/app/signals.hpp"
+#include "voile/engine/gpu/capture.hpp"
+#include "voile/gpu/printable.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -25,26 +25,26 @@ constexpr int k_invalid = 2; // validation messages, or values that are not fini
 
 void print_devices()
 {
-    const std::vector<engine::DeviceInfo> devices = engine::list_devices();
+    const std::vector<voile::engine::DeviceInfo> devices = voile::engine::list_devices();
     for (size_t i = 0; i < devices.size(); ++i)
         std::printf("%zu: %s (%s)%s%s\n", i, devices[i].name.c_str(), devices[i].driver.c_str(),
                     devices[i].unusable.empty() ? "" : ", cannot be used: ", devices[i].unusable.c_str());
     if (devices.empty())
-        throw engine::StartupError("no Vulkan device on this system");
+        throw voile::engine::StartupError("no Vulkan device on this system");
 }
 
 // Before a long run: files that are written at its end must be writable.
 void check_targets(const Options& options)
 {
     if (options.stats)
-        (void)engine::take(engine::AtomicFile::create(*options.stats));
+        (void)voile::engine::take(voile::engine::AtomicFile::create(*options.stats));
     if (options.export_file)
-        (void)engine::take(engine::AtomicFile::create(*options.export_file));
+        (void)voile::engine::take(voile::engine::AtomicFile::create(*options.export_file));
 }
 
-engine::AppOptions app_options(const Options& options, const SceneFile& scene)
+voile::engine::AppOptions app_options(const Options& options, const SceneFile& scene)
 {
-    engine::AppOptions result;
+    voile::engine::AppOptions result;
     result.title = "voile: " + scene.name;
     result.extent = {options.width, options.height};
     result.headless = options.headless;
@@ -57,7 +57,7 @@ engine::AppOptions app_options(const Options& options, const SceneFile& scene)
 }
 
 // One frame, captured if it is the one that was asked for. False when the window was closed.
-bool run_frame(engine::App& app, uint64_t index, engine::Capture* capture, const Options& options)
+bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* capture, const Options& options)
 {
     const bool capturing = capture != nullptr && options.capture == index;
     if (capturing)
@@ -71,17 +71,17 @@ bool run_frame(engine::App& app, uint64_t index, engine::Capture* capture, const
     return open;
 }
 
-void run_frames(engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
-                engine::Capture* capture, const Options& options)
+void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
+                voile::engine::Capture* capture, const Options& options)
 {
-    app.after_render = [&](VkCommandBuffer cmd, const engine::FrameInfo& frame) { outputs.record(cmd, frame); };
-    app.completed = [&](const engine::FrameInfo& frame)
+    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { outputs.record(cmd, frame); };
+    app.completed = [&](const voile::engine::FrameInfo& frame)
     {
         statistics.completed(stage, frame);
-        engine::take(outputs.write(frame));
+        voile::engine::take(outputs.write(frame));
     };
     const bool endless = app.has_window() && !options.frames;
-    const uint32_t frames = endless ? UINT32_MAX : engine::take(headless_frames(options));
+    const uint32_t frames = endless ? UINT32_MAX : voile::engine::take(headless_frames(options));
     SofteningNotes softening;
     std::optional<Progress> progress;
     if (!app.has_window())
@@ -128,7 +128,7 @@ void add_verification(const Verification& verification, Statistics& statistics)
                 static_cast<unsigned long long>(verification.self_intersections));
 }
 
-int exit_code(engine::App& app, const Statistics& statistics)
+int exit_code(voile::engine::App& app, const Statistics& statistics)
 {
     const uint32_t messages = app.device().validation().count();
     if (messages > 0)
@@ -141,23 +141,23 @@ int exit_code(engine::App& app, const Statistics& statistics)
 
 int run_scene(const Options& options)
 {
-    const SceneFile scene = engine::take(load_scene(engine::take(find_scene(options.scene))));
-    engine::take(check_outputs(options, scene));
-    const std::vector<Solid> solids = engine::take(load_solids(scene, options));
+    const SceneFile scene = voile::engine::take(load_scene(voile::engine::take(find_scene(options.scene))));
+    voile::engine::take(check_outputs(options, scene));
+    const std::vector<Solid> solids = voile::engine::take(load_solids(scene, options));
     check_targets(options);
-    std::optional<engine::Capture> capture; // before the instance
+    std::optional<voile::engine::Capture> capture; // before the instance
     if (options.capture)
         capture.emplace((options.out.value_or(".") / "voile").string());
 
-    engine::App app(app_options(options, scene));
+    voile::engine::App app(app_options(options, scene));
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
-    Stage stage = engine::take(set_stage(app, scene, solids, options));
+    Stage stage = voile::engine::take(set_stage(app, scene, solids, options));
     if (options.debug.any())
         app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
-    FrameOutputs outputs = engine::take(FrameOutputs::create(app, stage, scene, options));
+    FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, stage, scene, options));
     RunStatistics measured;
-    const engine::IdleGuard idle(app.device());
+    const voile::engine::IdleGuard idle(app.device());
     run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
 
     // What cannot be written keeps nothing else from being so.
@@ -167,19 +167,19 @@ int run_scene(const Options& options)
     export_state(options, state, outcome);
     Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
     if (options.verify)
-        add_verification(engine::take(verify(stage, solids, state)), statistics);
+        add_verification(voile::engine::take(verify(stage, solids, state)), statistics);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
     for (const std::string& line : outcome.written)
         std::printf("wrote %s\n", line.c_str());
     if (outcome.failure)
-        throw engine::StartupError(outcome.failure->message);
+        throw voile::engine::StartupError(outcome.failure->message);
     return exit_code(app, statistics);
 }
 
 int run(int count, char** arguments)
 {
-    const Options options = engine::take(parse_options(count, arguments));
+    const Options options = voile::engine::take(parse_options(count, arguments));
     if (!options.message.empty())
     {
         std::fputs(options.message.c_str(), stdout);
@@ -200,16 +200,16 @@ int main(int count, char** arguments)
     constexpr size_t k_longest_message = 2000; // bytes
     try
     {
-        engine::end_cleanly_on_signals("viewer");
+        voile::engine::end_cleanly_on_signals("viewer");
         return run(count, arguments);
     }
     catch (const std::bad_alloc&)
     {
         std::fprintf(stderr, "viewer: out of memory\n");
     }
-    catch (const std::exception& error) // engine::StartupError with the reason in one line
+    catch (const std::exception& error) // voile::engine::StartupError with the reason in one line
     {
-        std::fprintf(stderr, "viewer: %s\n", gpu::printable(error.what(), k_longest_message).c_str());
+        std::fprintf(stderr, "viewer: %s\n", voile::gpu::printable(error.what(), k_longest_message).c_str());
     }
     return k_failed;
 }

@@ -3,7 +3,7 @@
 
 #include "samples/viewer/text.hpp"
 
-#include "cloth/fabrics.hpp"
+#include "voile/fabrics.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ void override_with(const std::optional<float>& value, float& target)
         target = *value;
 }
 
-void apply(const MaterialEntry& entry, cloth::Fabric& fabric)
+void apply(const MaterialEntry& entry, voile::Fabric& fabric)
 {
     override_with(entry.areal_density, fabric.areal_density);
     if (entry.stretch_stiffness)
@@ -27,8 +27,8 @@ void apply(const MaterialEntry& entry, cloth::Fabric& fabric)
     override_with(entry.bending_stiffness, fabric.bending_stiffness);
     override_with(entry.damping_ratio, fabric.damping_ratio);
     if (entry.bending_model)
-        fabric.bending_model = *entry.bending_model == BendingModel::isometric ? cloth::BendingModel::isometric
-                                                                               : cloth::BendingModel::springs;
+        fabric.bending_model = *entry.bending_model == BendingModel::isometric ? voile::BendingModel::isometric
+                                                                               : voile::BendingModel::springs;
 }
 
 // What fabrics and materials have alike.
@@ -48,12 +48,12 @@ void apply_surface(const MaterialEntry& entry, M& material)
     override_with(entry.strain_limit, material.strain_limit);
 }
 
-void apply_raw(const MaterialEntry& entry, cloth::Material& material)
+void apply_raw(const MaterialEntry& entry, voile::Material& material)
 {
     override_with(entry.vertex_mass, material.vertex_mass);
     override_with(entry.linear_drag, material.linear_drag);
-    cloth::SpringSet& s = material.springs;
-    for (cloth::Spring* spring :
+    voile::SpringSet& s = material.springs;
+    for (voile::Spring* spring :
          {&s.structural_warp, &s.structural_weft, &s.shear, &s.bend_warp, &s.bend_weft, &s.diagonal_bend})
     {
         override_with(entry.spring_stiffness, spring->stiffness);
@@ -89,31 +89,31 @@ std::string given_twice(const MaterialEntry& entry)
 
 } // namespace
 
-gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
-                                                      const std::optional<glm::vec2>& spacing)
+voile::gpu::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                             const std::optional<glm::vec2>& spacing)
 {
     const auto bad = [&](const std::string& reason) { return error_at(scene, entry.place, reason); };
     if (const std::string twice = given_twice(entry); !twice.empty())
         return bad(twice + "; leave one out");
-    cloth::ClothMaterial result;
+    voile::ClothMaterial result;
     if (entry.preset == "reference")
     {
         if (has_fabric_values(entry))
             return bad("the preset \"reference\" gives masses and springs outright; it takes vertex_mass, "
                        "spring_stiffness and spring_damping, not a fabric's values");
-        cloth::Material material = cloth::reference_material();
+        voile::Material material = voile::reference_material();
         apply_raw(entry, material);
         result = material;
     }
     else
     {
         const std::string preset = entry.preset.value_or("cotton");
-        std::optional<cloth::Fabric> fabric = cloth::find_fabric(preset);
+        std::optional<voile::Fabric> fabric = voile::find_fabric(preset);
         if (!fabric)
             return bad("unknown preset " + in_quotes(preset) +
                        "; there are silk, cotton, wool, denim, leather and reference");
         apply(entry, *fabric);
-        if (const auto valid = cloth::validate(*fabric); !valid)
+        if (const auto valid = voile::validate(*fabric); !valid)
             return bad(valid.error().message);
         result = *fabric;
         if (has_raw_values(entry))
@@ -121,13 +121,13 @@ gpu::Result<cloth::ClothMaterial> make_cloth_material(const SceneFile& scene, co
             if (!spacing)
                 return bad("vertex_mass, spring_stiffness, spring_damping and linear_drag on a mesh need the preset "
                            "\"reference\"");
-            cloth::Material material = cloth::make_material(*fabric, spacing->x, spacing->y);
+            voile::Material material = voile::make_material(*fabric, spacing->x, spacing->y);
             apply_raw(entry, material);
             result = material;
         }
     }
     std::visit([&](auto& m) { apply_surface(entry, m); }, result);
-    if (const auto valid = std::visit([](const auto& m) { return cloth::validate(m); }, result); !valid)
+    if (const auto valid = std::visit([](const auto& m) { return voile::validate(m); }, result); !valid)
         return bad(valid.error().message);
     return result;
 }

@@ -1,7 +1,7 @@
 // Moving pins and solids.
 #include "samples/viewer/motions.hpp"
 
-#include "engine/gpu/device.hpp"
+#include "voile/engine/gpu/device.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ const S* find_solid(const std::vector<S>& solids, size_t number)
     return found != solids.end() && found->solid == number ? &*found : nullptr;
 }
 
-double end_of(const engine::FrameInfo& frame)
+double end_of(const voile::engine::FrameInfo& frame)
 {
     return frame.time + static_cast<double>(frame.time_step);
 }
@@ -37,24 +37,24 @@ const std::vector<glm::vec3>* Motions::positions(size_t solid) const
     return deformed != nullptr ? &deformed->positions : nullptr;
 }
 
-void Motions::deform(DeformingSolid& solid, const engine::FrameInfo& frame)
+void Motions::deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame)
 {
     if (frame.time >= solid.frames->duration()) // it rests at its last
         return;
     solid.frames->positions_at(end_of(frame), solid.positions);
-    engine::take(solver_.deform_collider(solid.collider, solid.positions));
+    voile::engine::take(solver_.deform_collider(solid.collider, solid.positions));
     solid.body->set_positions(solid.positions);
 }
 
-void Motions::update(const engine::FrameInfo& frame)
+void Motions::update(const voile::engine::FrameInfo& frame)
 {
     const double end = end_of(frame);
     for (const MovingPin& pin : pins)
-        engine::take(solver_.move_anchor(pin.anchor, matrix(pin.motion, end)));
+        voile::engine::take(solver_.move_anchor(pin.anchor, matrix(pin.motion, end)));
     for (MovingSolid& solid : solids)
     {
         solid.pose = matrix(solid.motion, end);
-        engine::take(solver_.move_collider(solid.collider, solid.pose));
+        voile::engine::take(solver_.move_collider(solid.collider, solid.pose));
         for (const DrawnPart& part : solid.parts)
             part.mesh->set_model(solid.pose * part.placed);
     }

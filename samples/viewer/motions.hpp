@@ -4,7 +4,7 @@
 #include "samples/viewer/cloths.hpp"
 #include "samples/viewer/frame_sequence.hpp"
 
-#include "engine/scene/deforming_mesh.hpp"
+#include "voile/engine/scene/deforming_mesh.hpp"
 
 #include <memory>
 #include <vector>
@@ -15,36 +15,36 @@ namespace viewer
 // What is drawn of a solid.
 struct DrawnPart
 {
-    engine::DrawnMesh* mesh = nullptr; // owned by the scene
-    glm::mat4 placed{1.f};             // world from mesh, at time 0
+    voile::engine::DrawnMesh* mesh = nullptr; // owned by the scene
+    glm::mat4 placed{1.f};                    // world from mesh, at time 0
 };
 
 // A solid that moves, in the solver and in the picture.
 struct MovingSolid
 {
     size_t solid = 0; // its number among the stage's
-    cloth::ColliderId collider;
+    voile::ColliderId collider;
     MotionEntry motion;
     std::vector<DrawnPart> parts;
-    glm::mat4 pose{1.f};               // from where it was added to where it is after the frames so far
+    glm::mat4 pose{1.f}; // from where it was added to where it is after the frames so far
 };
 
 // A solid that deforms, likewise. It may move too.
 struct DeformingSolid
 {
     size_t solid = 0;
-    cloth::ColliderId collider;
+    voile::ColliderId collider;
     std::shared_ptr<const MeshSequence> frames;
-    engine::DeformingMesh* body = nullptr; // owned by the scene
-    std::vector<glm::vec3> positions;      // m, in its mesh's space, after the frames so far
+    voile::engine::DeformingMesh* body = nullptr; // owned by the scene
+    std::vector<glm::vec3> positions;             // m, in its mesh's space, after the frames so far
 };
 
 // Each frame, moves them to where they are at the frame's end: the solver goes there during its step, and the picture
 // shows what the step led to. Works in `update`, so that nothing moves while nothing is simulated.
-class Motions : public engine::Component
+class Motions : public voile::engine::Component
 {
 public:
-    explicit Motions(cloth::Solver& solver) : solver_(solver) {}
+    explicit Motions(voile::Solver& solver) : solver_(solver) {}
 
     std::vector<MovingPin> pins;
     std::vector<MovingSolid> solids;       // by their numbers, ascending
@@ -55,12 +55,12 @@ public:
     // Where the vertices of a solid that deforms are after the frames so far, in its mesh's space; null for any other.
     [[nodiscard]] const std::vector<glm::vec3>* positions(size_t solid) const;
 
-    void update(const engine::FrameInfo& frame) override;
+    void update(const voile::engine::FrameInfo& frame) override;
 
 private:
-    void deform(DeformingSolid& solid, const engine::FrameInfo& frame);
+    void deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame);
 
-    cloth::Solver& solver_;
+    voile::Solver& solver_;
 };
 
 } // namespace viewer

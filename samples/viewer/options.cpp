@@ -4,7 +4,7 @@
 #include "samples/viewer/scene_file.hpp"
 #include "samples/viewer/text.hpp"
 
-#include "gpu/printable.hpp"
+#include "voile/gpu/printable.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -269,16 +269,16 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
     }
 }
 
-gpu::Result<Options> convert_all(const Typed& typed, Options options)
+voile::gpu::Result<Options> convert_all(const Typed& typed, Options options)
 {
     Converter convert;
     if (typed.scenes.size() > 1)
-        return gpu::Error{in_quotes(typed.scenes[1]) + ": one scene at most, and " + in_quotes(typed.scenes[0]) +
-                          " was given before it"};
+        return voile::gpu::Error{in_quotes(typed.scenes[1]) + ": one scene at most, and " + in_quotes(typed.scenes[0]) +
+                                 " was given before it"};
     if (!typed.scenes.empty())
         options.scene = typed.scenes.front();
     if (options.scene.empty())
-        return gpu::Error{"the scene's name is empty"};
+        return voile::gpu::Error{"the scene's name is empty"};
     options.frames = convert.integer("--frames", typed.frames, 0, k_most_frames);
     convert_size(convert, typed.size, options);
     options.out = convert.path("--out", typed.out);
@@ -296,14 +296,14 @@ gpu::Result<Options> convert_all(const Typed& typed, Options options)
     convert_debug(convert, typed.debug, options.debug);
     check_together(convert, typed, options);
     if (convert.error)
-        return gpu::Error{*convert.error};
+        return voile::gpu::Error{*convert.error};
     if (auto result = check_outputs(options); !result)
         return result.error();
     return options;
 }
 
 // CLI11's own words run over several lines and do not always name the value.
-gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
+voile::gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
 {
     const std::string text = problem.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&problem) != nullptr)
@@ -316,18 +316,18 @@ gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
             for (const std::string& name : option->get_lnames())
                 known.push_back("--" + name);
         }
-        return gpu::Error{gpu::printable(word) + ": unknown option" + suggestion(word, known)};
+        return voile::gpu::Error{voile::gpu::printable(word) + ": unknown option" + suggestion(word, known)};
     }
     const bool mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr;
     if (mismatch && text.find("disallowed flag override") != std::string::npos)
-        return gpu::Error{"--" + gpu::printable(text.substr(0, text.find(' '))) + ": takes no value"};
+        return voile::gpu::Error{"--" + voile::gpu::printable(text.substr(0, text.find(' '))) + ": takes no value"};
     const std::string option = text.substr(0, text.find(':'));
     if (mismatch && option.starts_with("--"))
-        return gpu::Error{gpu::printable(option) + ": a value is missing"};
-    return gpu::Error{gpu::printable(text, k_longest_reason)};
+        return voile::gpu::Error{voile::gpu::printable(option) + ": a value is missing"};
+    return voile::gpu::Error{voile::gpu::printable(text, k_longest_reason)};
 }
 
-gpu::Result<Options> parse(int argument_count, const char* const* arguments)
+voile::gpu::Result<Options> parse(int argument_count, const char* const* arguments)
 {
     CLI::App app(k_description, "viewer");
     app.footer(k_footer);
@@ -370,16 +370,16 @@ gpu::Result<Options> parse(int argument_count, const char* const* arguments)
 
 } // namespace
 
-gpu::Result<uint32_t> headless_frames(const Options& options)
+voile::gpu::Result<uint32_t> headless_frames(const Options& options)
 {
     const uint32_t frames = options.frames.value_or(k_headless_frames);
     if (options.capture && *options.capture >= frames)
-        return gpu::Error{"--capture: \"" + std::to_string(*options.capture) + "\" is beyond the last of " +
-                          std::to_string(frames) + " frames, counted from 0"};
+        return voile::gpu::Error{"--capture: \"" + std::to_string(*options.capture) + "\" is beyond the last of " +
+                                 std::to_string(frames) + " frames, counted from 0"};
     return frames;
 }
 
-gpu::Result<Options> parse_options(int argument_count, const char* const* arguments)
+voile::gpu::Result<Options> parse_options(int argument_count, const char* const* arguments)
 {
     try
     {
@@ -387,7 +387,7 @@ gpu::Result<Options> parse_options(int argument_count, const char* const* argume
     }
     catch (const std::exception& problem) // CLI11 throws while options are declared, too
     {
-        return gpu::Error{gpu::printable(problem.what(), k_longest_reason)};
+        return voile::gpu::Error{voile::gpu::printable(problem.what(), k_longest_reason)};
     }
 }
 

@@ -1,7 +1,7 @@
 // The viewer's command line.
 #pragma once
 
-#include "gpu/result.hpp"
+#include "voile/gpu/result.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -58,10 +58,10 @@ struct Options
 };
 
 // Errors are one line that names the option, the value and the reason, without the program's name.
-gpu::Result<Options> parse_options(int argument_count, const char* const* arguments);
+voile::gpu::Result<Options> parse_options(int argument_count, const char* const* arguments);
 
 // The number of frames of a run without a window. An error if --capture asks for one beyond it, which parse_options
 // can only see where --frames or --headless was given.
-gpu::Result<uint32_t> headless_frames(const Options& options);
+voile::gpu::Result<uint32_t> headless_frames(const Options& options);
 
 } // namespace viewer

@@ -1,8 +1,8 @@
 // RunStatistics: collection and summary.
 #include "samples/viewer/run_statistics.hpp"
 
-#include "engine/gpu/download.hpp"
-#include "engine/gpu/frames.hpp"
+#include "voile/engine/gpu/download.hpp"
+#include "voile/engine/gpu/frames.hpp"
 
 #include <algorithm>
 
@@ -11,19 +11,19 @@ namespace viewer
 namespace
 {
 
-std::vector<glm::vec3> download_vectors(const engine::Device& device, VkBuffer buffer,
-                                        const cloth::VertexStreams& streams)
+std::vector<glm::vec3> download_vectors(const voile::engine::Device& device, VkBuffer buffer,
+                                        const voile::VertexStreams& streams)
 {
-    const auto values = engine::download_values<glm::vec4>(device, buffer, streams.offset, streams.vertices);
+    const auto values = voile::engine::download_values<glm::vec4>(device, buffer, streams.offset, streams.vertices);
     return {values.begin(), values.end()};
 }
 
 // A run without frames has uploaded nothing yet: its state is the start.
-void upload_start(const engine::Device& device, cloth::Solver& solver)
+void upload_start(const voile::engine::Device& device, voile::Solver& solver)
 {
-    engine::FrameRing ring(device, 1);
-    const engine::FrameRing::Frame frame = ring.begin();
-    const cloth::Upload upload = engine::take(solver.record_upload(frame.cmd));
+    voile::engine::FrameRing ring(device, 1);
+    const voile::engine::FrameRing::Frame frame = ring.begin();
+    const voile::Upload upload = voile::engine::take(solver.record_upload(frame.cmd));
     ring.submit(frame);
     ring.wait_all();
 }
@@ -40,16 +40,16 @@ uint64_t state_hash(const std::vector<FinalCloth>& state)
 
 } // namespace
 
-std::vector<FinalCloth> download_state(const engine::Device& device, const Stage& stage)
+std::vector<FinalCloth> download_state(const voile::engine::Device& device, const Stage& stage)
 {
-    cloth::Solver& solver = stage.world->solver();
+    voile::Solver& solver = stage.world->solver();
     const bool at_start = solver.needs_upload();
     if (at_start)
         upload_start(device, solver);
     std::vector<FinalCloth> result;
     for (const StageCloth& cloth : stage.cloths)
     {
-        const cloth::VertexStreams streams = solver.vertices(cloth.id);
+        const voile::VertexStreams streams = solver.vertices(cloth.id);
         result.push_back({cloth.name, download_vectors(device, streams.positions, streams),
                           download_vectors(device, streams.velocities, streams),
                           at_start ? std::vector<glm::vec3>{} : download_vectors(device, streams.normals, streams),
@@ -58,7 +58,7 @@ std::vector<FinalCloth> download_state(const engine::Device& device, const Stage
     return result;
 }
 
-void RunStatistics::add_pass(const gpu::PassTime& pass)
+void RunStatistics::add_pass(const voile::gpu::PassTime& pass)
 {
     auto series =
         std::find_if(passes_.begin(), passes_.end(), [&](const PassSeries& s) { return s.name == pass.name; });
@@ -67,9 +67,9 @@ void RunStatistics::add_pass(const gpu::PassTime& pass)
     series->milliseconds.push_back(pass.milliseconds);
 }
 
-void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame)
+void RunStatistics::completed(const Stage& stage, const voile::engine::FrameInfo& frame)
 {
-    const cloth::Statistics measured = stage.world->solver().statistics(frame.slot);
+    const voile::Statistics measured = stage.world->solver().statistics(frame.slot);
     FrameStatistics entry;
     entry.frame = static_cast<uint32_t>(frame.index);
     entry.substeps = stage.world->step.substeps > 0 ? stage.world->step.substeps
@@ -84,7 +84,7 @@ void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame
     entry.candidates = measured.candidates;
     entry.contact_overflows = measured.overflowing_vertices;
     if (frame.timestamps != nullptr)
-        for (const gpu::PassTime& pass : frame.timestamps->read(frame.slot))
+        for (const voile::gpu::PassTime& pass : frame.timestamps->read(frame.slot))
         {
             if (pass.name == "frame")
                 entry.gpu_frame_ms = pass.milliseconds;
@@ -98,10 +98,10 @@ void RunStatistics::completed(const Stage& stage, const engine::FrameInfo& frame
     frames_.push_back(entry);
 }
 
-Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, const engine::DeviceInfo& device,
+Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, const voile::engine::DeviceInfo& device,
                                  const std::vector<FinalCloth>& state, float time_step) const
 {
-    const cloth::Solver& solver = stage.world->solver();
+    const voile::Solver& solver = stage.world->solver();
     Statistics result;
     result.scene = scene.name;
     result.device = device.name;

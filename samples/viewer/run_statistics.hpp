@@ -13,12 +13,12 @@ struct FinalCloth
     std::string name;
     std::vector<glm::vec3> positions;  // m
     std::vector<glm::vec3> velocities; // m/s
-    std::vector<glm::vec3> normals; // none before the first frame: a step makes them
+    std::vector<glm::vec3> normals;    // none before the first frame: a step makes them
     std::vector<glm::uvec3> triangles;
 };
 
 // Waits for the device.
-std::vector<FinalCloth> download_state(const engine::Device& device, const Stage& stage);
+std::vector<FinalCloth> download_state(const voile::engine::Device& device, const Stage& stage);
 
 class RunStatistics
 {
@@ -26,9 +26,9 @@ public:
     // Once a frame, when it has been recorded: the host's time.
     void recorded(double milliseconds) { record_milliseconds_.push_back(milliseconds); }
     // Once a frame, in their order, when the device has finished it.
-    void completed(const Stage& stage, const engine::FrameInfo& frame);
+    void completed(const Stage& stage, const voile::engine::FrameInfo& frame);
 
-    [[nodiscard]] Statistics result(const Stage& stage, const SceneFile& scene, const engine::DeviceInfo& device,
+    [[nodiscard]] Statistics result(const Stage& stage, const SceneFile& scene, const voile::engine::DeviceInfo& device,
                                     const std::vector<FinalCloth>& state, float time_step) const;
 
 private:
@@ -37,7 +37,7 @@ private:
         std::string name;
         std::vector<double> milliseconds; // one a frame
     };
-    void add_pass(const gpu::PassTime& pass);
+    void add_pass(const voile::gpu::PassTime& pass);
 
     std::vector<FrameStatistics> frames_;
     std::vector<double> record_milliseconds_;

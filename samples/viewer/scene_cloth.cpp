@@ -1,8 +1,8 @@
 // Cloths, materials and pins of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
-#include "cloth/ranges.hpp"
-#include "gpu/printable.hpp"
+#include "voile/gpu/printable.hpp"
+#include "voile/ranges.hpp"
 
 #include <charconv>
 #include <optional>
@@ -23,7 +23,7 @@ GridEntry parse_grid(SceneReader& reader, const Field& field)
         reader.read_integer(SceneReader::item(vertices, 0), k_least_grid_vertices, k_most_grid_vertices, grid.columns);
         reader.read_integer(SceneReader::item(vertices, 1), k_least_grid_vertices, k_most_grid_vertices, grid.rows);
     }
-    reader.read(reader.required(field, "size"), between(cloth::k_least_cloth_size, cloth::k_most_cloth_size),
+    reader.read(reader.required(field, "size"), between(voile::k_least_cloth_size, voile::k_most_cloth_size),
                 grid.size);
     return grid;
 }
@@ -123,7 +123,7 @@ void check_name(SceneReader& reader, const Field& field, const std::string& name
     constexpr size_t k_longest_name = 100; // bytes
     if (name.size() > k_longest_name)
         reader.fail(field, "is " + in_quotes(name) + "; a name has at most 100 bytes");
-    if (name.find_first_of("/\\") != std::string::npos || gpu::printable(name, k_longest_name) != name)
+    if (name.find_first_of("/\\") != std::string::npos || voile::gpu::printable(name, k_longest_name) != name)
         reader.fail(field, "is " + in_quotes(name) + "; a name holds no slash and no control character");
 }
 
@@ -220,8 +220,8 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_place(reader, reader.required(field, "at"), grid, pin);
-        reader.read(SceneReader::child(field, "stiffness"), between(0, cloth::k_most_hold_stiffness), pin.stiffness);
-        reader.read(SceneReader::child(field, "damping"), between(0, cloth::k_most_hold_damping), pin.damping);
+        reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_hold_stiffness), pin.stiffness);
+        reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_hold_damping), pin.damping);
         reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
         if (!reader.failed() && has("damping") && !has("stiffness"))
             reader.fail(SceneReader::child(field, "damping"), "is a spring's; it needs a \"stiffness\"");
@@ -270,7 +270,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
         cloth.tethers = 0.f;
         reader.read(SceneReader::child(tethers, "stretch"), Range{0, 10}, cloth.tethers);
     }
-    reader.read(SceneReader::child(field, "velocity"), within(cloth::k_most_speed), cloth.velocity);
+    reader.read(SceneReader::child(field, "velocity"), within(voile::k_most_speed), cloth.velocity);
     if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
         cloth.integrator = static_cast<Integrator>(*word);
     reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);

@@ -1,7 +1,7 @@
 // Colliders, transforms and motions of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
-#include "cloth/ranges.hpp"
+#include "voile/ranges.hpp"
 
 #include <cctype>
 
@@ -10,10 +10,10 @@ namespace viewer
 namespace
 {
 
-const Range k_position = within(cloth::k_most_coordinate);
-const Range k_radius = between(cloth::k_least_collider_size, cloth::k_most_collider_size);
-const Range k_friction = between(0, cloth::k_most_friction);
-const Range k_scale{0, static_cast<double>(cloth::k_most_coordinate), true}; // of a mesh of 1 m
+const Range k_position = within(voile::k_most_coordinate);
+const Range k_radius = between(voile::k_least_collider_size, voile::k_most_collider_size);
+const Range k_friction = between(0, voile::k_most_friction);
+const Range k_scale{0, static_cast<double>(voile::k_most_coordinate), true}; // of a mesh of 1 m
 
 PlaneShape parse_plane(SceneReader& reader, const Field& field)
 {
@@ -152,7 +152,7 @@ void parse_shape(ParseContext& context, const Field& field, ColliderEntry& colli
 MotionEntry read_motion(SceneReader& reader, const Field& field)
 {
     MotionEntry motion;
-    reader.read(SceneReader::child(field, "velocity"), within(cloth::k_most_speed), motion.velocity);
+    reader.read(SceneReader::child(field, "velocity"), within(voile::k_most_speed), motion.velocity);
     reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
     reader.read(SceneReader::child(field, "pivot"), k_position, motion.pivot);
     if (const Field sway = SceneReader::child(field, "sway"); reader.object(sway, {"amplitude", "period"}))

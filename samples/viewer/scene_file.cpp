@@ -3,9 +3,9 @@
 
 #include "samples/viewer/scene_parse.hpp"
 
-#include "cloth/ranges.hpp"
-#include "engine/assets/file.hpp"
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/file.hpp"
+#include "voile/engine/assets/words.hpp"
+#include "voile/ranges.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -23,15 +23,15 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t k_largest_file = uint64_t{16} << 20; // bytes; a scene is text that somebody wrote
 
-gpu::Result<std::string> read_text(const fs::path& path)
+voile::gpu::Result<std::string> read_text(const fs::path& path)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(path, problem).type();
     if (type == fs::file_type::not_found)
-        return gpu::Error{engine::path_text(path) + ": the file does not exist"};
+        return voile::gpu::Error{voile::engine::path_text(path) + ": the file does not exist"};
     if (type == fs::file_type::directory)
-        return gpu::Error{engine::path_text(path) + ": this is a folder, not a scene file"};
-    return engine::read_file(path, k_largest_file);
+        return voile::gpu::Error{voile::engine::path_text(path) + ": this is a folder, not a scene file"};
+    return voile::engine::read_file(path, k_largest_file);
 }
 
 void parse_step(SceneReader& reader, const Field& field, StepEntry& step)
@@ -98,7 +98,7 @@ glm::mat4 rotation(const glm::vec3& degrees)
     return glm::rotate(result, glm::radians(degrees.x), glm::vec3(1.f, 0.f, 0.f));
 }
 
-gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
+voile::gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(file, problem).type();
@@ -107,10 +107,10 @@ gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, const f
     const char* reason = type == fs::file_type::directory   ? " is a folder"
                          : type == fs::file_type::not_found ? " does not exist"
                                                             : " is not a regular file";
-    return error_at(scene, {entry.line, entry.path + ".mesh"}, engine::path_text(file) + reason);
+    return error_at(scene, {entry.line, entry.path + ".mesh"}, voile::engine::path_text(file) + reason);
 }
 
-gpu::Result<void> check_files(const SceneFile& scene)
+voile::gpu::Result<void> check_files(const SceneFile& scene)
 {
     for (const ClothEntry& cloth : scene.cloths)
     {
@@ -190,12 +190,12 @@ std::set<uint32_t> frame_numbers(const fs::path& pattern)
 
 } // namespace
 
-gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
+voile::gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
 {
-    const gpu::Result<JsonNode> tree = parse_json(text, engine::path_text(path));
+    const voile::gpu::Result<JsonNode> tree = parse_json(text, voile::engine::path_text(path));
     if (!tree)
         return tree.error();
-    SceneReader reader(engine::path_text(path));
+    SceneReader reader(voile::engine::path_text(path));
     ParseContext context{reader, path.parent_path()};
     SceneFile scene;
     scene.path = path;
@@ -203,14 +203,14 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
     const Field root{&tree.value(), ""};
     if (reader.object(root, {"gravity", "wind", "step", "cloths", "colliders", "camera"}))
     {
-        reader.read(SceneReader::child(root, "gravity"), within(cloth::k_most_gravity), scene.gravity);
+        reader.read(SceneReader::child(root, "gravity"), within(voile::k_most_gravity), scene.gravity);
         if (const Field wind = SceneReader::child(root, "wind");
             reader.object(wind, {"velocity", "gust", "gust_length"}))
         {
-            reader.read(SceneReader::child(wind, "velocity"), within(cloth::k_most_wind), scene.wind.velocity);
-            reader.read(SceneReader::child(wind, "gust"), between(0, cloth::k_most_gust), scene.wind.gust);
+            reader.read(SceneReader::child(wind, "velocity"), within(voile::k_most_wind), scene.wind.velocity);
+            reader.read(SceneReader::child(wind, "gust"), between(0, voile::k_most_gust), scene.wind.gust);
             reader.read(SceneReader::child(wind, "gust_length"),
-                        between(cloth::k_least_gust_length, cloth::k_most_gust_length), scene.wind.gust_length);
+                        between(voile::k_least_gust_length, voile::k_most_gust_length), scene.wind.gust_length);
         }
         parse_step(reader, SceneReader::child(root, "step"), scene.step);
         parse_cloths(context, root, scene.cloths);
@@ -223,48 +223,50 @@ gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
     return scene;
 }
 
-gpu::Result<SceneFile> load_scene(const fs::path& path)
+voile::gpu::Result<SceneFile> load_scene(const fs::path& path)
 {
-    const gpu::Result<std::string> text = read_text(path);
+    const voile::gpu::Result<std::string> text = read_text(path);
     if (!text)
         return text.error();
-    gpu::Result<SceneFile> scene = parse_scene(text.value(), path);
+    voile::gpu::Result<SceneFile> scene = parse_scene(text.value(), path);
     if (!scene)
         return scene;
-    if (const gpu::Result<void> files = check_files(scene.value()); !files)
+    if (const voile::gpu::Result<void> files = check_files(scene.value()); !files)
         return files.error();
     return scene;
 }
 
-gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
+voile::gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
 {
-    return gpu::Error{engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " + place.path + ": " +
-                      reason};
+    return voile::gpu::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " +
+                             place.path + ": " + reason};
 }
 
-gpu::Error step_error(const SceneFile& scene, const std::string& reason)
+voile::gpu::Error step_error(const SceneFile& scene, const std::string& reason)
 {
     for (const StepKey& key : scene.step_keys)
         if (reason.starts_with("step: " + key.member + " "))
             return error_at(scene, key.place, reason);
-    return gpu::Error{engine::path_text(scene.path) + ": " + reason};
+    return voile::gpu::Error{voile::engine::path_text(scene.path) + ": " + reason};
 }
 
-gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
+voile::gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {
     if (frame_path(sequence.pattern, 0) == frame_path(sequence.pattern, 1))
-        return gpu::Error{engine::path_text(sequence.pattern) + ": has no %d or %04d for the frame's number"};
+        return voile::gpu::Error{voile::engine::path_text(sequence.pattern) +
+                                 ": has no %d or %04d for the frame's number"};
     const std::set<uint32_t> numbers = frame_numbers(sequence.pattern);
     if (!numbers.contains(0) && !numbers.contains(1))
-        return gpu::Error{engine::path_text(sequence.pattern) + ": there is no frame 0 and no frame 1"};
+        return voile::gpu::Error{voile::engine::path_text(sequence.pattern) + ": there is no frame 0 and no frame 1"};
     std::vector<fs::path> files;
     for (uint32_t number = numbers.contains(0) ? 0 : 1; number <= *numbers.rbegin(); ++number)
     {
         files.push_back(frame_path(sequence.pattern, number));
         if (!numbers.contains(number))
-            return gpu::Error{engine::path_text(files.back()) + " is missing, but " +
-                              engine::path_text(frame_path(sequence.pattern, *numbers.upper_bound(number)).filename()) +
-                              " is there"};
+            return voile::gpu::Error{
+                voile::engine::path_text(files.back()) + " is missing, but " +
+                voile::engine::path_text(frame_path(sequence.pattern, *numbers.upper_bound(number)).filename()) +
+                " is there"};
     }
     return files;
 }

@@ -1,10 +1,10 @@
 // A scene file (JSON) as plain structs. Of the cloth module this knows the ranges alone
-// (cloth/ranges.hpp): what a value means for the simulation is decided where the scene is built. SI units, degrees for
+// (voile/ranges.hpp): what a value means for the simulation is decided where the scene is built. SI units, degrees for
 // angles, y is up. A field that is std::optional or absent was not written in the file; its default belongs to whoever
 // builds the scene.
 #pragma once
 
-#include "gpu/result.hpp"
+#include "voile/gpu/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -116,7 +116,7 @@ struct MaterialEntry
     Place place;
 };
 
-// Flat in x and z, centred on the origin. Vertex index = row * columns + column.
+// Flat in x and z, centerd on the origin. Vertex index = row * columns + column.
 struct GridEntry
 {
     uint32_t columns = 0; // along x, 2..8192
@@ -183,7 +183,7 @@ struct SphereShape
 };
 struct CapsuleShape // {"from": [...], "to": [...], "radius": r}
 {
-    glm::vec3 from{0.f}; // m, the centres of its two end spheres
+    glm::vec3 from{0.f}; // m, the centers of its two end spheres
     glm::vec3 to{0.f};
     float radius = 0.f; // m, > 0
 };
@@ -226,7 +226,7 @@ struct CameraEntry
     float fov = 40.f;        // vertical, degrees, 1..170
 };
 
-// A key that gives a member of cloth::Step its value.
+// A key that gives a member of voile::Step its value.
 struct StepKey
 {
     std::string member;
@@ -248,19 +248,19 @@ struct SceneFile
 
 // Parses a scene's text. `path` serves the messages and is what relative paths are relative to; nothing is read.
 // Errors name the file, the line, the place as cloths[0].grid.size, and the reason, in one line.
-gpu::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
+voile::gpu::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
 
 // Reads and parses a scene, and checks that the files it names are there.
-gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
+voile::gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
 
 // "FILE:LINE: PATH: REASON"
-gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
+voile::gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
-gpu::Error step_error(const SceneFile& scene, const std::string& reason);
+voile::gpu::Error step_error(const SceneFile& scene, const std::string& reason);
 
 // The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the last. An error if there
 // are none, if one between them is missing, or if the pattern has no place for a number.
-gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
+voile::gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);
 // Where a point of the placed state is after `seconds`; at 0 the identity.
@@ -271,7 +271,7 @@ glm::mat4 matrix(const MotionEntry& motion, double seconds);
 std::vector<std::filesystem::path> scene_folders();
 
 // A scene by path, else by name in the folders. The error lists the names that there are.
-gpu::Result<std::filesystem::path> find_scene(const std::string& name,
-                                              const std::vector<std::filesystem::path>& folders = scene_folders());
+voile::gpu::Result<std::filesystem::path>
+find_scene(const std::string& name, const std::vector<std::filesystem::path>& folders = scene_folders());
 
 } // namespace viewer

@@ -3,7 +3,7 @@
 
 #include "samples/viewer/text.hpp"
 
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -30,7 +30,7 @@ std::string known_scenes(const std::vector<fs::path>& folders)
     }
     std::string list;
     for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + gpu::printable(name);
+        list += (list.empty() ? "" : ", ") + voile::gpu::printable(name);
     return list;
 }
 
@@ -62,7 +62,7 @@ std::vector<fs::path> scene_folders()
     return folders;
 }
 
-gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::path>& folders)
+voile::gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::path>& folders)
 {
     std::error_code problem;
     // A folder may happen to have a scene's name: it does not hide the scene.
@@ -81,15 +81,15 @@ gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::
         }
     }
     if (fs::is_directory(name, problem))
-        return gpu::Error{engine::path_text(name) + ": this is a folder, not a scene file"};
+        return voile::gpu::Error{voile::engine::path_text(name) + ": this is a folder, not a scene file"};
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
     const std::string list = known_scenes(folders);
     const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
     if (!fs::exists(name, problem) && problem)
-        return gpu::Error{engine::path_text(name) + ": " + problem.message()};
+        return voile::gpu::Error{voile::engine::path_text(name) + ": " + problem.message()};
     if (looks_like_path)
-        return gpu::Error{engine::path_text(name) + ": the file does not exist; " + known};
-    return gpu::Error{"scene " + in_quotes(name) + " is unknown; " + known};
+        return voile::gpu::Error{voile::engine::path_text(name) + ": the file does not exist; " + known};
+    return voile::gpu::Error{"scene " + in_quotes(name) + " is unknown; " + known};
 }
 
 } // namespace viewer

@@ -23,7 +23,7 @@ std::string percent(float fraction)
     return text.data();
 }
 
-void note_softening(const std::string& cloth, const cloth::Stability& stability)
+void note_softening(const std::string& cloth, const voile::Stability& stability)
 {
     std::string left = percent(stability.stiffness_share) + " of its stiffness";
     if (stability.damping_share < 1)
@@ -36,8 +36,8 @@ void note_softening(const std::string& cloth, const cloth::Stability& stability)
 
 void SofteningNotes::check(const Stage& stage, float duration)
 {
-    const cloth::Solver& solver = stage.world->solver();
-    cloth::Step step = stage.world->step;
+    const voile::Solver& solver = stage.world->solver();
+    voile::Step step = stage.world->step;
     step.duration = duration;
     if (step.substeps == 0)
         step.substeps = solver.stable_substeps(duration, step.max_substeps); // once, not for each cloth
@@ -48,7 +48,7 @@ void SofteningNotes::check(const Stage& stage, float duration)
     {
         if (noted_[i])
             continue;
-        const cloth::Stability stability = solver.stability(stage.cloths[i].id, step);
+        const voile::Stability stability = solver.stability(stage.cloths[i].id, step);
         if (stability.stiffness_share >= 1 && stability.damping_share >= 1)
             continue;
         noted_[i] = true;

@@ -3,7 +3,7 @@
 
 #include "samples/viewer/colliders.hpp"
 
-#include "engine/scene/static_mesh.hpp"
+#include "voile/engine/scene/static_mesh.hpp"
 
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@ namespace viewer
 
 struct SolidPart
 {
-    std::shared_ptr<const engine::MeshBuffers> mesh;
+    std::shared_ptr<const voile::engine::MeshBuffers> mesh;
     glm::mat4 placed{1.f}; // world from mesh, at time 0
 };
 
@@ -23,7 +23,7 @@ class SolidMeshes
 {
 public:
     // `extent`: m, of the scene. A plane is drawn 60 times as large, and a small round shape with fewer faces.
-    SolidMeshes(engine::UploadBatch& uploads, float extent) : uploads_(uploads), extent_(extent) {}
+    SolidMeshes(voile::engine::UploadBatch& uploads, float extent) : uploads_(uploads), extent_(extent) {}
 
     // A capsule has several. Not for solids that deform.
     std::vector<SolidPart> parts(const Solid& solid);
@@ -36,13 +36,13 @@ private:
         tube,
         box
     };
-    std::shared_ptr<const engine::MeshBuffers> unit(Unit unit, uint32_t rings);
+    std::shared_ptr<const voile::engine::MeshBuffers> unit(Unit unit, uint32_t rings);
     [[nodiscard]] uint32_t rings(float radius) const;
     std::vector<SolidPart> capsule_parts(const CapsuleShape& capsule, const glm::mat4& transform);
 
-    engine::UploadBatch& uploads_;
+    voile::engine::UploadBatch& uploads_;
     float extent_;
-    std::map<std::pair<Unit, uint32_t>, std::shared_ptr<const engine::MeshBuffers>> units_; // with rings
+    std::map<std::pair<Unit, uint32_t>, std::shared_ptr<const voile::engine::MeshBuffers>> units_; // with rings
 };
 
 } // namespace viewer

@@ -28,59 +28,59 @@ constexpr std::array<Colors, 4> k_fabrics{{
     {{0.50f, 0.26f, 0.04f}, {0.30f, 0.10f, 0.12f}},
 }};
 
-engine::Surface solid_surface()
+voile::engine::Surface solid_surface()
 {
-    engine::Surface surface;
+    voile::engine::Surface surface;
     surface.base_color = {0.66f, 0.60f, 0.50f};
     surface.roughness = 0.45f;
     return surface;
 }
 
-std::optional<cloth::Friction> friction(const Solid& solid)
+std::optional<voile::Friction> friction(const Solid& solid)
 {
     if (!solid.friction)
         return std::nullopt;
-    return cloth::Friction{solid.friction->static_friction, solid.friction->kinetic_friction};
+    return voile::Friction{solid.friction->static_friction, solid.friction->kinetic_friction};
 }
 
-cloth::Sides sides(const Solid& solid)
+voile::Sidedness sides(const Solid& solid)
 {
     if (!solid.sides)
-        return cloth::Sides::automatic;
-    return *solid.sides == MeshSides::one ? cloth::Sides::one : cloth::Sides::two;
+        return voile::Sidedness::automatic;
+    return *solid.sides == MeshSides::one ? voile::Sidedness::one_sided : voile::Sidedness::two_sided;
 }
 
-cloth::PlaneCollider plane_collider(const PlaneShape& plane, const glm::mat4& transform)
+voile::PlaneCollider plane_collider(const PlaneShape& plane, const glm::mat4& transform)
 {
-    cloth::PlaneCollider result;
+    voile::PlaneCollider result;
     result.normal = glm::normalize(glm::vec3(transform[1]));
     result.offset = plane.y + glm::dot(result.normal, glm::vec3(transform[3]));
     return result;
 }
 
-cloth::Collider collider_of(const Solid& solid)
+voile::Collider collider_of(const Solid& solid)
 {
     const auto placed = [&](const glm::vec3& p) { return glm::vec3(solid.transform * glm::vec4(p, 1)); };
     if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
         return plane_collider(*plane, solid.transform);
     if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        return cloth::SphereCollider{.center = placed(sphere->center), .radius = sphere->radius};
+        return voile::SphereCollider{.center = placed(sphere->center), .radius = sphere->radius};
     if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
-        return cloth::CapsuleCollider{
+        return voile::CapsuleCollider{
             .from = placed(capsule->from), .to = placed(capsule->to), .radius = capsule->radius};
     if (const auto* box = std::get_if<BoxShape>(&solid.shape))
-        return cloth::BoxCollider{.min = box->min, .max = box->max, .transform = solid.transform};
-    const auto& mesh = std::get<engine::Mesh>(solid.shape);
-    return cloth::MeshCollider{.positions = mesh.positions,
+        return voile::BoxCollider{.min = box->min, .max = box->max, .transform = solid.transform};
+    const auto& mesh = std::get<voile::engine::Mesh>(solid.shape);
+    return voile::MeshCollider{.positions = mesh.positions,
                                .triangles = mesh.triangles,
                                .transform = solid.transform,
-                               .sides = sides(solid),
+                               .sidedness = sides(solid),
                                .deforms = solid.frames != nullptr};
 }
 
-gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneFile& scene, const Solid& solid)
+voile::gpu::Result<voile::ColliderId> add_to_solver(voile::Solver& solver, const SceneFile& scene, const Solid& solid)
 {
-    cloth::Collider collider = collider_of(solid);
+    voile::Collider collider = collider_of(solid);
     std::visit(
         [&](auto& c)
         {
@@ -96,18 +96,19 @@ gpu::Result<cloth::ColliderId> add_to_solver(cloth::Solver& solver, const SceneF
 }
 
 // Draws a solid, and has the motions move it if it does.
-void add_to_scene(engine::App& app, const Solid& solid, SolidMeshes& meshes, cloth::ColliderId collider, Stage& stage)
+void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& meshes, voile::ColliderId collider,
+                  Stage& stage)
 {
     const bool ground = solid.is_ground() || std::holds_alternative<PlaneShape>(solid.shape);
-    const engine::Surface surface = ground ? engine::ground_surface() : solid_surface();
+    const voile::engine::Surface surface = ground ? voile::engine::ground_surface() : solid_surface();
     const size_t index = stage.colliders.size();
-    engine::Entity& entity = app.scene().add(solid.name);
+    voile::engine::Entity& entity = app.scene().add(solid.name);
     std::vector<DrawnPart> parts;
     if (solid.frames)
     {
-        const auto& mesh = std::get<engine::Mesh>(solid.shape);
-        auto& deforming =
-            entity.add<engine::DeformingMesh>(app.uploads(), app.slots(), mesh, surface, solid.name, solid.transform);
+        const auto& mesh = std::get<voile::engine::Mesh>(solid.shape);
+        auto& deforming = entity.add<voile::engine::DeformingMesh>(app.uploads(), app.slots(), mesh, surface,
+                                                                   solid.name, solid.transform);
         stage.motions->deforming.push_back({.solid = index,
                                             .collider = collider,
                                             .frames = solid.frames,
@@ -118,7 +119,7 @@ void add_to_scene(engine::App& app, const Solid& solid, SolidMeshes& meshes, clo
     else
         for (const SolidPart& part : meshes.parts(solid))
         {
-            auto& mesh = entity.add<engine::StaticMesh>(part.mesh, surface, solid.name, part.placed);
+            auto& mesh = entity.add<voile::engine::StaticMesh>(part.mesh, surface, solid.name, part.placed);
             parts.push_back({&mesh, part.placed});
         }
     if (solid.motion)
@@ -128,9 +129,9 @@ void add_to_scene(engine::App& app, const Solid& solid, SolidMeshes& meshes, clo
 }
 
 // What the camera looks at and the shadow map covers: cloths, solids above ground, and the ground below them.
-engine::Bounds bounds_of(const std::vector<glm::vec3>& places)
+voile::engine::Bounds bounds_of(const std::vector<glm::vec3>& places)
 {
-    engine::Bounds box{places.front(), places.front()};
+    voile::engine::Bounds box{places.front(), places.front()};
     for (const glm::vec3& p : places)
     {
         box.min = glm::min(box.min, p);
@@ -139,9 +140,9 @@ engine::Bounds bounds_of(const std::vector<glm::vec3>& places)
     return box;
 }
 
-engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const std::vector<Solid>& solids)
+voile::engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const std::vector<Solid>& solids)
 {
-    std::optional<engine::Bounds> box;
+    std::optional<voile::engine::Bounds> box;
     for (const StageCloth& cloth : cloths)
         box = merge(box, bounds_of(cloth.start));
     for (const Solid& solid : solids)
@@ -154,7 +155,7 @@ engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const std::ve
     return *box;
 }
 
-void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Bounds& box)
+void frame_scene(voile::engine::Scene& scene, const SceneFile& file, const voile::engine::Bounds& box)
 {
     scene.focus = 0.5f * (box.min + box.max);
     scene.focus_radius = std::max(0.5f * glm::distance(box.min, box.max), 1e-3f);
@@ -170,11 +171,11 @@ void frame_scene(engine::Scene& scene, const SceneFile& file, const engine::Boun
 
 } // namespace
 
-gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
-                             const Options& options)
+voile::gpu::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
+                                    const Options& options)
 {
     Stage stage;
-    auto& world = app.scene().add("cloth").add<cloth::component::ClothWorld>(app.device(), app.slots());
+    auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
     stage.world = &world;
     world.step.gravity = scene.gravity;
     world.step.wind = scene.wind.velocity;
@@ -182,7 +183,7 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
     world.step.gust_length = scene.wind.gust_length;
     world.step.substeps = scene.step.substeps.value_or(0);
     world.step.duration = 1 / scene.step.rate;
-    if (const auto valid = cloth::validate(world.step); !valid)
+    if (const auto valid = voile::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
@@ -195,19 +196,19 @@ gpu::Result<Stage> set_stage(engine::App& app, const SceneFile& scene, const std
                                    added.value().moving_pins.end());
         stage.cloths.push_back({entry.name, added.value().id, std::move(added.value().start), entry.layers});
     }
-    const engine::Bounds box = stage_bounds(stage.cloths, solids);
+    const voile::engine::Bounds box = stage_bounds(stage.cloths, solids);
     frame_scene(app.scene(), scene, box);
     for (size_t i = 0; i < stage.cloths.size(); ++i)
     {
         const StageCloth& cloth = stage.cloths[i];
         const Colors& colors = k_fabrics[i % k_fabrics.size()];
-        const engine::Bounds extent = bounds_of(cloth.start);
+        const voile::engine::Bounds extent = bounds_of(cloth.start);
         const glm::vec3 size = extent.max - extent.min;
         app.scene()
             .add(cloth.name)
-            .add<cloth::component::Sheet>(
+            .add<voile::component::Sheet>(
                 world, app.uploads(), cloth.id,
-                cloth::component::fabric_surface(colors.front, colors.back, std::max({size.x, size.y, size.z, 1e-3f})));
+                voile::component::fabric_surface(colors.front, colors.back, std::max({size.x, size.y, size.z, 1e-3f})));
     }
     SolidMeshes meshes(app.uploads(), glm::distance(box.min, box.max));
     for (const Solid& solid : solids)

@@ -1,6 +1,6 @@
 #include "samples/viewer/statistics_file.hpp"
 
-#include "engine/assets/file.hpp"
+#include "voile/engine/assets/file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -147,9 +147,9 @@ std::string statistics_text(const Statistics& statistics)
     return text + (statistics.per_frame.empty() ? "]\n}\n" : "\n ]\n}\n");
 }
 
-gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
+voile::gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
 {
-    return engine::write_file(path, statistics_text(statistics));
+    return voile::engine::write_file(path, statistics_text(statistics));
 }
 
 } // namespace viewer

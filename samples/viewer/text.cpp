@@ -1,6 +1,6 @@
 #include "samples/viewer/text.hpp"
 
-#include "engine/assets/words.hpp"
+#include "voile/engine/assets/words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace
 {
 
 // Damerau 1964, in the form of the optimal string alignment: the fewest insertions, deletions and replacements of a
-// character and swaps of neighbours between two words.
+// character and swaps of neighbors between two words.
 size_t edit_distance(const std::string& a, const std::string& b)
 {
     std::vector<size_t> before_last(b.size() + 1);
@@ -50,12 +50,12 @@ std::string printed(double value, int digits)
 
 std::string in_quotes(std::string_view text)
 {
-    return "\"" + gpu::printable(text) + "\"";
+    return "\"" + voile::gpu::printable(text) + "\"";
 }
 
 std::string path_in_quotes(const std::filesystem::path& path)
 {
-    return "\"" + engine::path_text(path) + "\"";
+    return "\"" + voile::engine::path_text(path) + "\"";
 }
 
 void note(const std::string& text)

@@ -9,7 +9,7 @@
 namespace viewer
 {
 
-// The text in quotation marks, fit for a message (gpu::printable).
+// The text in quotation marks, fit for a message (voile::gpu::printable).
 std::string in_quotes(std::string_view text);
 
 // A path likewise.

@@ -1,7 +1,7 @@
 // Penetration by exact distances, self-intersection by exact pairs.
 #include "samples/viewer/verify.hpp"
 
-#include "cloth/mesh_checks.hpp"
+#include "voile/mesh_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 // How deep a point that started at `start` lies under a solid, m; 0 or less if it does not. Both as seen from the solid
 // where it was at time 0.
 using Depth = std::function<double(const glm::dvec3& point, const glm::dvec3& start)>;
-using Distance = std::shared_ptr<const cloth::MeshDistance>;
+using Distance = std::shared_ptr<const voile::MeshDistance>;
 
 double segment_distance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p)
 {
@@ -69,21 +69,21 @@ Depth side_depth(const Distance& distance, const Distance& at_start)
     };
 }
 
-gpu::Result<Distance> mesh_distance(const Solid& solid, const std::vector<glm::vec3>& positions)
+voile::gpu::Result<Distance> mesh_distance(const Solid& solid, const std::vector<glm::vec3>& positions)
 {
-    auto created = cloth::MeshDistance::create({.name = solid.name,
+    auto created = voile::MeshDistance::create({.name = solid.name,
                                                 .positions = positions,
-                                                .triangles = std::get<engine::Mesh>(solid.shape).triangles,
+                                                .triangles = std::get<voile::engine::Mesh>(solid.shape).triangles,
                                                 .transform = solid.transform});
     if (!created)
         return created.error();
-    return std::make_shared<const cloth::MeshDistance>(std::move(created.value()));
+    return std::make_shared<const voile::MeshDistance>(std::move(created.value()));
 }
 
 // `deformed`: where its vertices have come to; null if they stay.
-gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* deformed)
+voile::gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* deformed)
 {
-    const auto first = mesh_distance(solid, std::get<engine::Mesh>(solid.shape).positions);
+    const auto first = mesh_distance(solid, std::get<voile::engine::Mesh>(solid.shape).positions);
     if (!first)
         return first.error();
     const auto now = deformed != nullptr ? mesh_distance(solid, *deformed) : first;
@@ -98,9 +98,9 @@ gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* 
     return winding_depth(distance, start, solid.sides == MeshSides::two);
 }
 
-gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)
+voile::gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)
 {
-    if (std::holds_alternative<engine::Mesh>(solid.shape))
+    if (std::holds_alternative<voile::engine::Mesh>(solid.shape))
         return mesh_depth(solid, deformed);
     return Depth([&solid, back = glm::inverse(glm::dmat4(solid.transform))](const glm::dvec3& p, const glm::dvec3&)
                  { return formula_depth(solid, glm::dvec3(back * glm::dvec4(p, 1))); });
@@ -114,7 +114,7 @@ struct Obstacle
     uint32_t layers = 1;
 };
 
-gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::vector<Solid>& solids)
+voile::gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::vector<Solid>& solids)
 {
     std::vector<Obstacle> obstacles;
     for (size_t i = 0; i < solids.size(); ++i)
@@ -140,8 +140,8 @@ double deepest_of(const std::vector<Obstacle>& obstacles, const StageCloth& clot
 
 } // namespace
 
-gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
-                                 const std::vector<FinalCloth>& state)
+voile::gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
+                                        const std::vector<FinalCloth>& state)
 {
     const auto obstacles = obstacles_of(stage, solids);
     if (!obstacles)
@@ -155,7 +155,7 @@ gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& s
             result.penetrating_vertices += depth > 0 ? 1 : 0;
             result.deepest_penetration = std::max(result.deepest_penetration, depth);
         }
-        result.self_intersections += cloth::count_self_intersections(state[i].positions, state[i].triangles);
+        result.self_intersections += voile::count_self_intersections(state[i].positions, state[i].triangles);
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// The look of woven cloth: a check of coloured yarns, and the threads themselves where they are large enough to be seen.
+// The look of woven cloth: a check of colored yarns, and the threads themselves where they are large enough to be seen.
 // Every pattern is filtered by its footprint in the pixel, so that it fades into its mean instead of shimmering.
 #ifndef VOILE_FABRIC_GLSL
 #define VOILE_FABRIC_GLSL
@@ -13,7 +13,7 @@ float band(float x, float w, float duty)
     return (band_integral(x + 0.5 * w, duty) - band_integral(x - 0.5 * w, duty)) / w;
 }
 
-// How much yarn of the second colour shows at p, 0 to 1, and (y) of the light thin stripe.
+// How much yarn of the second color shows at p, 0 to 1, and (y) of the light thin stripe.
 vec2 check_pattern(vec2 p)
 {
     const vec2 w = fwidth(p);

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One colour; round where there is an offset from the middle.
+// One color; round where there is an offset from the middle.
 #include "marks.glsl"
 
 layout(location = 0) in vec2 offset;

@@ -8,7 +8,7 @@
 #define VOILE_SURFACE_FABRIC 1u
 #define VOILE_SURFACE_GROUND 2u
 
-VOILE_SHARED_BEGIN(engine)
+VOILE_SHARED_BEGIN(voile::engine)
 
 struct FrameUniforms
 {

@@ -1,4 +1,4 @@
-// A clear sky by rule: its colour in a direction, and the light that it sheds on a surface.
+// A clear sky by rule: its color in a direction, and the light that it sheds on a surface.
 #ifndef VOILE_SKY_GLSL
 #define VOILE_SKY_GLSL
 

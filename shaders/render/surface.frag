@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Shades a surface: sun with shadow, sky, and what is particular to fabric and ground. Writes tone-mapped colour.
+// Shades a surface: sun with shadow, sky, and what is particular to fabric and ground. Writes tone-mapped color.
 #include "brdf.glsl"
 #include "fabric.glsl"
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 // A program that links Vulkan, as most do, with the installed module: a sheet falls for a tenth of a second.
 #include "linked_host.hpp"
 
-#include <cloth/solver.hpp>
+#include <voile/solver.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 int main()
 {
     HostDevice host;
-    auto made = cloth::Solver::create({.instance = host.instance,
+    auto made = voile::Solver::create({.instance = host.instance,
                                        .physical_device = host.physical_device,
                                        .device = host.device,
                                        .allocator = host.allocator,
@@ -17,8 +17,8 @@ int main()
                                       {});
     if (!made)
         return std::fprintf(stderr, "%s\n", made.error().message.c_str()), 1;
-    cloth::Solver& solver = made.value();
-    const cloth::Grid grid{.columns = 8, .rows = 8, .material = cloth::Material{.vertex_mass = 1.f / 64}};
+    voile::Solver& solver = made.value();
+    const voile::GridCloth grid{.columns = 8, .rows = 8, .material = voile::Material{.vertex_mass = 1.f / 64}};
     if (const auto sheet = solver.add_cloth(grid); !sheet)
         return std::fprintf(stderr, "%s\n", sheet.error().message.c_str()), 1;
     const auto upload = solver.record_upload(host.begin());

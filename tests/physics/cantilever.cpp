@@ -21,10 +21,10 @@ struct Row
 constexpr Row k_rows[] = {{1, 0.1235}, {5, 0.4959}, {10, 0.7002}, {20, 0.8299}, {50, 0.9079}};
 
 // Of the isometric model, and so stiff in stretch that its own weight lengthens it by 0.02 % at most.
-cloth::Fabric strip_fabric(double load)
+voile::Fabric strip_fabric(double load)
 {
-    cloth::Fabric fabric = plain_fabric(1000);
-    fabric.bending_model = cloth::BendingModel::isometric;
+    voile::Fabric fabric = plain_fabric(1000);
+    fabric.bending_model = voile::BendingModel::isometric;
     fabric.bending_stiffness = static_cast<float>(0.2 * k_gravity * k_length * k_length * k_length / load);
     return fabric;
 }
@@ -37,7 +37,7 @@ double spacing_of(uint32_t spacings)
 }
 
 // Settles and tells how far the mean of the last `end` vertices of the order given lies below the clamp.
-double drop_at_rest(Rig& rig, cloth::ClothId id, const std::vector<uint32_t>& end)
+double drop_at_rest(Rig& rig, voile::ClothId id, const std::vector<uint32_t>& end)
 {
     rig.settle(id, {.duration = 0.01f}, 600, 1e-8);
     const auto x = rig.positions(id);
@@ -50,8 +50,8 @@ double drop_at_rest(Rig& rig, cloth::ClothId id, const std::vector<uint32_t>& en
 double grid_drop(double load, uint32_t spacings)
 {
     const double h = spacing_of(spacings);
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = spacings + 2;
     grid.rows = 3;
     grid.width = static_cast<float>(h * (spacings + 1));
@@ -65,7 +65,7 @@ double grid_drop(double load, uint32_t spacings)
         end.push_back((row + 1) * grid.columns - 1);
     }
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     return drop_at_rest(rig, id, end);
 }
@@ -116,14 +116,14 @@ Strip triangle_strip(uint32_t spacings)
 double mesh_drop(double load, uint32_t spacings)
 {
     const Strip strip = triangle_strip(spacings);
-    cloth::MeshCloth mesh;
+    voile::MeshCloth mesh;
     mesh.positions = strip.positions;
     mesh.triangles = strip.triangles;
     mesh.held = strip.held;
-    mesh.integrator = cloth::Integrator::verlet;
+    mesh.integrator = voile::Integrator::verlet;
     mesh.material = strip_fabric(load);
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(mesh));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(mesh));
     rig.upload();
     return drop_at_rest(rig, id, strip.end);
 }

@@ -3,7 +3,7 @@
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
-#include "cloth/fabrics.hpp"
+#include "voile/fabrics.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -139,17 +139,17 @@ std::vector<glm::dvec3> slightly_waved(const Disc& disc)
     return x;
 }
 
-std::vector<double> draped(const cloth::Fabric& fabric, uint32_t overhang)
+std::vector<double> draped(const voile::Fabric& fabric, uint32_t overhang)
 {
     const Disc disc = DiscMaker(overhang).disc();
-    cloth::MeshCloth mesh;
+    voile::MeshCloth mesh;
     mesh.positions = disc.positions;
     mesh.triangles = disc.triangles;
     mesh.held = disc.held;
-    mesh.integrator = cloth::Integrator::verlet;
+    mesh.integrator = voile::Integrator::verlet;
     mesh.material = fabric;
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(mesh));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(mesh));
     rig.upload();
     rig.place(id, slightly_waved(disc));
     rig.settle(id, {.duration = 0.01f}, 300, 1e-7);
@@ -210,7 +210,7 @@ CaseResult drape_with(uint32_t overhang)
     plot.curves.push_back(closed_curve("support", std::vector<double>(k_rays, k_support)));
     for (const Reference& reference : k_references)
     {
-        const auto radii = draped(*cloth::find_fabric(reference.fabric), overhang);
+        const auto radii = draped(*voile::find_fabric(reference.fabric), overhang);
         result.measurements.push_back(measurement(reference, radii, overhang));
         plot.curves.push_back(closed_curve(reference.fabric, radii));
     }

@@ -14,16 +14,16 @@ namespace
 // swings in that mode alone: T = 4 pi sqrt(L / g) / j.
 double chain_period(double root, uint32_t rows, Curve& curve)
 {
-    const cloth::Grid grid = [&]
+    const voile::GridCloth grid = [&]
     {
-        cloth::Fabric fabric = plain_fabric(10000); // its own weight lengthens it by 0.01 %
+        voile::Fabric fabric = plain_fabric(10000); // its own weight lengthens it by 0.01 %
         fabric.damping_ratio = 0;
         return hanging_sheet(2, rows, 1.0 / (rows - 1), 1, fabric);
     }();
     const auto shape = [&](uint32_t row)
     { return std::cyl_bessel_j(0, root * std::sqrt(static_cast<double>(rows - 1 - row) / (rows - 1))); };
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     auto x = rig.positions(id);
     for (uint32_t i = 0; i < 2 * rows; ++i)
@@ -79,16 +79,16 @@ CaseResult terminal_speed(Detail detail)
 {
     CaseResult result;
     const uint32_t side = detail == Detail::fine ? 17 : 5;
-    cloth::Fabric fabric = plain_fabric(1000);
+    voile::Fabric fabric = plain_fabric(1000);
     fabric.shear_stiffness = 100;
     fabric.air_drag_normal = 1.28f;
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = grid.rows = side;
     grid.width = grid.depth = 0.5f;
     grid.material = fabric;
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     rig.step({.duration = 0.1f}, 15); // nine times v / g
     const double exact = std::sqrt(2 * 0.2 * k_gravity / (1.225 * 1.28));

@@ -3,7 +3,7 @@
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
-#include "cloth/fabrics.hpp"
+#include "voile/fabrics.hpp"
 
 #include <limits>
 #include <numbers>
@@ -79,21 +79,22 @@ void add_surface(Rig& rig, Surface surface, double side)
 {
     if (surface == Surface::plane)
     {
-        (void)engine::take(rig.solver.add_collider(cloth::PlaneCollider{.normal = glm::vec3(incline_normal())}));
+        (void)voile::engine::take(rig.solver.add_collider(voile::PlaneCollider{.normal = glm::vec3(incline_normal())}));
         return;
     }
     const double triangle = surface == Surface::coarse_mesh ? 1.5 * k_patch : 0.25 * k_patch;
     const TriangleMesh mesh = incline_mesh(side, static_cast<uint32_t>(side / triangle));
-    (void)engine::take(
-        rig.solver.add_collider(cloth::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
+    (void)voile::engine::take(
+        rig.solver.add_collider(voile::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
 }
 
-cloth::Grid patch(cloth::Fabric fabric, double static_friction, double kinetic_friction, uint32_t side, double across)
+voile::GridCloth patch(voile::Fabric fabric, double static_friction, double kinetic_friction, uint32_t side,
+                       double across)
 {
     fabric.static_friction = static_cast<float>(static_friction);
     fabric.kinetic_friction = static_cast<float>(kinetic_friction);
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = grid.rows = side;
     grid.width = grid.depth = static_cast<float>(k_patch);
     grid.material = fabric;
@@ -115,19 +116,19 @@ double mean_along(const std::vector<glm::dvec3>& positions, const glm::dvec3& di
 
 // How far patches beside each other move down the incline within k_time, one for each coefficient of static friction;
 // the kinetic one is 0.5.
-std::vector<double> moved(Surface surface, const cloth::Fabric& fabric, uint32_t side,
+std::vector<double> moved(Surface surface, const voile::Fabric& fabric, uint32_t side,
                           const std::vector<double>& static_friction)
 {
     Rig rig;
-    std::vector<cloth::ClothId> ids;
+    std::vector<voile::ClothId> ids;
     const double width = k_spacing * static_cast<double>(static_friction.size());
     for (size_t i = 0; i < static_friction.size(); ++i)
-        ids.push_back(engine::take(rig.solver.add_cloth(
+        ids.push_back(voile::engine::take(rig.solver.add_cloth(
             patch(fabric, static_friction[i], 0.5, side, k_spacing * (static_cast<double>(i) + 0.5) - 0.5 * width))));
     add_surface(rig, surface, 1.6 * width);
     rig.upload();
     std::vector<double> result;
-    for (const cloth::ClothId id : ids)
+    for (const voile::ClothId id : ids)
         result.push_back(-mean_along(rig.positions(id), downhill()));
     rig.step({.duration = static_cast<float>(k_time / 5), .air_density = 0}, 5);
     for (size_t i = 0; i < ids.size(); ++i)
@@ -153,7 +154,7 @@ void measure(Surface surface, const char* name, Detail detail, CaseResult& resul
         coefficients.push_back(0.570 + 0.002 * i);
     std::vector<double> all = coefficients;
     all.insert(all.end(), {0.6, 0.5});
-    std::vector<double> distances = moved(surface, *cloth::find_fabric(name), side, all);
+    std::vector<double> distances = moved(surface, *voile::find_fabric(name), side, all);
     const double slid = distances.back();
     const double stayed = distances[distances.size() - 2];
     distances.resize(coefficients.size());

@@ -11,12 +11,12 @@ namespace physics
 namespace
 {
 
-const char* name_of(cloth::Integrator integrator)
+const char* name_of(voile::Integrator integrator)
 {
-    return integrator == cloth::Integrator::rk4 ? "RK4" : "Verlet";
+    return integrator == voile::Integrator::rk4 ? "RK4" : "Verlet";
 }
 
-// Two vertices a metre apart and a spring of 50 N/m; stretched, they swing with omega^2 = 2 k / m.
+// Two vertices a meter apart and a spring of 50 N/m; stretched, they swing with omega^2 = 2 k / m.
 struct Pair
 {
     double mass;
@@ -24,13 +24,13 @@ struct Pair
 
     [[nodiscard]] double omega() const { return std::sqrt(2 * 50 / mass); }
 
-    [[nodiscard]] cloth::Grid grid(cloth::Integrator integrator) const
+    [[nodiscard]] voile::GridCloth grid(voile::Integrator integrator) const
     {
-        cloth::Grid grid; // of 2 x 2 vertices, springs along the rows only: two such pairs
+        voile::GridCloth grid; // of 2 x 2 vertices, springs along the rows only: two such pairs
         grid.integrator = integrator;
         grid.columns = grid.rows = 2;
         grid.transform[0] *= static_cast<float>(1 + amplitude);
-        cloth::Material material;
+        voile::Material material;
         material.vertex_mass = static_cast<float>(mass);
         material.springs.structural_warp = {50, 0};
         grid.material = material;
@@ -44,10 +44,10 @@ struct PairState
     double velocity; // m/s, of lengthening
 };
 
-PairState swing(const Pair& pair, cloth::Integrator integrator, double duration, uint32_t substeps)
+PairState swing(const Pair& pair, voile::Integrator integrator, double duration, uint32_t substeps)
 {
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(pair.grid(integrator)));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(pair.grid(integrator)));
     rig.upload();
     rig.step({.duration = static_cast<float>(duration), .substeps = substeps, .gravity = {0, 0, 0}});
     const auto x = rig.positions(id);
@@ -56,7 +56,7 @@ PairState swing(const Pair& pair, cloth::Integrator integrator, double duration,
 }
 
 // In phase space, where errors of amplitude and of phase cannot cancel.
-double swing_error(const Pair& pair, cloth::Integrator integrator, uint32_t substeps)
+double swing_error(const Pair& pair, voile::Integrator integrator, uint32_t substeps)
 {
     const PairState end = swing(pair, integrator, 1, substeps);
     return std::hypot(end.stretch - pair.amplitude * std::cos(pair.omega()),
@@ -73,7 +73,7 @@ constexpr uint32_t k_side = 9;
 constexpr double k_spacing = 0.125; // m
 
 // In double precision, from the positions and velocities: springs along rows, columns and diagonals.
-Energy energy_of(const cloth::Material& m, const std::vector<glm::dvec3>& x, const std::vector<glm::dvec3>& v)
+Energy energy_of(const voile::Material& m, const std::vector<glm::dvec3>& x, const std::vector<glm::dvec3>& v)
 {
     const struct
     {
@@ -106,20 +106,20 @@ Energy energy_of(const cloth::Material& m, const std::vector<glm::dvec3>& x, con
 }
 
 // The greatest departure of the energy from its start within 10 s, relative; tells the curve too.
-double energy_drift(cloth::Integrator integrator, uint32_t substeps, Curve& curve)
+double energy_drift(voile::Integrator integrator, uint32_t substeps, Curve& curve)
 {
-    cloth::Material material;
+    voile::Material material;
     material.vertex_mass = 0.01f;
     material.springs.structural_warp = material.springs.structural_weft = {50, 0};
     material.springs.shear = {20, 0};
-    cloth::Grid grid;
+    voile::GridCloth grid;
     grid.integrator = integrator;
     grid.columns = grid.rows = k_side;
     grid.transform[0] *= 1.03f;
     grid.transform[2] *= 0.99f;
     grid.material = material;
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     const auto total = [&]
     {
@@ -145,20 +145,20 @@ CaseResult free_fall(Detail detail)
 {
     CaseResult result;
     const uint32_t side = detail == Detail::fine ? 17 : 9;
-    for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
-        cloth::Fabric fabric = plain_fabric(1000);
+        voile::Fabric fabric = plain_fabric(1000);
         fabric.damping_ratio = 0.5f;
         fabric.shear_stiffness = 100;
-        const bool rk4 = integrator == cloth::Integrator::rk4;
+        const bool rk4 = integrator == voile::Integrator::rk4;
         // The roundings of the velocity in each of 618 and 1236 substeps, of either sign, alike for all vertices.
         const Target target = rk4 ? Target{8e-6, 5e-5} : Target{9e-6, 5e-5};
-        cloth::Grid grid;
+        voile::GridCloth grid;
         grid.integrator = integrator;
         grid.columns = grid.rows = side;
         grid.material = fabric;
         Rig rig;
-        const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+        const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
         rig.upload();
         rig.step({.duration = 0.5f});
         double farthest = 0;
@@ -177,9 +177,9 @@ CaseResult order(Detail detail)
     CaseResult result;
     const Pair pair{1, 0.5};
     Plot plot{"order", "Error of a swinging pair", "step, s", "error, m", {}, true, false};
-    for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
-        const bool rk4 = integrator == cloth::Integrator::rk4;
+        const bool rk4 = integrator == voile::Integrator::rk4;
         // RK4's shorter steps meet the rounding of floats; in Verlet's longer ones the pair is fast enough to be
         // viscous.
         const uint32_t first = (rk4 ? 20 : 40) * (detail == Detail::fine ? 2 : 1);
@@ -206,11 +206,11 @@ CaseResult spring_pair(Detail detail)
     const Pair pair{0.2, 0.05};
     const uint32_t substeps = detail == Detail::fine ? 100 : 50;
     const double exact = 2 * std::numbers::pi / pair.omega();
-    for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
         // After four exact periods the phase tells by how much the period is off.
         const PairState end = swing(pair, integrator, 4 * exact, 4 * substeps);
-        const bool rk4 = integrator == cloth::Integrator::rk4;
+        const bool rk4 = integrator == voile::Integrator::rk4;
         const Target target = rk4 ? Target{1e-5, 5.5e-7} : Target{2e-3, 5e-4};
         const double phase = std::atan2(-end.velocity / pair.omega(), end.stretch);
         result.measurements.push_back({std::string("period, s, ") + name_of(integrator),
@@ -224,11 +224,11 @@ CaseResult energy(Detail detail)
 {
     CaseResult result;
     Plot plot{"energy", "Energy of a free cloth", "time, s", "departure, %", {}, false, false};
-    for (const auto integrator : {cloth::Integrator::rk4, cloth::Integrator::verlet})
+    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
         // The fastest mode of the grid swings with 208 1/s. RK4 loses (omega h)^6 / 72 of a mode's energy a step.
         const uint32_t substeps = detail == Detail::fine ? 160 : 80;
-        const bool rk4 = integrator == cloth::Integrator::rk4;
+        const bool rk4 = integrator == voile::Integrator::rk4;
         const Target target = rk4 ? Target{5e-3, 2e-4} : Target{5e-3, 1.2e-3};
         Curve curve{name_of(integrator), {0}, {0}, false};
         const double drift = energy_drift(integrator, substeps, curve);

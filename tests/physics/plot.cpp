@@ -18,7 +18,7 @@ constexpr double k_left = 80;
 constexpr double k_right = 150; // of the legend
 constexpr double k_top = 40;
 constexpr double k_bottom = 60;
-constexpr std::array k_colours = {"#1f5fa8", "#c8542b", "#3a8f4d", "#8a4fa3", "#b08a1e", "#4a4a4a"};
+constexpr std::array k_colors = {"#1f5fa8", "#c8542b", "#3a8f4d", "#8a4fa3", "#b08a1e", "#4a4a4a"};
 
 std::string number(double value, const char* format = "%.1f")
 {
@@ -100,16 +100,16 @@ void write_axes(std::ostream& out, const Plot& plot, const Axis& x, const Axis& 
     text(out, k_left, 24, "start", plot.title, " font-weight=\"bold\"");
 }
 
-void write_curve(std::ostream& out, const Curve& curve, const char* colour, const Axis& x, const Axis& y)
+void write_curve(std::ostream& out, const Curve& curve, const char* color, const Axis& x, const Axis& y)
 {
     if (curve.points)
     {
         for (size_t i = 0; i < curve.x.size(); ++i)
             out << "<circle cx=\"" << number(x.at(curve.x[i])) << "\" cy=\"" << number(y.at(curve.y[i]))
-                << "\" r=\"3\" fill=\"" << colour << "\"/>\n";
+                << "\" r=\"3\" fill=\"" << color << "\"/>\n";
         return;
     }
-    out << "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" << colour << "\" points=\"";
+    out << "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" << color << "\" points=\"";
     for (size_t i = 0; i < curve.x.size(); ++i)
         out << number(x.at(curve.x[i])) << "," << number(y.at(curve.y[i])) << " ";
     out << "\"/>\n";
@@ -123,31 +123,31 @@ bool write_svg(const Plot& plot, const std::filesystem::path& folder)
     Axis y = make_axis(plot, &Curve::y, k_height - k_bottom, k_top);
     if (plot.even)
     {
-        const double metres = std::max((x.high - x.low) / (x.to - x.from), (y.high - y.low) / (y.from - y.to));
-        widen(x, metres * (x.to - x.from));
-        widen(y, metres * (y.from - y.to));
+        const double meters = std::max((x.high - x.low) / (x.to - x.from), (y.high - y.low) / (y.from - y.to));
+        widen(x, meters * (x.to - x.from));
+        widen(y, meters * (y.from - y.to));
     }
     std::ostringstream out;
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << k_width << " " << k_height
         << "\" font-family=\"sans-serif\" font-size=\"13\">\n<style>.grid{stroke:#ddd;fill:none}</style>\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     write_axes(out, plot, x, y);
-    std::vector<std::string> names; // a colour a name
+    std::vector<std::string> names; // a color a name
     for (const Curve& curve : plot.curves)
     {
         auto found = std::find(names.begin(), names.end(), curve.name);
         const bool added = found == names.end();
         const auto index = static_cast<size_t>(found - names.begin());
-        const char* colour = k_colours[index % k_colours.size()];
+        const char* color = k_colors[index % k_colors.size()];
         if (added)
         {
             names.push_back(curve.name);
             const double line = k_top + 14 + 20 * static_cast<double>(index);
             out << "<rect x=\"" << k_width - k_right + 12 << "\" y=\"" << number(line - 6)
-                << "\" width=\"14\" height=\"3\" fill=\"" << colour << "\"/>\n";
+                << "\" width=\"14\" height=\"3\" fill=\"" << color << "\"/>\n";
             text(out, k_width - k_right + 32, line, "start", curve.name);
         }
-        write_curve(out, curve, colour, x, y);
+        write_curve(out, curve, color, x, y);
     }
     out << "</svg>\n";
     std::ofstream file(folder / (plot.file + ".svg"));

@@ -1,7 +1,7 @@
 #include "physics/rig.hpp"
 
-#include "engine/gpu/download.hpp"
-#include "gpu/recorder.hpp"
+#include "voile/engine/gpu/download.hpp"
+#include "voile/gpu/recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +14,20 @@ namespace
 {
 
 // Without validation: the same commands are validated by the other tests.
-engine::Device& device()
+voile::engine::Device& device()
 {
-    static engine::Device instance({.device = {}, .validation = false, .instance_extensions = {}, .swapchain = false});
+    static voile::engine::Device instance(
+        {.device = {}, .validation = false, .instance_extensions = {}, .swapchain = false});
     return instance;
 }
 
 } // namespace
 
-Rig::Rig() : solver(engine::take(cloth::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
+Rig::Rig() : solver(voile::engine::take(voile::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
 
 void Rig::run(const std::function<void(VkCommandBuffer)>& record)
 {
-    const engine::FrameRing::Frame frame = frames_.begin();
+    const voile::engine::FrameRing::Frame frame = frames_.begin();
     record(frame.cmd);
     frames_.submit(frame);
     frames_.wait(frame.slot);
@@ -34,21 +35,21 @@ void Rig::run(const std::function<void(VkCommandBuffer)>& record)
 
 void Rig::upload()
 {
-    cloth::Upload kept;
-    run([&](VkCommandBuffer cmd) { kept = engine::take(solver.record_upload(cmd)); });
+    voile::Upload kept;
+    run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
 }
 
-void Rig::step(const cloth::Step& step, uint32_t times)
+void Rig::step(const voile::Step& step, uint32_t times)
 {
     for (uint32_t i = 0; i < times; ++i)
-        run([&](VkCommandBuffer cmd) { engine::take(solver.record(cmd, step)); });
+        run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); });
 }
 
-std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const cloth::VertexStreams& streams)
+std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const voile::VertexStreams& streams)
 {
     std::vector<glm::dvec3> result;
     for (const glm::vec4& v :
-         engine::download_values<glm::vec4>(device(), buffer, streams.offset, size_t{streams.vertices}))
+         voile::engine::download_values<glm::vec4>(device(), buffer, streams.offset, size_t{streams.vertices}))
     {
         if (!std::isfinite(v.x + v.y + v.z))
             throw std::runtime_error("a vertex is not finite");
@@ -57,29 +58,29 @@ std::vector<glm::dvec3> Rig::read(VkBuffer buffer, const cloth::VertexStreams& s
     return result;
 }
 
-std::vector<glm::dvec3> Rig::positions(cloth::ClothId cloth)
+std::vector<glm::dvec3> Rig::positions(voile::ClothId cloth)
 {
-    const cloth::VertexStreams streams = solver.vertices(cloth);
+    const voile::VertexStreams streams = solver.vertices(cloth);
     return read(streams.positions, streams);
 }
 
-std::vector<glm::dvec3> Rig::velocities(cloth::ClothId cloth)
+std::vector<glm::dvec3> Rig::velocities(voile::ClothId cloth)
 {
-    const cloth::VertexStreams streams = solver.vertices(cloth);
+    const voile::VertexStreams streams = solver.vertices(cloth);
     return read(streams.velocities, streams);
 }
 
 double Rig::kinetic_energy()
 {
-    run([&](VkCommandBuffer cmd) { engine::take(solver.record_statistics(cmd, 0)); });
+    run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_statistics(cmd, 0)); });
     return static_cast<double>(solver.statistics(0).kinetic_energy);
 }
 
-void Rig::place(cloth::ClothId cloth, const std::vector<glm::dvec3>& positions)
+void Rig::place(voile::ClothId cloth, const std::vector<glm::dvec3>& positions)
 {
-    const cloth::VertexStreams streams = solver.vertices(cloth);
-    auto values =
-        engine::download_values<glm::vec4>(device(), streams.positions, streams.offset, size_t{streams.vertices});
+    const voile::VertexStreams streams = solver.vertices(cloth);
+    auto values = voile::engine::download_values<glm::vec4>(device(), streams.positions, streams.offset,
+                                                            size_t{streams.vertices});
     for (size_t i = 0; i < values.size(); ++i)
         values[i] = glm::vec4(glm::vec3(positions[i]), values[i].w);
     constexpr size_t k_most = 65536 / sizeof(glm::vec4); // of vkCmdUpdateBuffer
@@ -94,28 +95,28 @@ void Rig::place(cloth::ClothId cloth, const std::vector<glm::dvec3>& positions)
     stop(cloth);
 }
 
-void Rig::stop(cloth::ClothId cloth)
+void Rig::stop(voile::ClothId cloth)
 {
-    const cloth::VertexStreams streams = solver.vertices(cloth);
+    const voile::VertexStreams streams = solver.vertices(cloth);
     run(
         [&](VkCommandBuffer cmd)
         {
             solver.context().fn.vkCmdFillBuffer(cmd, streams.velocities, streams.offset,
                                                 streams.vertices * sizeof(glm::vec4), 0);
-            gpu::Recorder(solver.context(), cmd)
+            voile::gpu::Recorder(solver.context(), cmd)
                 .barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT_KHR, VK_ACCESS_2_MEMORY_READ_BIT_KHR);
         });
 }
 
-void Rig::settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest)
+void Rig::settle(voile::ClothId cloth, const voile::Step& step, uint32_t most, double rest)
 {
     double highest = 0;
     double before = 0;
     for (uint32_t steps = 1; steps <= most; ++steps)
     {
         // Of different durations: equal ones may meet a mode at its turning points alone, where a stop takes nothing.
-        cloth::Step part = step;
+        voile::Step part = step;
         part.duration *= 0.5f + 0.5f * static_cast<float>(std::fmod(0.618034 * steps, 1.0));
         this->step(part);
         const double energy = kinetic_energy();

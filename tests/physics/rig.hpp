@@ -1,9 +1,9 @@
 // Rig: a solver on a device of its own, stepped, read back, and brought to rest.
 #pragma once
 
-#include "cloth/solver.hpp"
-#include "engine/gpu/device.hpp"
-#include "engine/gpu/frames.hpp"
+#include "voile/engine/gpu/device.hpp"
+#include "voile/engine/gpu/frames.hpp"
+#include "voile/solver.hpp"
 
 #include <functional>
 #include <vector>
@@ -19,29 +19,29 @@ public:
     Rig();
 
     void upload();
-    void step(const cloth::Step& step, uint32_t times = 1);
-    std::vector<glm::dvec3> positions(cloth::ClothId cloth);
-    std::vector<glm::dvec3> velocities(cloth::ClothId cloth);
+    void step(const voile::Step& step, uint32_t times = 1);
+    std::vector<glm::dvec3> positions(voile::ClothId cloth);
+    std::vector<glm::dvec3> velocities(voile::ClothId cloth);
     double kinetic_energy(); // J, of all cloths
 
     // Puts the vertices elsewhere, at rest; springs keep their rest lengths.
-    void place(cloth::ClothId cloth, const std::vector<glm::dvec3>& positions);
+    void place(voile::ClothId cloth, const std::vector<glm::dvec3>& positions);
     // Takes all velocities away.
-    void stop(cloth::ClothId cloth);
+    void stop(voile::ClothId cloth);
 
     // Kinetic damping (Cundall 1976): steps, and stops the cloth whenever its kinetic energy has passed a peak, until a
     // peak is less than `rest` of the highest one; throws if that takes more than `most` steps. Nothing is added to the
     // forces, so what it comes to rest in is the static solution. The steps last between half of and all of the
     // duration that is given.
-    void settle(cloth::ClothId cloth, const cloth::Step& step, uint32_t most, double rest = 1e-8);
+    void settle(voile::ClothId cloth, const voile::Step& step, uint32_t most, double rest = 1e-8);
 
-    cloth::Solver solver;
+    voile::Solver solver;
 
 private:
     void run(const std::function<void(VkCommandBuffer)>& record);
-    std::vector<glm::dvec3> read(VkBuffer buffer, const cloth::VertexStreams& streams);
+    std::vector<glm::dvec3> read(VkBuffer buffer, const voile::VertexStreams& streams);
 
-    engine::FrameRing frames_;
+    voile::engine::FrameRing frames_;
 };
 
 } // namespace physics

@@ -5,9 +5,9 @@
 namespace physics
 {
 
-cloth::Fabric plain_fabric(double stretch)
+voile::Fabric plain_fabric(double stretch)
 {
-    cloth::Fabric fabric;
+    voile::Fabric fabric;
     fabric.areal_density = 0.2f;
     fabric.stretch_stiffness = {static_cast<float>(stretch), static_cast<float>(stretch)};
     fabric.shear_stiffness = 0;
@@ -17,10 +17,11 @@ cloth::Fabric plain_fabric(double stretch)
     return fabric;
 }
 
-cloth::Grid hanging_sheet(uint32_t columns, uint32_t rows, double width, double length, const cloth::Fabric& fabric)
+voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, double width, double length,
+                               const voile::Fabric& fabric)
 {
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = columns;
     grid.rows = rows;
     grid.width = static_cast<float>(width);

@@ -16,10 +16,11 @@ struct TriangleMesh
 };
 
 // 0.2 kg/m^2, without shear, bending and air; damped a little.
-cloth::Fabric plain_fabric(double stretch);
+voile::Fabric plain_fabric(double stretch);
 
 // Hangs in the plane of x and y, its row 0 on top at y = 0, held there. Velocity Verlet.
-cloth::Grid hanging_sheet(uint32_t columns, uint32_t rows, double width, double length, const cloth::Fabric& fabric);
+voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, double width, double length,
+                               const voile::Fabric& fabric);
 
 std::string grid_size(uint32_t columns, uint32_t rows); // "9 x 9"
 std::string short_number(double value);                 // "0.5"

@@ -12,11 +12,11 @@ namespace
 
 double elongation(uint32_t side, double shear)
 {
-    cloth::Fabric fabric = plain_fabric(1000);
+    voile::Fabric fabric = plain_fabric(1000);
     fabric.shear_stiffness = static_cast<float>(shear);
-    const cloth::Grid grid = hanging_sheet(side, side, 1, 1, fabric);
+    const voile::GridCloth grid = hanging_sheet(side, side, 1, 1, fabric);
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     rig.settle(id, {.duration = 0.005f}, 400);
     return -rig.positions(id)[size_t{side} * (side - 1) + side / 2].y - 1;
@@ -53,9 +53,9 @@ Curve catenary_curve(double span)
 std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
 {
     // Stretched by less than rho g L / k = 0.07 %. Of two rows, without shear, which hang alike.
-    const cloth::Fabric fabric = plain_fabric(3000);
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    const voile::Fabric fabric = plain_fabric(3000);
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = links + 1;
     grid.rows = 2;
     grid.width = 1;
@@ -63,7 +63,7 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
     grid.material = fabric;
     grid.held = {0, links, links + 1, 2 * links + 1};
     Rig rig;
-    const cloth::ClothId id = engine::take(rig.solver.add_cloth(grid));
+    const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
     // A start near it: a parabola with the right sag, its points spread evenly over the span.
     const double u = catenary_parameter(span);

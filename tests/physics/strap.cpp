@@ -1,7 +1,7 @@
 // Coulomb friction around a drum: T2 / T1 = exp(mu phi) where a strap slides, and where it is about to.
-#include "hard_shapes.hpp"
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
+#include "support/hard_shapes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +19,7 @@ constexpr double k_thickness = 0.002;
 constexpr double k_around = k_radius + k_thickness; // m, where the strap's vertices lie
 constexpr double k_stretch = 4000;                  // N/m
 constexpr double k_density = 0.05;                  // kg/m^2: what lies on the drum weighs 0.4 % of the lighter weight
-constexpr double k_light = 4;                       // kg a metre of width
+constexpr double k_light = 4;                       // kg a meter of width
 constexpr uint32_t k_straight = 8;                  // links that hang on either side
 
 const char* const k_remark =
@@ -33,7 +33,7 @@ const char* const k_remark =
     "on the flats of the drum, whose normals lean by up to π / segments against the circle's: 1.4° at 128 "
     "segments, which averages out over a path of a segment, and shows as jolts in the stretch. The thickness "
     "moves the strap outwards and does not enter. What lies on the drum weighs 0.4 % of the lighter weight. The "
-    "drum's triangles are 0.4 m long and 5 or 1.2 mm wide, as modelling programs write cylinders.";
+    "drum's triangles are 0.4 m long and 5 or 1.2 mm wide, as modeling programs write cylinders.";
 
 // A strap one link wide over the upper half of the drum, a weight at either end, stretched as its tensions have it.
 struct Strap
@@ -42,7 +42,7 @@ struct Strap
     double weights = 1; // heavy : light
     double link = 0;    // m, unstretched
     double across = 0;  // m along z
-    cloth::ClothId id{};
+    voile::ClothId id{};
 
     [[nodiscard]] uint32_t all_links() const { return links + 2 * k_straight; }
     [[nodiscard]] double heavy() const { return weights * k_light; }
@@ -117,12 +117,12 @@ std::vector<glm::dvec3> stretched(const Strap& strap)
 void add(Rig& rig, Strap& strap)
 {
     strap.link = fitting_link(strap);
-    cloth::Fabric fabric = plain_fabric(k_stretch);
+    voile::Fabric fabric = plain_fabric(k_stretch);
     fabric.areal_density = static_cast<float>(k_density);
     fabric.thickness = static_cast<float>(k_thickness);
     fabric.static_friction = fabric.kinetic_friction = static_cast<float>(k_friction);
-    cloth::Grid grid;
-    grid.integrator = cloth::Integrator::verlet;
+    voile::GridCloth grid;
+    grid.integrator = voile::Integrator::verlet;
     grid.columns = strap.all_links() + 1;
     grid.rows = 2;
     grid.width = static_cast<float>(strap.link * strap.all_links());
@@ -134,7 +134,7 @@ void add(Rig& rig, Strap& strap)
         grid.inverse_masses[first] = static_cast<float>(2 / (k_light * strap.link));
         grid.inverse_masses[first + strap.all_links()] = static_cast<float>(2 / (strap.heavy() * strap.link));
     }
-    strap.id = engine::take(rig.solver.add_cloth(grid));
+    strap.id = voile::engine::take(rig.solver.add_cloth(grid));
 }
 
 // What is seen of a strap from `before` to `after`, with the stretch summed up over samples between them.
@@ -163,7 +163,7 @@ constexpr uint32_t k_samples = 10;
 
 std::vector<Watch> watch(Rig& rig, const std::vector<Strap>& straps)
 {
-    const cloth::Step step{.duration = k_sample, .max_substeps = 100000};
+    const voile::Step step{.duration = k_sample, .max_substeps = 100000};
     rig.step(step, 2); // what rounding and corners of the drum have upset at the start
     std::vector<Watch> result(straps.size());
     for (size_t i = 0; i < straps.size(); ++i)
@@ -217,9 +217,9 @@ Ratios ratios(uint32_t links, uint32_t segments)
     std::vector<Strap> straps = straps_side_by_side(links);
     for (Strap& strap : straps)
         add(rig, strap);
-    const engine::Mesh mesh = tests::closed_cylinder(k_radius, -0.05, straps.back().across + 0.05, segments);
-    (void)engine::take(
-        rig.solver.add_collider(cloth::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
+    const voile::engine::Mesh mesh = tests::closed_cylinder(k_radius, -0.05, straps.back().across + 0.05, segments);
+    (void)voile::engine::take(
+        rig.solver.add_collider(voile::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
     rig.upload();
     for (const Strap& strap : straps)
         rig.place(strap.id, stretched(strap));

@@ -4,7 +4,7 @@
 
 #include "integrators.hpp"
 
-#include "cloth/descriptions.hpp"
+#include "voile/descriptions.hpp"
 
 #include <glm/glm.hpp>
 
@@ -27,8 +27,8 @@ struct Spring
 class Cloth
 {
 public:
-    explicit Cloth(const cloth::Grid& grid)
-        : grid_(grid), material_(std::get<cloth::Material>(grid.material)),
+    explicit Cloth(const voile::GridCloth& grid)
+        : grid_(grid), material_(std::get<voile::Material>(grid.material)),
           inverse_mass_(size(), 1 / double(material_.vertex_mass))
     {
         const double du = double(grid.width) / (grid.columns - 1);
@@ -49,7 +49,7 @@ public:
             inverse_mass_[held] = 0;
             state.v[held] = glm::dvec3(0);
         }
-        const cloth::SpringSet& s = material_.springs;
+        const voile::SpringSet& s = material_.springs;
         const double diagonal = std::hypot(du, dv);
         add_family(1, 0, s.structural_warp, du);
         add_family(0, 1, s.structural_weft, dv);
@@ -114,7 +114,7 @@ public:
     std::vector<Spring> springs;
 
 private:
-    void add_family(int columns, int rows, const cloth::Spring& spring, double rest_length)
+    void add_family(int columns, int rows, const voile::Spring& spring, double rest_length)
     {
         for (int row = 0; row + rows < int(grid_.rows); ++row)
             for (int column = 0; column < int(grid_.columns); ++column)
@@ -167,8 +167,8 @@ private:
         return force;
     }
 
-    cloth::Grid grid_;
-    cloth::Material material_;
+    voile::GridCloth grid_;
+    voile::Material material_;
     std::vector<double> inverse_mass_;
 };
 

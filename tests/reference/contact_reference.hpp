@@ -2,10 +2,10 @@
 // along the normal, crossing of the path, response with Coulomb friction.
 #pragma once
 
-#include "cloth/descriptions.hpp"
-#include "cloth/solver.hpp"
+#include "voile/descriptions.hpp"
+#include "voile/solver.hpp"
 
-#include "bvh_query.hpp"
+#include "geometry/bvh_query.hpp"
 
 #include <glm/glm.hpp>
 
@@ -48,7 +48,7 @@ inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const g
         if (mesh.closed && glm::dot(to - from, n) >= 0)
             continue;
         const auto hit =
-            cloth::ray_triangle(from, to - from, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+            voile::ray_triangle(from, to - from, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
         if (!hit || *hit > 1 || *hit >= first)
             continue;
         first = *hit;
@@ -77,8 +77,8 @@ inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const gl
     glm::dvec3 face(0);
     for (const glm::uvec3& t : mesh.triangles)
     {
-        const cloth::NearestPoint found =
-            cloth::nearest_on_triangle(to, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        const voile::NearestPoint found =
+            voile::nearest_on_triangle(to, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
         const glm::dvec3 n = face_normal(mesh, t);
         const double alignment = std::abs(glm::dot(to - found.point, n)) / std::max(found.distance, 1e-12);
         const double tie = 1e-5 * thickness; // triangles that share the nearest edge: the one that faces the vertex
@@ -113,7 +113,7 @@ inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::d
         for (const double sign : {1.0, -1.0})
         {
             const auto hit =
-                cloth::ray_triangle(to, sign * normal, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+                voile::ray_triangle(to, sign * normal, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
             if (!hit || *hit >= nearest)
                 continue;
             nearest = *hit;

@@ -17,7 +17,7 @@ using Linear = std::map<uint32_t, double>; // sum of coefficient * x over vertic
 class MeshCloth
 {
 public:
-    explicit MeshCloth(const cloth::MeshCloth& mesh) : triangles_(mesh.triangles.begin(), mesh.triangles.end())
+    explicit MeshCloth(const voile::MeshCloth& mesh) : triangles_(mesh.triangles.begin(), mesh.triangles.end())
     {
         for (const glm::vec3& p : mesh.positions)
             rest_.emplace_back(glm::vec3(mesh.transform * glm::vec4(p, 1))); // stored in float
@@ -118,7 +118,7 @@ public:
         bending_ *= stiffness;
     }
 
-    // No vertex is moved by its neighbours faster than this, 1/s^2: twice its springs and bending over its mass.
+    // No vertex is moved by its neighbors faster than this, 1/s^2: twice its springs and bending over its mass.
     [[nodiscard]] double omega_squared() const
     {
         std::vector<double> stiffness(size());
@@ -173,7 +173,7 @@ private:
     };
 
     // The gradient, in the world, of the second coordinate in which the mesh is seen along its thinnest axis.
-    void find_second_axis(const cloth::MeshCloth& mesh)
+    void find_second_axis(const voile::MeshCloth& mesh)
     {
         glm::dvec3 low(1e300);
         glm::dvec3 high(-1e300);
@@ -197,9 +197,9 @@ private:
         return 0.5 * glm::length(glm::cross(x[t.y] - x[t.x], x[t.z] - x[t.x]));
     }
 
-    void take_material(const cloth::ClothMaterial& material)
+    void take_material(const voile::ClothMaterial& material)
     {
-        if (const auto* raw = std::get_if<cloth::Material>(&material))
+        if (const auto* raw = std::get_if<voile::Material>(&material))
         {
             density_ = double(raw->vertex_mass);
             masses_alike_ = true;
@@ -209,8 +209,8 @@ private:
             drag_normal_ = double(raw->air_drag_normal);
             drag_tangential_ = double(raw->air_drag_tangential);
             add_bending_form();
-            const cloth::Spring along = raw->springs.structural_warp;
-            const cloth::Spring across = raw->springs.bend_warp;
+            const voile::Spring along = raw->springs.structural_warp;
+            const voile::Spring across = raw->springs.bend_warp;
             for_each_edge(
                 [&](uint32_t a, uint32_t b, double, double length) {
                     springs.push_back({a, b, double(along.stiffness), double(along.damping), length});
@@ -224,10 +224,10 @@ private:
                 });
             return;
         }
-        take_fabric(std::get<cloth::Fabric>(material));
+        take_fabric(std::get<voile::Fabric>(material));
     }
 
-    void take_fabric(const cloth::Fabric& fabric)
+    void take_fabric(const voile::Fabric& fabric)
     {
         density_ = double(fabric.areal_density);
         drag_normal_ = double(fabric.air_drag_normal);
@@ -238,7 +238,7 @@ private:
         for (const double a : areas_)
             mean_mass += density_ * a / solid;
         add_membrane(fabric, mean_mass);
-        if (fabric.bending_model == cloth::BendingModel::springs)
+        if (fabric.bending_model == voile::BendingModel::springs)
         {
             const double stretch = 0.5 * (double(fabric.stretch_stiffness[0]) + double(fabric.stretch_stiffness[1]));
             const double time = 2 * ratio * std::sqrt(mean_mass / (2 * stretch)); // damping over stiffness
@@ -268,7 +268,7 @@ private:
     // strain along both, and c_warp - K_s^2 / c_weft = K_warp, likewise for the weft. Diagonals at 45 degrees of 2 K_s
     // each have (K_s, K_s; K_s, K_s) and shear with K_s. Damping: the ratio of what is critical to vertices of the mean
     // mass on a spring as a grid of square cells has it, whose diagonals have K_s.
-    void add_membrane(const cloth::Fabric& fabric, double mean_mass)
+    void add_membrane(const voile::Fabric& fabric, double mean_mass)
     {
         const double warp = double(fabric.stretch_stiffness[0]);
         const double weft = double(fabric.stretch_stiffness[1]);

@@ -1,12 +1,12 @@
 // Buffer: allocation through the host's VulkanMemoryAllocator.
-#include "gpu/buffer.hpp"
+#include "voile/gpu/buffer.hpp"
 
 #include <vk_mem_alloc.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -107,4 +107,4 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
     return Buffer(context, buffer, allocation, size, result.pMappedData);
 }
 
-} // namespace gpu
+} // namespace voile::gpu

@@ -1,9 +1,9 @@
 // Context: reads functions and limits from the host's handles; names; result texts.
-#include "gpu/context.hpp"
+#include "voile/gpu/context.hpp"
 
 #include <algorithm>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -107,4 +107,4 @@ std::string to_string(VkResult result)
     }
 }
 
-} // namespace gpu
+} // namespace voile::gpu

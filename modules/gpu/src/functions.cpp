@@ -1,10 +1,10 @@
 // DeviceFunctions: looks every function up by its name.
-#include "gpu/functions.hpp"
+#include "voile/gpu/functions.hpp"
 
 #include <string>
 #include <string_view>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -33,4 +33,4 @@ DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice devi
     return fn;
 }
 
-} // namespace gpu
+} // namespace voile::gpu

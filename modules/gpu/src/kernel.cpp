@@ -1,12 +1,12 @@
 // Kernel and BindingPool: compute pipelines over storage buffers, and their descriptor sets.
-#include "gpu/kernel.hpp"
+#include "voile/gpu/kernel.hpp"
 
 #include "shared_memory.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -228,4 +228,4 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::initializer
     return set;
 }
 
-} // namespace gpu
+} // namespace voile::gpu

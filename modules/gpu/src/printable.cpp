@@ -1,9 +1,9 @@
 // UTF-8, character by character (RFC 3629).
-#include "gpu/printable.hpp"
+#include "voile/gpu/printable.hpp"
 
 #include <cstdint>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -56,8 +56,7 @@ bool is_shown(char32_t code)
 {
     const auto within = [&](char32_t first, char32_t last) { return code >= first && code <= last; };
     const bool control = code < 0x20 || within(0x7f, 0x9f) || within(0x2028, 0x2029);
-    const bool direction =
-        code == 0x61c || within(0x200e, 0x200f) || within(0x202a, 0x202e) || within(0x2066, 0x2069);
+    const bool direction = code == 0x61c || within(0x200e, 0x200f) || within(0x202a, 0x202e) || within(0x2066, 0x2069);
     return code != k_no_character && !control && !direction;
 }
 
@@ -77,4 +76,4 @@ std::string printable(std::string_view text, size_t most)
     return result;
 }
 
-} // namespace gpu
+} // namespace voile::gpu

@@ -1,9 +1,9 @@
 // Recorder and LabelScope: labels, timestamps, dispatches and their barriers.
-#include "gpu/recorder.hpp"
+#include "voile/gpu/recorder.hpp"
 
 #include <cstdlib>
 
-namespace gpu
+namespace voile::gpu
 {
 
 LabelScope::LabelScope(const Context& context, VkCommandBuffer cmd, const char* name, Timestamps* timestamps)
@@ -97,4 +97,4 @@ void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR 
     context_.fn.vkCmdPipelineBarrier2KHR(cmd_, &dependency);
 }
 
-} // namespace gpu
+} // namespace voile::gpu

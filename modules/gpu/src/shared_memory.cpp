@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -200,4 +200,4 @@ uint64_t shared_memory_bytes(std::span<const uint32_t> spirv, std::span<const ui
     return memory.bytes();
 }
 
-} // namespace gpu
+} // namespace voile::gpu

@@ -1,10 +1,10 @@
 // Timestamps: two queries a pass, summed by name when they are read.
-#include "gpu/timestamps.hpp"
+#include "voile/gpu/timestamps.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace gpu
+namespace voile::gpu
 {
 
 namespace
@@ -136,4 +136,4 @@ std::span<const PassTime> Timestamps::read(uint32_t slot_index)
     return times_;
 }
 
-} // namespace gpu
+} // namespace voile::gpu

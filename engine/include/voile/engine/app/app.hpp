@@ -1,0 +1,90 @@
+// App: device, scene, renderer and, with a display, a window; and the frame loop that ties them together.
+#pragma once
+
+#include "voile/engine/app/window.hpp"
+#include "voile/engine/gpu/frames.hpp"
+#include "voile/engine/gpu/upload.hpp"
+#include "voile/engine/render/renderer.hpp"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voile::engine
+{
+
+struct AppOptions
+{
+    std::string title = "voile";
+    VkExtent2D extent{1280, 720};
+    bool headless = false;     // no window, even with a display
+    bool fixed_extent = false; // pictures keep their extent when the window is resized, and are scaled into it
+    DeviceOptions device{};
+    uint32_t slots = 2;         // frames in flight
+    float time_step = 1.f / 60; // s a frame
+    bool timestamps = false;    // time the passes on the GPU
+};
+
+class App
+{
+public:
+    explicit App(const AppOptions& options); // StartupError
+    ~App();
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
+
+    [[nodiscard]] Device& device() { return device_; }
+    [[nodiscard]] Scene& scene() { return scene_; }
+    [[nodiscard]] Renderer& renderer() { return renderer_; }
+    [[nodiscard]] bool has_window() const { return window_ != nullptr; }
+    [[nodiscard]] uint32_t slots() const { return frames_.slots(); }
+    [[nodiscard]] gpu::Timestamps* timestamps() { return timestamps_ ? &*timestamps_ : nullptr; }
+
+    // For components that are being built: recorded at the start of the next frame.
+    [[nodiscard]] UploadBatch& uploads();
+
+    // Called after the scene has been drawn, outside rendering: for copies out of the frame.
+    std::function<void(VkCommandBuffer, const FrameInfo&)> after_render;
+    // Called once a frame's work on the GPU has completed, before its slot is used again.
+    std::function<void(const FrameInfo&)> completed;
+
+    // Records and submits one frame: uploads, compute, shadow and scene passes, all in one command buffer. False when
+    // the user has closed the window; the frame is then not run. A minimized window waits without simulating. In a
+    // window a frame begins no sooner than its time step after the last one, so that fast displays show real time.
+    bool frame();
+
+    // Waits for all frames in flight and calls `completed` for each.
+    void finish();
+
+    // Runs until the window is closed, or, headless, for `headless_frames`.
+    void run(uint64_t headless_frames);
+
+    [[nodiscard]] float time_step() const { return time_step_; }                      // s
+    [[nodiscard]] double record_milliseconds() const { return record_milliseconds_; } // of the host, for the last frame
+
+private:
+    void complete(uint32_t slot);
+    void record(const FrameRing::Frame& frame, const FrameInfo& info, const Window::Target* target);
+    void steer_camera();
+    void keep_pace();
+
+    std::unique_ptr<Window> window_; // before the device: the instance needs its extensions
+    Device device_;
+    FrameRing frames_;
+    std::optional<gpu::Timestamps> timestamps_;
+    Renderer renderer_;
+    std::unique_ptr<UploadBatch> uploads_;
+    std::vector<std::unique_ptr<UploadBatch>> uploads_in_flight_; // one a slot
+    std::vector<std::optional<FrameInfo>> in_flight_;             // one a slot
+    Scene scene_;                                                 // last: components go before what they borrow
+    float time_step_;
+    bool fixed_extent_;
+    uint64_t next_index_ = 0;
+    double record_milliseconds_ = 0;
+    std::chrono::steady_clock::time_point next_frame_; // when it is due, in a window
+};
+
+} // namespace voile::engine

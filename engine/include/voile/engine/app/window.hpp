@@ -1,0 +1,83 @@
+// Window: a GLFW window with its swapchain. Survives resizing and minimising.
+#pragma once
+
+#include "voile/engine/gpu/device.hpp"
+#include "voile/engine/gpu/image.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace voile::engine
+{
+
+// True where a window can be opened (a display is there).
+bool display_available();
+
+// What the instance needs for windows.
+std::vector<const char*> window_instance_extensions();
+
+class Window
+{
+public:
+    Window(const std::string& title, VkExtent2D extent);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    // Makes surface and swapchain; `slots` frames are in flight.
+    void attach(const Device& device, uint32_t slots);
+    // Destroys them; the device must be idle and still alive.
+    void detach();
+
+    // Polls events. False once the user has closed the window.
+    bool poll();
+    [[nodiscard]] bool minimized() const;
+    [[nodiscard]] VkExtent2D framebuffer_extent() const;
+
+    struct Target
+    {
+        VkImage image = VK_NULL_HANDLE;
+        VkExtent2D extent{};
+        VkSemaphore acquired = VK_NULL_HANDLE;
+        VkSemaphore rendered = VK_NULL_HANDLE;
+        uint32_t index = 0;
+    };
+
+    // The next image of the swapchain; none when it has to be made anew first (the caller skips this frame).
+    std::optional<Target> acquire(uint32_t slot);
+
+    // Records a blit of `source` (TRANSFER_SRC_OPTIMAL) onto the target and its transition for presentation.
+    void record_blit(VkCommandBuffer cmd, const Image& source, const Target& target) const;
+    void present(const Target& target);
+
+    // Drags of the left button (pixels) and the wheel's turns since the last call.
+    struct Input
+    {
+        double drag_x = 0;
+        double drag_y = 0;
+        double wheel = 0;
+    };
+    Input take_input();
+
+private:
+    void create_swapchain();
+    void destroy_swapchain();
+
+    GLFWwindow* window_ = nullptr;
+    const Device* device_ = nullptr;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    std::vector<VkImage> images_;
+    std::vector<VkSemaphore> acquired_; // one a slot
+    std::vector<VkSemaphore> rendered_; // one an image: presentation holds it until that image comes back
+    Input input_;
+    double cursor_x_ = 0;
+    double cursor_y_ = 0;
+    bool stale_ = false;
+};
+
+} // namespace voile::engine

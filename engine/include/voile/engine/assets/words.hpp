@@ -1,0 +1,34 @@
+// Lines, words and numbers of text files that somebody else wrote.
+#pragma once
+
+#include "voile/gpu/printable.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voile::engine
+{
+
+// What separates words within a line.
+inline constexpr std::string_view k_blank = " \t\r\v\f";
+
+// Takes the first line off the text, without its end: a line feed, a carriage return, or the one after the other.
+std::string_view take_line(std::string_view& text);
+
+// Appends the line's words.
+void split(std::string_view line, std::vector<std::string_view>& words);
+
+// Empty if the word is not a number. Too large for a float counts as infinite, too small for a double as zero.
+std::optional<double> parse_number(std::string_view word);
+
+// A path, printable (gpu::printable). Its end is kept, and "..." before it where something was left out.
+std::string path_text(const std::filesystem::path& path, size_t most = 240);
+
+// A word in quotation marks, printable.
+std::string quoted_word(std::string_view word);
+
+} // namespace voile::engine

@@ -1,0 +1,45 @@
+// Renderer: draws a scene into an image. Sun shadow map, then one shaded pass with 4x MSAA, tone mapped as it is
+// shaded.
+#pragma once
+
+#include "voile/engine/gpu/device.hpp"
+#include "voile/engine/gpu/image.hpp"
+#include "voile/engine/scene/scene.hpp"
+
+#include <memory>
+
+namespace voile::engine
+{
+
+struct RendererOptions
+{
+    VkExtent2D extent{1280, 720};
+    uint32_t slots = 2; // frames in flight
+    uint32_t shadow_resolution = 2048;
+};
+
+class Renderer
+{
+public:
+    Renderer(const Device& device, const RendererOptions& options);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Records the shadow pass and the shaded pass of `scene`. Vertex data must already be visible to vertex input.
+    // Ends with color() in TRANSFER_SRC_OPTIMAL, its writes available to a following copy or blit.
+    void record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& frame);
+
+    // The finished picture: VK_FORMAT_R8G8B8A8_SRGB, one sample, of the renderer's extent.
+    [[nodiscard]] const Image& color() const;
+    [[nodiscard]] VkExtent2D extent() const;
+
+    // New targets for another size. The device must be idle.
+    void resize(VkExtent2D extent);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace voile::engine

@@ -1,0 +1,70 @@
+// Signals: blocked everywhere, waited for in one thread.
+#include "voile/engine/app/signals.hpp"
+
+#include "voile/engine/assets/cleanup.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace voile::engine
+{
+
+namespace
+{
+
+constexpr std::pair<int, const char*> k_ending[] = {
+    {SIGHUP, "SIGHUP"}, {SIGINT, "SIGINT"}, {SIGQUIT, "SIGQUIT"}, {SIGTERM, "SIGTERM"}, {SIGXCPU, "SIGXCPU"}};
+
+// As nohup does, and shells for what runs in the background.
+bool is_ignored(int signal)
+{
+    struct sigaction action = {};
+    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+std::string_view name_of(int signal)
+{
+    for (const auto& [number, name] : k_ending)
+        if (number == signal)
+            return name;
+    return "a signal";
+}
+
+void wait_and_end(const sigset_t& signals, const std::string& program)
+{
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0)
+        return;
+    run_cleanups();
+    // A terminal has the cursor behind what was typed or drawn last.
+    const std::string line = (::isatty(STDERR_FILENO) == 1 ? "\n" : "") + program + ": interrupted by " +
+                             std::string(name_of(signal)) + "; unfinished files are gone\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+    sigset_t received;
+    sigemptyset(&received);
+    sigaddset(&received, signal);
+    pthread_sigmask(SIG_UNBLOCK, &received, nullptr);
+    raise(signal);
+}
+
+} // namespace
+
+void end_cleanly_on_signals(const std::string& program)
+{
+    (void)::signal(SIGPIPE, SIG_IGN);
+    (void)::signal(SIGXFSZ, SIG_IGN);
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const auto& [signal, name] : k_ending)
+        if (!is_ignored(signal))
+            sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread([signals, program] { wait_and_end(signals, program); }).detach();
+}
+
+} // namespace voile::engine

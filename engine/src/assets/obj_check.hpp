@@ -1,0 +1,26 @@
+// A strict look at the text of an OBJ file before tinyobjloader parses it. tinyobjloader turns a missing or unreadable
+// number into zero and lets indices point anywhere; here each such line is found and named.
+#pragma once
+
+#include "voile/gpu/result.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voile::engine
+{
+
+// The statements that make up a mesh, and nothing else: one a line, continued lines joined, only the numbers that the
+// mesh uses, every index absolute and in range.
+struct CheckedObj
+{
+    std::string text;
+    std::vector<uint32_t> face_sizes; // corners of each face; tinyobjloader counts them in a byte
+};
+
+// Errors: "NAME:LINE: REASON" for the first faulty line, "NAME: REASON" for the file as a whole.
+gpu::Result<CheckedObj> check_obj(std::string_view text, const std::string& name);
+
+} // namespace voile::engine

@@ -1,0 +1,42 @@
+// FrameBindings: the descriptor sets that the renderer's shaders read, one a frame slot, written once.
+#pragma once
+
+#include "gpu/owned.hpp"
+#include "voile/engine/gpu/device.hpp"
+
+#include "voile/gpu/buffer.hpp"
+
+#include "shaders/render/render_layout.h"
+
+#include <vector>
+
+namespace voile::engine
+{
+
+class FrameBindings
+{
+public:
+    // Binding 0: FrameUniforms of the slot; binding 1: `shadow_map` in DEPTH_STENCIL_READ_ONLY_OPTIMAL, compared with
+    // bilinear filtering. StartupError when they cannot be made.
+    FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map);
+
+    // One set, and push constants of a DrawPush for vertex and fragment shaders.
+    [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
+
+    // Writes the slot's uniforms (its previous use has completed) and binds its set.
+    void bind(VkCommandBuffer cmd, uint32_t slot, const shared::FrameUniforms& uniforms);
+
+private:
+    void create_layouts();
+    void create_sets(uint32_t slots, VkImageView shadow_map);
+
+    const gpu::Context& context_;
+    Owned<VkSampler> sampler_;
+    Owned<VkDescriptorSetLayout> set_layout_;
+    Owned<VkPipelineLayout> layout_;
+    Owned<VkDescriptorPool> pool_;
+    std::vector<gpu::Buffer> uniforms_;
+    std::vector<VkDescriptorSet> sets_;
+};
+
+} // namespace voile::engine

@@ -1,0 +1,67 @@
+// PassView: what the renderer hands to components while one of its passes is recorded.
+#pragma once
+
+#include "gpu/owned.hpp"
+#include "voile/engine/scene/component.hpp"
+
+#include "voile/gpu/context.hpp"
+
+namespace voile::engine
+{
+
+// The pipelines of lines and dots. Made when something is first drawn with them, which a normal run never does.
+class MarkPipelines
+{
+public:
+    MarkPipelines(const gpu::Context& context, VkPipelineLayout layout, VkFormat color, VkFormat depth,
+                  VkSampleCountFlagBits samples)
+        : context_(context), layout_(layout), color_(color), depth_(depth), samples_(samples)
+    {
+    }
+
+    VkPipeline lines(); // StartupError when the driver refuses
+    VkPipeline dots();
+
+private:
+    Owned<VkPipeline> create(const char* name, std::span<const uint32_t> vertex) const;
+
+    const gpu::Context& context_;
+    VkPipelineLayout layout_;
+    VkFormat color_;
+    VkFormat depth_;
+    VkSampleCountFlagBits samples_;
+    Owned<VkPipeline> lines_;
+    Owned<VkPipeline> dots_;
+};
+
+class PassView : public View
+{
+public:
+    struct Pass
+    {
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        VkPipeline surfaces = VK_NULL_HANDLE;
+        MarkPipelines* marks = nullptr; // null: the pass draws none
+        VkExtent2D extent{};
+    };
+
+    PassView(Kind kind, const glm::mat4& clip_from_world, const gpu::Context& context, const Pass& pass)
+        : View(kind, clip_from_world), context_(context), pass_(pass)
+    {
+    }
+
+    void draw(VkCommandBuffer cmd, const Drawable& drawable) override;
+    void draw(VkCommandBuffer cmd, const Lines& lines) override;
+    void draw(VkCommandBuffer cmd, const Dots& dots) override;
+
+private:
+    struct Marks; // what lines and dots have in common
+    void draw_marks(VkCommandBuffer cmd, VkPipeline pipeline, const Marks& marks);
+    void bind(VkCommandBuffer cmd, VkPipeline pipeline);
+
+    const gpu::Context& context_;
+    Pass pass_;
+    VkPipeline bound_ = VK_NULL_HANDLE;
+};
+
+} // namespace voile::engine

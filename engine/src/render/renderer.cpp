@@ -1,0 +1,300 @@
+// Renderer: targets, pipelines, and the recording of the two passes.
+#include "voile/engine/render/renderer.hpp"
+
+#include "render/frame_bindings.hpp"
+#include "render/graphics_pipeline.hpp"
+#include "render/pass_view.hpp"
+
+#include "voile/gpu/recorder.hpp"
+
+#include "voile_engine_shaders.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace voile::engine
+{
+
+namespace
+{
+
+constexpr VkFormat k_color_format = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat k_depth_format = VK_FORMAT_D32_SFLOAT;
+constexpr VkSampleCountFlagBits k_samples = VK_SAMPLE_COUNT_4_BIT; // every device has 4 for these formats
+
+constexpr VkPipelineStageFlags2KHR k_depth_stages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT_KHR | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT_KHR;
+constexpr VkAccessFlags2KHR k_depth_access =
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT_KHR | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT_KHR;
+constexpr VkPipelineStageFlags2KHR k_color_stage = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT_KHR;
+constexpr VkAccessFlags2KHR k_color_access =
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT_KHR | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT_KHR;
+
+struct Targets
+{
+    Image color;   // resolved
+    Image samples; // what is drawn into
+    Image depth;
+
+    Targets() = default;
+    Targets(const gpu::Context& context, VkExtent2D extent)
+        : color(context, {.name = "color",
+                          .format = k_color_format,
+                          .extent = extent,
+                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}),
+          samples(context, {.name = "color samples",
+                            .format = k_color_format,
+                            .extent = extent,
+                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
+                            .samples = k_samples}),
+          depth(context,
+                {.name = "depth",
+                 .format = k_depth_format,
+                 .extent = extent,
+                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
+                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                 .samples = k_samples})
+    {
+    }
+};
+
+Image create_shadow_map(const gpu::Context& context, uint32_t resolution)
+{
+    return {context,
+            {.name = "shadow map",
+             .format = k_depth_format,
+             .extent = {resolution, resolution},
+             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+             .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}};
+}
+
+constexpr std::array<VertexStream, 3> k_streams{
+    {{VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32_SFLOAT, 8}}};
+
+glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_radius)
+{
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    const float reach = glm::distance(camera.position, camera.target) + 100 * focus_radius;
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(camera.fov), aspect, reach * 1e-4f, reach);
+    projection[1][1] *= -1; // Vulkan's y points down
+    const glm::vec3 forward = camera.target - camera.position;
+    const bool vertical = std::abs(forward.x) + std::abs(forward.z) < 1e-4f * glm::length(forward);
+    return projection *
+           glm::lookAtRH(camera.position, camera.target, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
+}
+
+// An orthographic view of the sphere around the scene's focus, deep enough for casters outside it.
+glm::mat4 shadow_matrix(const Scene& scene, const glm::vec3& to_sun)
+{
+    const float r = scene.focus_radius;
+    const glm::vec3 up = std::abs(to_sun.y) > 0.99f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::orthoRH_ZO(-r, r, -r, r, 0.f, 6 * r) * glm::lookAtRH(scene.focus + 3 * r * to_sun, scene.focus, up);
+}
+
+void set_viewport(const gpu::Context& context, VkCommandBuffer cmd, VkExtent2D extent)
+{
+    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    const VkRect2D scissor{{0, 0}, extent};
+    context.fn.vkCmdSetViewport(cmd, 0, 1, &viewport);
+    context.fn.vkCmdSetScissor(cmd, 0, 1, &scissor);
+}
+
+VkRenderingAttachmentInfoKHR depth_attachment(VkImageView view, VkAttachmentStoreOp store)
+{
+    VkRenderingAttachmentInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO_KHR;
+    info.imageView = view;
+    info.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = store;
+    info.clearValue.depthStencil = {1, 0};
+    return info;
+}
+
+} // namespace
+
+struct Renderer::State
+{
+    const gpu::Context& context;
+    RendererOptions options;
+    Targets targets;
+    Image shadow_map;
+    FrameBindings bindings;
+    Owned<VkPipeline> shadow_pipeline;
+    Owned<VkPipeline> surface_pipeline;
+    Owned<VkPipeline> sky_pipeline;
+    MarkPipelines marks;
+
+    State(const Device& device, const RendererOptions& wanted)
+        : context(device.context()), options(wanted), targets(context, wanted.extent),
+          shadow_map(create_shadow_map(context, wanted.shadow_resolution)),
+          bindings(device, wanted.slots, shadow_map.view()),
+          marks(context, bindings.layout(), k_color_format, k_depth_format, k_samples)
+    {
+        create_pipelines();
+    }
+
+    void create_pipelines();
+    [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene) const;
+    void record_shadow_map(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
+    void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms);
+    void transition_targets(VkCommandBuffer cmd) const;
+};
+
+void Renderer::State::create_pipelines()
+{
+    shadow_pipeline = create_graphics_pipeline(context, {.name = "shadow map",
+                                                         .vertex = shaders::k_shadow_vert,
+                                                         .streams = std::span(k_streams).first(1),
+                                                         .layout = bindings.layout(),
+                                                         .depth_format = k_depth_format,
+                                                         .depth_bias = 2});
+    surface_pipeline = create_graphics_pipeline(context, {.name = "surface",
+                                                          .vertex = shaders::k_surface_vert,
+                                                          .fragment = shaders::k_surface_frag,
+                                                          .streams = k_streams,
+                                                          .layout = bindings.layout(),
+                                                          .color_format = k_color_format,
+                                                          .depth_format = k_depth_format,
+                                                          .samples = k_samples});
+    sky_pipeline = create_graphics_pipeline(context, {.name = "sky",
+                                                      .vertex = shaders::k_sky_vert,
+                                                      .fragment = shaders::k_sky_frag,
+                                                      .layout = bindings.layout(),
+                                                      .color_format = k_color_format,
+                                                      .depth_format = k_depth_format,
+                                                      .samples = k_samples,
+                                                      .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                                      .depth_write = false});
+}
+
+shared::FrameUniforms Renderer::State::uniforms(const Scene& scene) const
+{
+    shared::FrameUniforms result{};
+    result.clip_from_world = camera_matrix(scene.camera, options.extent, scene.focus_radius);
+    result.world_from_clip = glm::inverse(result.clip_from_world);
+    result.camera_position = scene.camera.position;
+    result.to_sun = -glm::normalize(scene.sun.direction);
+    result.shadow_from_world = shadow_matrix(scene, result.to_sun);
+    const auto resolution = static_cast<float>(options.shadow_resolution);
+    result.shadow_texel = 2 * scene.focus_radius / resolution;
+    result.shadow_step = 1 / resolution;
+    result.sun_irradiance = scene.sun.irradiance;
+    result.focus = scene.focus;
+    result.focus_radius = scene.focus_radius;
+    return result;
+}
+
+void Renderer::State::record_shadow_map(VkCommandBuffer cmd, const Scene& scene,
+                                        const shared::FrameUniforms& uniforms) const
+{
+    record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
+                      {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT_KHR, 0, k_depth_stages, k_depth_access});
+    const VkRenderingAttachmentInfoKHR depth = depth_attachment(shadow_map.view(), VK_ATTACHMENT_STORE_OP_STORE);
+    VkRenderingInfoKHR rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO_KHR;
+    rendering.renderArea.extent = shadow_map.extent();
+    rendering.layerCount = 1;
+    rendering.pDepthAttachment = &depth;
+    context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
+    set_viewport(context, cmd, shadow_map.extent());
+    PassView view(View::Kind::shadow, uniforms.shadow_from_world, context,
+                  {.layout = bindings.layout(), .surfaces = shadow_pipeline.get()});
+    scene.record_draw(cmd, view);
+    context.fn.vkCmdEndRenderingKHR(cmd);
+    record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
+                      {VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                       VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, k_depth_stages, k_depth_access,
+                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT_KHR});
+}
+
+// The previous frame's writes, and copies out of the picture, come first; its contents are not needed.
+void Renderer::State::transition_targets(VkCommandBuffer cmd) const
+{
+    for (const Image* image : {&targets.color, &targets.samples})
+        record_transition(context, cmd, image->handle(), image->aspect(),
+                          {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                           k_color_stage | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                           VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT_KHR, k_color_stage, k_color_access});
+    record_transition(context, cmd, targets.depth.handle(), targets.depth.aspect(),
+                      {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, k_depth_stages,
+                       VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT_KHR, k_depth_stages, k_depth_access});
+}
+
+void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms)
+{
+    transition_targets(cmd);
+    VkRenderingAttachmentInfoKHR color{};
+    color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO_KHR;
+    color.imageView = targets.samples.view();
+    color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    color.resolveImageView = targets.color.view();
+    color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the sky covers what nothing else does
+    color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    const VkRenderingAttachmentInfoKHR depth = depth_attachment(targets.depth.view(), VK_ATTACHMENT_STORE_OP_DONT_CARE);
+    VkRenderingInfoKHR rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO_KHR;
+    rendering.renderArea.extent = options.extent;
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &color;
+    rendering.pDepthAttachment = &depth;
+    context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
+    set_viewport(context, cmd, options.extent);
+    PassView view(
+        View::Kind::camera, uniforms.clip_from_world, context,
+        {.layout = bindings.layout(), .surfaces = surface_pipeline.get(), .marks = &marks, .extent = options.extent});
+    scene.record_draw(cmd, view);
+    {
+        const gpu::LabelScope scope(context, cmd, "sky");
+        context.fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_pipeline.get());
+        context.fn.vkCmdDraw(cmd, 3, 1, 0, 0);
+    }
+    context.fn.vkCmdEndRenderingKHR(cmd);
+    record_transition(context, cmd, targets.color.handle(), targets.color.aspect(),
+                      {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, k_color_stage,
+                       VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                       VK_ACCESS_2_TRANSFER_READ_BIT_KHR});
+}
+
+Renderer::Renderer(const Device& device, const RendererOptions& options)
+    : state_(std::make_unique<State>(device, options))
+{
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& frame)
+{
+    const shared::FrameUniforms uniforms = state_->uniforms(scene);
+    state_->bindings.bind(cmd, frame.slot, uniforms);
+    {
+        const gpu::LabelScope scope(state_->context, cmd, "shadow map", frame.timestamps);
+        state_->record_shadow_map(cmd, scene, uniforms);
+    }
+    const gpu::LabelScope scope(state_->context, cmd, "scene", frame.timestamps);
+    state_->record_scene(cmd, scene, uniforms);
+}
+
+const Image& Renderer::color() const
+{
+    return state_->targets.color;
+}
+
+VkExtent2D Renderer::extent() const
+{
+    return state_->options.extent;
+}
+
+void Renderer::resize(VkExtent2D extent)
+{
+    state_->targets = Targets(state_->context, extent);
+    state_->options.extent = extent;
+}
+
+} // namespace voile::engine

@@ -1,0 +1,165 @@
+// Hierarchies that were built before.
+#include "colliders/bvh_cache.hpp"
+
+#include "geometry/parallel.hpp"
+#include "voile/descriptions.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <iterator>
+
+namespace voile
+{
+
+namespace
+{
+
+// Two independent hashes, 8 bytes at a time. They only have to tell meshes apart that nobody chose to look alike: what
+// is found is compared.
+struct Hasher
+{
+    uint64_t low = 0x243f6a8885a308d3u;
+    uint64_t high = 0x13198a2e03707344u;
+
+    void add(std::span<const std::byte> bytes)
+    {
+        for (; !bytes.empty(); bytes = bytes.subspan(std::min<size_t>(bytes.size(), sizeof(uint64_t))))
+        {
+            uint64_t word = 0;
+            std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof(word)));
+            add(word);
+        }
+    }
+
+    void add(uint64_t word)
+    {
+        low = (low ^ word) * 0x9e3779b97f4a7c15u;
+        low ^= low >> 32;
+        high = std::rotl(high + word, 29) * 0xbf58476d1ce4e5b9u;
+        high ^= high >> 31;
+    }
+};
+
+uint64_t size_in_bytes(const Bvh& bvh)
+{
+    return sizeof(Bvh) + bvh.nodes.size() * sizeof(bvh.nodes[0]) + bvh.triangles.size() * sizeof(bvh.triangles[0]);
+}
+
+bool same_bits(const glm::vec3& a, const glm::vec3& b)
+{
+    return glm::floatBitsToUint(a) == glm::floatBitsToUint(b);
+}
+
+} // namespace
+
+MeshKey make_mesh_key(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    Hasher hasher;
+    hasher.add(std::as_bytes(positions));
+    hasher.add(std::as_bytes(triangles));
+    return {hasher.low, hasher.high, positions.size(), triangles.size()};
+}
+
+bool built_from(const Bvh& bvh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    if (bvh.triangles.size() != triangles.size())
+        return false;
+    constexpr size_t k_piece = 16384;
+    std::atomic<bool> same = true;
+    parallel_for(triangles.size(), k_piece,
+                 [&](size_t first, size_t last)
+                 {
+                     for (size_t i = first; i < last && same; ++i)
+                     {
+                         const shared::BvhTriangle& kept = bvh.triangles[i];
+                         const glm::uvec3& t = triangles[kept.index];
+                         if (!same_bits(kept.a, positions[t.x]) || !same_bits(kept.b, positions[t.y]) ||
+                             !same_bits(kept.c, positions[t.z]))
+                             same = false;
+                     }
+                 });
+    return same;
+}
+
+std::shared_ptr<const Bvh> BvhCache::get(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+{
+    const MeshKey key = make_mesh_key(positions, triangles);
+    std::shared_ptr<const Bvh> found = find(key);
+    const bool usable = found && built_from(*found, positions, triangles); // without the mutex: it takes a while
+    if (!usable)
+    {
+        auto built = std::make_shared<const Bvh>(build_bvh(positions, triangles));
+        insert(key, built);
+        return built;
+    }
+    const std::lock_guard lock(mutex_);
+    ++counts_.hits;
+    return found;
+}
+
+void BvhCache::set_limit(uint64_t bytes)
+{
+    const std::lock_guard lock(mutex_);
+    limit_ = bytes;
+    shrink();
+}
+
+BvhCache::Counts BvhCache::counts() const
+{
+    const std::lock_guard lock(mutex_);
+    Counts result = counts_;
+    result.entries = entries_.size();
+    return result;
+}
+
+std::shared_ptr<const Bvh> BvhCache::find(const MeshKey& key)
+{
+    const std::lock_guard lock(mutex_);
+    const auto place = places_.find(key);
+    if (place == places_.end())
+        return nullptr;
+    entries_.splice(entries_.begin(), entries_, place->second);
+    return place->second->bvh;
+}
+
+void BvhCache::insert(const MeshKey& key, const std::shared_ptr<const Bvh>& bvh)
+{
+    const std::lock_guard lock(mutex_);
+    ++counts_.builds;
+    if (size_in_bytes(*bvh) > limit_) // all others would go for it, and it would go too
+        return;
+    if (const auto place = places_.find(key); place != places_.end()) // another thread's, or another mesh
+        erase(place->second);
+    entries_.push_front({key, bvh});
+    places_[key] = entries_.begin();
+    counts_.bytes += size_in_bytes(*bvh);
+    shrink();
+}
+
+void BvhCache::erase(std::list<Entry>::iterator entry)
+{
+    counts_.bytes -= size_in_bytes(*entry->bvh);
+    places_.erase(entry->key);
+    entries_.erase(entry);
+}
+
+void BvhCache::shrink()
+{
+    while (counts_.bytes > limit_)
+        erase(std::prev(entries_.end()));
+}
+
+BvhCache& bvh_cache()
+{
+    static BvhCache cache(k_default_hierarchy_cache_limit);
+    return cache;
+}
+
+void set_hierarchy_cache_limit(uint64_t bytes)
+{
+    bvh_cache().set_limit(bytes);
+}
+
+} // namespace voile

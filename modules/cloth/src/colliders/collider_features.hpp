@@ -1,0 +1,44 @@
+// Corners and edges of colliders that can stand between the vertices of a cloth.
+#pragma once
+
+#include "model/model.hpp"
+
+#include "shared/feature_layout.h"
+
+#include <vector>
+
+namespace voile
+{
+
+// What decides whether a cloth's own vertices feel a corner or an edge: vertices keep `thickness` from the surface, and
+// a chord of length `edge` between two of them sinks towards it by as much as the surface bends on the way.
+struct FeatureScale
+{
+    float edge = 0;      // m, the longest of the cloths
+    float thickness = 0; // m, the smallest
+
+    bool operator==(const FeatureScale&) const = default;
+};
+
+// The share of the thickness that an edge, or a mesh that bends within an edge's length, may take away from what
+// vertices keep. At 1 the cloth would lie on the surface itself, at rest and not stretched.
+constexpr float k_allowed_share = 0.75f;
+
+// Of the cloths that meet colliders of these layers, as they were added. edge == 0: there is none.
+FeatureScale feature_scale(const Model& model, uint32_t layers);
+
+// The features of all colliders, with a hierarchy over each one's.
+struct FeatureLists
+{
+    std::vector<shared::FeatureSet> sets; // one a collider
+    std::vector<shared::Feature> features;
+    std::vector<shared::BvhNode> nodes;
+};
+
+// Of a mesh, where it bends by more than the thickness allows within the length of an edge: its edges, if they are
+// longer than a quarter of the larger of that and the thickness, and corners that lie as far from each other. Of an
+// open or two-sided mesh its border too. Boxes, and spheres and capsules that are thin by the same measure. Meshes that
+// deform have none.
+FeatureLists find_features(const Model& model);
+
+} // namespace voile

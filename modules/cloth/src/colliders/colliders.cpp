@@ -1,0 +1,167 @@
+// Colliders with a formula: validation and records. Meshes are in mesh_collider.cpp.
+#include "colliders/collider_motion.hpp"
+#include "geometry/rounding.hpp"
+#include "model/model.hpp"
+
+#include <cmath>
+
+namespace voile
+{
+
+namespace
+{
+
+// What all of them have: positions within the world, sizes, friction.
+class Checks
+{
+public:
+    Checks(const std::string& name, const std::optional<Friction>& friction) : what_(subject("collider", name))
+    {
+        status_ = check_friction(name, friction);
+    }
+
+    void position(const char* name, const glm::vec3& value)
+    {
+        keep(check(what_, name, value, k_most_coordinate, " m"));
+    }
+    void offset(const char* name, float value)
+    {
+        keep(check(what_, {name, value, -k_most_coordinate, k_most_coordinate, " m"}));
+    }
+    void size(const char* name, float value)
+    {
+        keep(check(what_, {name, value, k_least_collider_size, k_most_collider_size, " m"}));
+    }
+
+    void keep(Result<void> result)
+    {
+        if (status_)
+            status_ = std::move(result);
+    }
+    [[nodiscard]] const Result<void>& status() const { return status_; }
+
+private:
+    std::string what_;
+    Result<void> status_;
+};
+
+// World.
+glm::vec3 corner_of(const BoxCollider& box, int corner)
+{
+    const glm::vec3 local((corner & 1) == 0 ? box.min.x : box.max.x, (corner & 2) == 0 ? box.min.y : box.max.y,
+                          (corner & 4) == 0 ? box.min.z : box.max.z);
+    return box.transform * glm::vec4(local, 1);
+}
+
+} // namespace
+
+Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction)
+{
+    if (!friction)
+        return {};
+    return check_friction(subject("collider", name), friction->static_coefficient, friction->kinetic_coefficient);
+}
+
+shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction)
+{
+    shared::ColliderRecord record{};
+    record.kind = kind;
+    record.layers = layers;
+    if (friction)
+    {
+        record.flags = VOILE_COLLIDER_FRICTION;
+        record.static_friction = friction->static_coefficient;
+        record.kinetic_friction = friction->kinetic_coefficient;
+    }
+    return record;
+}
+
+// m: what floats may take from where a collider is. Beyond it has the finer position of those that move.
+constexpr double k_most_origin_error = 1e-5;
+
+ColliderId Model::append(const shared::ColliderRecord& record, const glm::dvec3& origin, const glm::mat4& placement)
+{
+    colliders.push_back(record);
+    placements.push_back(placement);
+    origins.push_back(origin);
+    colliders.back().origin = rounded(origin);
+    if (placement != glm::mat4(1) || glm::distance(origin, glm::dvec3(rounded(origin))) > k_most_origin_error)
+        colliders.back().flags |= VOILE_COLLIDER_MOVED;
+    return {static_cast<uint32_t>(colliders.size() - 1)};
+}
+
+void Model::place_plane(const Plane& plane, const glm::dvec3& point)
+{
+    shared::ColliderRecord& record = colliders[plane.collider];
+    const glm::dvec3 normal(record.shape);
+    const auto offset = static_cast<double>(plane.offset);
+    record.origin = rounded(point - (glm::dot(normal, point) - offset) * normal);
+    origins[plane.collider] = record.origin;
+    record.shape.w = static_cast<float>(offset - glm::dot(normal, glm::dvec3(record.origin)));
+}
+
+Result<ColliderId> Model::add(const PlaneCollider& collider)
+{
+    if (!finite(collider.normal) || std::abs(glm::length(collider.normal) - 1) > 1e-3f)
+        return invalid("collider", collider.name, "the plane's normal is not of unit length");
+    Checks checks(collider.name, collider.friction);
+    checks.offset("offset", collider.offset);
+    if (!checks.status())
+        return checks.status().error();
+    auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
+    record.shape = glm::vec4(glm::normalize(collider.normal), 0);
+    const ColliderId id = append(record, glm::dvec3(0));
+    place_plane(planes.emplace_back(Plane{id.index, collider.offset}), glm::dvec3(0));
+    return id;
+}
+
+Result<ColliderId> Model::add(const SphereCollider& collider)
+{
+    Checks checks(collider.name, collider.friction);
+    checks.position("center", collider.center);
+    checks.size("radius", collider.radius);
+    if (!checks.status())
+        return checks.status().error();
+    auto record = make_collider_record(VOILE_COLLIDER_SPHERE, collider.layers, collider.friction);
+    record.shape = glm::vec4(glm::vec3(0), collider.radius);
+    return append(record, collider.center);
+}
+
+Result<ColliderId> Model::add(const CapsuleCollider& collider)
+{
+    Checks checks(collider.name, collider.friction);
+    checks.position("from", collider.from);
+    checks.position("to", collider.to);
+    checks.size("radius", collider.radius);
+    if (!checks.status())
+        return checks.status().error();
+    auto record = make_collider_record(VOILE_COLLIDER_CAPSULE, collider.layers, collider.friction);
+    const glm::dvec3 from(collider.from);
+    const glm::dvec3 to(collider.to);
+    record.shape = glm::dvec4(0.5 * (to - from), collider.radius);
+    return append(record, 0.5 * (from + to));
+}
+
+Result<ColliderId> Model::add(const BoxCollider& collider)
+{
+    if (!is_rigid(collider.transform))
+        return invalid("collider", collider.name, "the box's transform is not rigid");
+    Checks checks(collider.name, collider.friction);
+    checks.position("min", collider.min);
+    checks.position("max", collider.max);
+    const glm::vec3 sides = collider.max - collider.min;
+    checks.size("the side along x", sides.x);
+    checks.size("the side along y", sides.y);
+    checks.size("the side along z", sides.z);
+    for (int corner = 0; corner < 8; ++corner)
+        checks.position("a corner", corner_of(collider, corner));
+    if (!checks.status())
+        return checks.status().error();
+    auto record = make_collider_record(VOILE_COLLIDER_BOX, collider.layers, collider.friction);
+    const glm::dvec3 min(collider.min);
+    const glm::dvec3 max(collider.max);
+    record.shape = glm::dvec4(0.5 * (max - min), 0);
+    return append(record, 0.5 * (min + max), collider.transform);
+}
+
+} // namespace voile

@@ -1,0 +1,236 @@
+// Which edges and corners of a mesh stand out.
+//
+// A triangle is taken into account if the normals around it spread enough (normal_cones.hpp); of a smooth mesh, however
+// many triangles it has, none is. Where two of those that are meet in an edge, the angle between them says whether it
+// stands out by itself. Where the mesh is narrow, a wire or a needle, all edges that turn at all do; of a long one the
+// mesh must be narrow across, not at its ends: the flats of a cylinder are no edges because they reach its rims.
+#include "colliders/mesh_features.hpp"
+
+#include "geometry/closedness.hpp"
+#include "geometry/normal_cones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace voile
+{
+
+namespace
+{
+
+using shared::Feature;
+
+constexpr float k_flat = 0.035f; // rad; edges that turn by less are none
+
+struct Corner
+{
+    glm::vec3 normal{0.f}; // sum over its triangles, by their angles
+    bool stands_out = false;
+    bool any_direction = false; // on the border of an open mesh
+    float cosine = 1;
+};
+
+// One side of an edge: the triangle along it.
+struct Side
+{
+    uint32_t low;
+    uint32_t high;
+    uint32_t triangle;
+    uint32_t opposite; // the triangle's third vertex
+    bool upwards;      // it runs from low to high
+};
+
+class MeshFeatures
+{
+public:
+    MeshFeatures(const MeshTree& tree, const shared::ColliderRecord& collider, const FeatureScale& scale)
+        : tree_(tree), scale_(scale), two_sided_((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0),
+          closed_((collider.flags & VOILE_COLLIDER_CLOSED) != 0),
+          bend_(std::atan(4 * k_allowed_share * scale.thickness / scale.edge)),
+          crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)),
+          spacing_(std::max(scale.edge, scale.thickness) / 4)
+    {
+    }
+
+    std::vector<Feature> run()
+    {
+        select_triangles();
+        if (chosen_.empty())
+            return {};
+        add_normals();
+        for (auto first = sides_.begin(); first != sides_.end();)
+        {
+            auto last = first;
+            while (last != sides_.end() && last->low == first->low && last->high == first->high)
+                ++last;
+            add_edge({first, last});
+            first = last;
+        }
+        add_corners();
+        return std::move(features_);
+    }
+
+private:
+    // Which triangles matter, and their corners as one where they are one place. An open mesh has a border anywhere.
+    void select_triangles()
+    {
+        surroundings_ = surroundings(tree_, scale_.edge, std::max(bend_, crease_));
+        std::vector<glm::vec3> corners;
+        for (uint32_t t = 0; t < tree_.triangles.size(); ++t)
+        {
+            if (closed_ && surroundings_[t].spread < crease_)
+                continue;
+            chosen_.push_back(t);
+            const shared::BvhTriangle& triangle = tree_.triangles[t];
+            corners.insert(corners.end(), {triangle.a, triangle.b, triangle.c});
+        }
+        places_ = std::move(corners);
+        vertices_ = weld(places_);
+        for (uint32_t i = 0; i < chosen_.size(); ++i)
+            for (uint32_t corner = 0; corner < 3; ++corner)
+            {
+                const uint32_t from = vertices_[3 * i + corner];
+                const uint32_t to = vertices_[3 * i + (corner + 1) % 3];
+                const uint32_t opposite = vertices_[3 * i + (corner + 2) % 3];
+                sides_.push_back({std::min(from, to), std::max(from, to), chosen_[i], opposite, from < to});
+            }
+        std::sort(sides_.begin(), sides_.end(),
+                  [](const Side& a, const Side& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+    }
+
+    [[nodiscard]] bool bends(uint32_t t) const { return surroundings_[t].narrow && surroundings_[t].spread >= bend_; }
+
+    [[nodiscard]] bool bends_across(const glm::vec3& a, const glm::vec3& b) const
+    {
+        return glm::distance(a, b) <= spacing_ || turn_about(tree_, a, b, scale_.edge / 2, bend_) >= bend_;
+    }
+
+    // Normals by angle: Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal facets".
+    void add_normals()
+    {
+        corners_.resize(places_.size());
+        const auto for_each_corner = [&](const auto& visit)
+        {
+            for (uint32_t i = 0; i < chosen_.size(); ++i)
+                for (uint32_t corner = 0; corner < 3; ++corner)
+                    visit(vertices_[3 * i + corner], unit_normal(tree_.triangles[chosen_[i]]), angle_at(3 * i, corner));
+        };
+        for_each_corner([&](uint32_t v, const glm::vec3& normal, float angle)
+                        { corners_[v].normal += angle * normal; });
+        for (Corner& corner : corners_)
+            if (glm::length(corner.normal) > 1e-6f)
+                corner.normal = glm::normalize(corner.normal);
+            else
+                corner.any_direction = true;
+        for_each_corner([&](uint32_t v, const glm::vec3& normal, float)
+                        { corners_[v].cosine = std::min(corners_[v].cosine, glm::dot(corners_[v].normal, normal)); });
+    }
+
+    [[nodiscard]] float angle_at(uint32_t first, uint32_t corner) const
+    {
+        const glm::vec3 p = places_[first + corner];
+        const glm::vec3 a = glm::normalize(places_[first + (corner + 1) % 3] - p);
+        const glm::vec3 b = glm::normalize(places_[first + (corner + 2) % 3] - p);
+        return std::acos(std::clamp(glm::dot(a, b), -1.f, 1.f));
+    }
+
+    void add_edge(std::span<const Side> sides)
+    {
+        const Side& first = sides.front();
+        const glm::vec3 a = places_[first.low];
+        const glm::vec3 b = places_[first.high];
+        if (sides.size() == 1 && closed_)
+            return; // its other triangle lies where the mesh is flat
+        if (sides.size() != 2)
+            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0});
+        const glm::vec3 n = unit_normal(tree_.triangles[first.triangle]);
+        const bool agree = first.upwards != sides[1].upwards; // on which side is outside
+        const glm::vec3 m = (agree ? 1.f : -1.f) * unit_normal(tree_.triangles[sides[1].triangle]);
+        const float turn = std::acos(std::clamp(glm::dot(n, m), -1.f, 1.f));
+        const bool convex = glm::dot(n, places_[sides[1].opposite] - a) < 0;
+        if (turn < k_flat || (!convex && !two_sided_))
+            return;
+        if (turn / 2 < crease_ && !((bends(first.triangle) || bends(sides[1].triangle)) && bends_across(a, b)))
+            return;
+        const glm::vec3 outwards = n + m;
+        if (two_sided_ || glm::length(outwards) < 1e-3f)
+            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0});
+        const glm::vec3 normal = glm::normalize(outwards);
+        keep_edge(first, {a, 0, b, glm::dot(normal, n), normal, 0});
+    }
+
+    void keep_edge(const Side& side, const Feature& edge)
+    {
+        for (const uint32_t v : {side.low, side.high})
+        {
+            corners_[v].stands_out = true;
+            corners_[v].any_direction |= edge.cosine == -1;
+        }
+        if (glm::distance(edge.a, edge.b) > spacing_)
+            features_.push_back(edge);
+    }
+
+    // The sharpest of each cell of a grid.
+    void add_corners()
+    {
+        std::unordered_map<uint64_t, uint32_t> cells;
+        for (uint32_t v = 0; v < corners_.size(); ++v)
+        {
+            if (!corners_[v].stands_out)
+                continue;
+            const auto [cell, is_new] = cells.emplace(cell_of(places_[v]), v);
+            if (!is_new && sharpness(v) > sharpness(cell->second))
+                cell->second = v;
+        }
+        std::vector<uint32_t> kept;
+        for (const auto& [cell, v] : cells)
+            kept.push_back(v);
+        std::sort(kept.begin(), kept.end()); // the order of the table is nobody's
+        for (const uint32_t v : kept)
+        {
+            const Corner& corner = corners_[v];
+            const bool any = corner.any_direction || two_sided_;
+            features_.push_back({places_[v], 0, places_[v], any ? -1 : corner.cosine, corner.normal, 0});
+        }
+    }
+
+    [[nodiscard]] uint64_t cell_of(const glm::vec3& p) const
+    {
+        uint64_t key = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            key = key << 21 | (static_cast<uint64_t>(static_cast<int64_t>(std::floor(p[axis] / spacing_))) & 0x1fffff);
+        return key;
+    }
+
+    [[nodiscard]] float sharpness(uint32_t v) const { return corners_[v].any_direction ? 2 : 1 - corners_[v].cosine; }
+
+    MeshTree tree_;
+    FeatureScale scale_;
+    bool two_sided_;
+    bool closed_;
+    float bend_;    // rad: half of the spread of normals that counts where the mesh is narrow
+    float crease_;  // rad: half of the angle of an edge that counts by itself
+    float spacing_; // m, of corners, and the length of edges
+    std::vector<Surroundings> surroundings_;
+    std::vector<uint32_t> chosen_;   // triangles
+    std::vector<glm::vec3> places_;  // three a chosen triangle
+    std::vector<uint32_t> vertices_; // and the first at the same place
+    std::vector<Side> sides_;
+    std::vector<Corner> corners_; // of the places; those that are not the first at theirs are empty
+    std::vector<Feature> features_;
+};
+
+} // namespace
+
+std::vector<Feature> mesh_features(const Model& model, const shared::ColliderRecord& collider,
+                                   const FeatureScale& scale)
+{
+    if ((collider.flags & VOILE_COLLIDER_DEFORMS) != 0)
+        return {};
+    const auto nodes = std::span(model.nodes).subspan(collider.first_node, collider.nodes);
+    const auto triangles = std::span(model.triangles).subspan(collider.first_triangle, collider.triangles);
+    return MeshFeatures({nodes, triangles}, collider, scale).run();
+}
+
+} // namespace voile

@@ -1,0 +1,63 @@
+// Refit: how a tree is cut into dispatches.
+#include "colliders/refit.hpp"
+
+#include "geometry/padded_tree.hpp"
+
+#include "voile_cloth_shaders.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace voile
+{
+
+gpu::Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size)
+{
+    const auto& limits = context.limits;
+    const uint32_t most = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
+    RefitKernels kernels;
+    kernels.group = std::max(2u, std::bit_floor(std::min(workgroup_size, most)));
+    kernels.run = std::min(kernels.group / 2, static_cast<uint32_t>(VOILE_REFIT_RUN)); // two threads a box
+    const uint32_t rows = kernels.group / (2 * kernels.run);
+    kernels.levels_a_dispatch = static_cast<uint32_t>(std::countr_zero(VOILE_REFIT_ITEMS * rows));
+    constexpr uint32_t k_push = sizeof(shared::RefitPush);
+    auto leaves =
+        gpu::Kernel::create(context, {"cloth refit leaves", shaders::k_refit_comp, 3, k_push, {kernels.group, 1}});
+    if (!leaves)
+        return leaves.error();
+    auto levels =
+        gpu::Kernel::create(context, {"cloth refit levels", shaders::k_refit_comp, 3, k_push, {kernels.group, 0}});
+    if (!levels)
+        return levels.error();
+    kernels.leaves = std::move(leaves.value());
+    kernels.levels = std::move(levels.value());
+    return kernels;
+}
+
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitPlace& place)
+{
+    if (place.triangles == 0)
+        return;
+    shared::RefitPush push{place.first_box, place.first_leaf, place.first_from, place.first_to, 0, 0};
+    push.bottom = padded_levels(place.triangles);
+    const gpu::Kernel* kernel = &kernels.leaves;
+    do
+    {
+        push.levels = std::min(push.bottom, kernels.levels_a_dispatch);
+        const uint32_t roots = 1u << (push.bottom - push.levels);
+        const uint32_t groups = (roots + kernels.run - 1) / kernels.run;
+        recorder.dispatch(*kernel, set, groups * kernels.group, kernels.group, push);
+        push.bottom -= push.levels;
+        kernel = &kernels.levels;
+    } while (push.bottom > 0);
+}
+
+uint32_t refit_dispatches(const RefitKernels& kernels, uint32_t triangles)
+{
+    if (triangles == 0)
+        return 0;
+    const uint32_t levels = padded_levels(triangles);
+    return std::max(1u, (levels + kernels.levels_a_dispatch - 1) / kernels.levels_a_dispatch);
+}
+
+} // namespace voile

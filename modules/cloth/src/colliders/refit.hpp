@@ -1,0 +1,49 @@
+// Refit: recomputes the boxes of a padded tree from its mesh's present vertices.
+#pragma once
+
+#include "shared/padded_layout.h"
+
+#include "voile/gpu/recorder.hpp"
+
+namespace voile
+{
+
+// Both have the same bindings, so one descriptor set serves both: leaves, positions, boxes.
+struct RefitKernels
+{
+    gpu::Kernel leaves; // starts from the vertices
+    gpu::Kernel levels; // goes on from boxes
+    uint32_t group = 0;
+    uint32_t run = 0; // neighboring subtrees a workgroup takes
+    uint32_t levels_a_dispatch = 0;
+};
+
+// `workgroup_size`: a power of two, 2 to the device's limit; what the device does not take is lowered to what it does.
+gpu::Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
+
+// Where a tree stands in its buffers.
+struct RefitPlace
+{
+    uint32_t first_box = 0;
+    uint32_t first_leaf = 0;
+    uint32_t first_from = 0; // of the mesh's vertices at the start of the step
+    uint32_t first_to = 0;   // and at its end; may be the same ones
+    uint32_t triangles = 0;  // nothing is recorded for 0
+};
+
+// The first place for a tree's boxes from `first` on that lets all of its levels but the top ones begin at multiples of
+// 256 bytes: runs of boxes then fill whole cache lines.
+constexpr uint32_t aligned_first_box(uint32_t first)
+{
+    constexpr uint32_t k_line = VOILE_REFIT_RUN;
+    return (first + k_line - 2) / k_line * k_line + 1;
+}
+
+// Records a refit in the dispatches that it takes (refit_dispatches), each with its barrier to what follows. Positions
+// must have been made visible to compute reads, and earlier reads of the boxes must be done. All boxes of the tree are
+// written.
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitPlace& place);
+
+[[nodiscard]] uint32_t refit_dispatches(const RefitKernels& kernels, uint32_t triangles);
+
+} // namespace voile

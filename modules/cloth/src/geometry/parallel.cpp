@@ -1,0 +1,68 @@
+// Work on all cores of the host.
+#include "geometry/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace voile
+{
+
+uint32_t thread_count(uint32_t wanted, size_t parts)
+{
+    const size_t threads = wanted > 0 ? wanted : std::thread::hardware_concurrency(); // 0 where that is not known
+    return static_cast<uint32_t>(std::max<size_t>(std::min(threads, parts), 1));
+}
+
+void run_together(uint32_t threads, const std::function<void()>& work)
+{
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto guarded = [&]
+    {
+        try
+        {
+            work();
+        }
+        catch (...)
+        {
+            const std::lock_guard lock(mutex);
+            if (!failure)
+                failure = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        try
+        {
+            others.reserve(threads);
+            while (others.size() + 1 < threads)
+                others.emplace_back(guarded);
+        }
+        catch (const std::system_error&)
+        {
+            // The system gives no more threads; those that there are do the work.
+        }
+        guarded();
+    } // joins
+    if (failure)
+        std::rethrow_exception(failure);
+}
+
+void parallel_for(size_t count, size_t piece, const std::function<void(size_t, size_t)>& body, uint32_t threads)
+{
+    const size_t pieces = (count + piece - 1) / piece;
+    std::atomic<size_t> next = 0;
+    const auto work = [&]
+    {
+        for (size_t i = next++; i < pieces; i = next++)
+            body(i * piece, std::min((i + 1) * piece, count));
+    };
+    run_together(thread_count(threads, pieces), work);
+}
+
+} // namespace voile

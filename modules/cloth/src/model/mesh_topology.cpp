@@ -1,0 +1,257 @@
+// From triangles to springs and bending stencils.
+#include "model/mesh_topology.hpp"
+
+#include "geometry/closedness.hpp"
+#include "model/mesh_elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace voile
+{
+
+namespace
+{
+
+// A triangle is degenerate where float cannot tell its height from 0.
+bool degenerate(std::span<const glm::dvec3> x, const glm::uvec3& t)
+{
+    const double longest =
+        std::max({glm::distance(x[t.x], x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], x[t.x])});
+    return triangle_area(x, t) <= 1e-6 * longest * longest;
+}
+
+// What a pair of vertices has: a spring along an edge or across one, the isometric model's coefficient, or both.
+struct Pair
+{
+    uint32_t a;
+    uint32_t b;
+    double edge;     // weight of the spring along the edge between them; 0: none
+    double opposite; // weight of the spring across an edge; 0: none
+    double bending;
+};
+
+// Every pair of vertices once, its weights and coefficients summed up.
+std::vector<Pair> merged(std::vector<Pair> pairs)
+{
+    for (Pair& pair : pairs)
+        if (pair.a > pair.b)
+            std::swap(pair.a, pair.b);
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& l, const Pair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
+    std::vector<Pair> result;
+    for (const Pair& pair : pairs)
+    {
+        if (!result.empty() && result.back().a == pair.a && result.back().b == pair.b)
+        {
+            result.back().edge += pair.edge;
+            result.back().opposite += pair.opposite;
+            result.back().bending += pair.bending;
+        }
+        else
+            result.push_back(pair);
+    }
+    return result;
+}
+
+// The entries of a pair at the list of `other`: one, or two where an edge's ends are opposite to another edge as well.
+std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, float rest_length)
+{
+    std::vector<shared::MeshSpring> entries;
+    if (pair.edge > 0)
+        entries.push_back({other, rest_length, static_cast<float>(pair.edge), static_cast<float>(pair.bending)});
+    if (pair.opposite > 0 || pair.edge == 0)
+        entries.push_back({other | VOILE_OPPOSITE_BIT, rest_length, static_cast<float>(pair.opposite),
+                           pair.edge > 0 ? 0 : static_cast<float>(pair.bending)});
+    return entries;
+}
+
+// `fabric`: of the membrane; none: springs along the edges.
+MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                         const FabricCoordinates* fabric, MeshReport& report)
+{
+    const std::vector<MeshSide> sides = sides_of(positions, triangles);
+    MeshElements elements;
+    if (fabric)
+        for (const glm::uvec3& t : triangles)
+            elements.triangles.push_back(make_membrane_triangle(positions, t, *fabric));
+    for (size_t first = 0; first < sides.size();)
+    {
+        size_t last = first + 1;
+        while (last < sides.size() && sides[last].key() == sides[first].key())
+            ++last;
+        const double length = glm::distance(positions[sides[first].a], positions[sides[first].b]);
+        add_edge(positions, std::span(sides).subspan(first, last - first), elements);
+        report.boundary_edges += last - first == 1 ? 1 : 0;
+        report.non_manifold_edges += last - first > 2 ? 1 : 0;
+        report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
+        first = last;
+    }
+    return elements;
+}
+
+// `triangles`: that bend by the isometric model.
+std::vector<Pair> pairs_of(const MeshElements& elements, size_t triangles)
+{
+    std::vector<Pair> pairs;
+    for (const ElementSpring& spring : elements.edges)
+        pairs.push_back({spring.a, spring.b, spring.weight, 0, 0});
+    for (const ElementSpring& spring : elements.opposites)
+        pairs.push_back({spring.a, spring.b, 0, spring.weight, 0});
+    if (triangles > 0)
+        for (const BendingEntry& entry : bending_of(elements, triangles))
+            pairs.push_back({entry.a, entry.b, 0, 0, entry.value});
+    return merged(std::move(pairs));
+}
+
+uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
+{
+    std::vector<uint32_t> parent(vertices);
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](uint32_t i)
+    {
+        while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::vector<bool> used(vertices);
+    for (const glm::uvec3& t : triangles)
+    {
+        parent[root(t.y)] = root(t.x);
+        parent[root(t.z)] = root(t.x);
+        used[t.x] = used[t.y] = used[t.z] = true;
+    }
+    uint32_t components = 0;
+    for (uint32_t i = 0; i < vertices; ++i)
+        components += used[i] && root(i) == i ? 1 : 0;
+    return components;
+}
+
+void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                std::span<const Pair> pairs)
+{
+    std::vector<std::vector<shared::MeshSpring>> springs(mesh.vertices.size());
+    std::vector<std::vector<shared::MeshCorner>> corners(mesh.vertices.size());
+    std::vector<std::vector<shared::MembraneCorner>> membrane(mesh.vertices.size());
+    const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
+    {
+        for (const shared::MeshSpring& entry :
+             entries_of(pair, other, static_cast<float>(glm::distance(positions[pair.a], positions[pair.b]))))
+            springs[vertex].push_back(entry);
+    };
+    for (const Pair& pair : pairs) // sorted by a, then b: a vertex meets its smaller neighbors first
+        put(pair.b, pair.a, pair);
+    for (const Pair& pair : pairs)
+        put(pair.a, pair.b, pair);
+    for (size_t i = 0; i < triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            const glm::uvec3& t = triangles[i];
+            corners[t[corner]].push_back({t[(corner + 1) % 3], t[(corner + 2) % 3]});
+            membrane[t[corner]].push_back(mesh.membrane.empty() ? shared::MembraneCorner{}
+                                                                : make_membrane_corner(mesh.membrane[i], t[corner]));
+        }
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    {
+        mesh.vertices[i] = {static_cast<uint32_t>(mesh.springs.size()), static_cast<uint32_t>(springs[i].size()),
+                            static_cast<uint32_t>(mesh.corners.size()), static_cast<uint32_t>(corners[i].size())};
+        mesh.springs.insert(mesh.springs.end(), springs[i].begin(), springs[i].end());
+        mesh.corners.insert(mesh.corners.end(), corners[i].begin(), corners[i].end());
+        mesh.membrane_corners.insert(mesh.membrane_corners.end(), membrane[i].begin(), membrane[i].end());
+    }
+}
+
+// Bounds for every shape that the mesh can take (see grid_rates). A spring shares each of its ends with others: it may
+// count on as much of the vertex's mass as it has of the stiffness there. Then the fastest mode of the whole is at most
+// that of the fastest spring alone (the element eigenvalue theorem, Irons and Treharne 1971), stiffness over mass at
+// one end plus the same at the other.
+void find_bounds(MeshTopology& mesh)
+{
+    struct Sums // of a vertex
+    {
+        double opposite = 0;      // weights
+        double alike[2] = {0, 0}; // by kind: edges, opposite vertices
+        double bending = 0;
+    };
+    std::vector<Sums> sums(mesh.vertices.size());
+    const auto visit_springs = [&](auto&& visit)
+    {
+        for (size_t i = 0; i < mesh.vertices.size(); ++i)
+            for (uint32_t s = 0; s < mesh.vertices[i].springs; ++s)
+            {
+                const shared::MeshSpring& spring = mesh.springs[mesh.vertices[i].first_spring + s];
+                const bool opposite = (spring.neighbor & VOILE_OPPOSITE_BIT) != 0;
+                visit(i, spring.neighbor & ~VOILE_OPPOSITE_BIT, opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE,
+                      spring);
+            }
+    };
+    visit_springs(
+        [&](size_t i, uint32_t, int kind, const shared::MeshSpring& spring)
+        {
+            sums[i].opposite += kind == VOILE_CLASS_OPPOSITE ? static_cast<double>(spring.weight) : 0;
+            sums[i].alike[kind] += spring.weight > 0 ? 1 : 0;
+            sums[i].bending += std::abs(static_cast<double>(spring.bending));
+        });
+    double* const alike[] = {&mesh.alike.edge, &mesh.alike.opposite};
+    const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
+    visit_springs(
+        [&](size_t i, uint32_t j, int kind, const shared::MeshSpring& spring)
+        {
+            if (spring.weight > 0)
+                raise(*alike[kind], sums[i].alike[kind] + sums[j].alike[kind]);
+            if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
+                raise(mesh.fabric.opposite, sums[i].opposite / mesh.areas[i] + sums[j].opposite / mesh.areas[j]);
+        });
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+        if (mesh.areas[i] > 0)
+        {
+            raise(mesh.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
+            raise(mesh.alike.bending, 2 * sums[i].bending);
+        }
+}
+
+} // namespace
+
+MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                                const FabricCoordinates& fabric, bool isometric, bool masses_alike)
+{
+    std::vector<glm::uvec3> solid;
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
+                 [&](const glm::uvec3& t) { return !degenerate(positions, t); });
+    MeshTopology mesh;
+    mesh.isometric = isometric;
+    mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
+    mesh.report.components = count_components(positions.size(), solid);
+    mesh.report.shortest_edge = std::numeric_limits<float>::max();
+    mesh.vertices.resize(positions.size());
+    mesh.areas.resize(positions.size());
+    for (const glm::uvec3& t : solid)
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.areas[t[corner]] += triangle_area(positions, t) / 3;
+    for (const double area : mesh.areas)
+    {
+        mesh.report.isolated_vertices += area > 0 ? 0 : 1;
+        mesh.mean_area += area;
+    }
+    mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
+    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be one place to float
+    for (const glm::dvec3& x : positions)
+        offsets.emplace_back(x - positions.front());
+    const std::vector<uint32_t> welded = weld(offsets);
+    for (uint32_t i = 0; i < welded.size(); ++i)
+        mesh.report.coincident_vertices += welded[i] != i && mesh.areas[i] > 0 ? 1 : 0;
+
+    MeshElements elements = elements_of(positions, solid, masses_alike ? nullptr : &fabric, mesh.report);
+    mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
+    const std::vector<Pair> pairs = pairs_of(elements, isometric ? solid.size() : 0);
+    mesh.membrane = std::move(elements.triangles);
+    fill_lists(mesh, positions, solid, pairs);
+    find_bounds(mesh);
+    return mesh;
+}
+
+} // namespace voile

@@ -1,0 +1,47 @@
+// The springs, bending stencils and vertex areas of a triangle mesh: what makes it a cloth, before any material.
+#pragma once
+
+#include "voile/descriptions.hpp"
+
+#include "model/membrane.hpp"
+#include "shared/cloth_layout.h"
+
+#include <span>
+#include <vector>
+
+namespace voile
+{
+
+// Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbors, and
+// corners likewise, in the order of the triangles. A fabric's mesh has a membrane corner for each of these.
+struct MeshTopology
+{
+    std::vector<shared::MeshVertex> vertices;
+    std::vector<shared::MeshSpring> springs; // each spring twice, once for either end
+    std::vector<shared::MeshCorner> corners;
+    std::vector<shared::MembraneCorner> membrane_corners;
+    std::vector<MembraneTriangle> membrane; // of a fabric
+    std::vector<double> areas;              // m^2, a third of the triangles around each vertex; 0 for isolated ones
+    MeshReport report;
+    bool isometric = false; // it has the coefficients of isometric bending
+
+    // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike; the
+    // membrane's follows from the fabric (membrane_rate).
+    struct Bounds
+    {
+        double edge = 0;     // alike: 1 (times k / m)
+        double opposite = 0; // fabric: 1/m^4 (times B / rho); alike: 1
+        double bending = 0;  // of the isometric model: 1/m^4 (times B / rho); alike: 1/m^2 (times B / m)
+    };
+    Bounds fabric;
+    Bounds alike;
+    double mean_area = 0; // m^2, of the vertices that have any
+};
+
+// `positions`: the shape at rest. Indices must be within it. `isometric`: with the coefficients of isometric bending,
+// which reaches half as many vertices again as springs do. `masses_alike`: the vertices' masses are not in proportion
+// to their areas, and springs along the edges take the place of a membrane; else `fabric` has its direction.
+MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
+                                const FabricCoordinates& fabric, bool isometric, bool masses_alike);
+
+} // namespace voile

@@ -1,0 +1,78 @@
+// Model: what the validation of all input shares. Cloths are in cloth_model.cpp, grid_cloth.cpp and mesh_cloth.cpp,
+// colliders in colliders.cpp and mesh_collider.cpp.
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace voile
+{
+
+// What std430 makes of the shared structs, checked by spirv-val on its side.
+static_assert(k_most_coordinate == static_cast<float>(VOILE_MOST_COORDINATE));
+static_assert(k_most_speed == static_cast<float>(VOILE_MOST_SPEED));
+static_assert(sizeof(shared::SpringClass) == 16);
+static_assert(sizeof(shared::ClothRecord) == 96 + 16 * VOILE_SPRING_CLASSES);
+static_assert(offsetof(shared::ClothRecord, bending) == 80);
+static_assert(offsetof(shared::ClothRecord, springs) == 96);
+static_assert(sizeof(shared::MeshVertex) == 16);
+static_assert(sizeof(shared::MeshSpring) == 16);
+static_assert(sizeof(shared::MeshCorner) == 8);
+static_assert(sizeof(shared::MembraneCorner) == 24);
+static_assert(sizeof(shared::Patch) == 32);
+static_assert(sizeof(shared::ColliderRecord) == 96);
+static_assert(offsetof(shared::ColliderRecord, origin) == 80);
+static_assert(sizeof(shared::ColliderMotion) == 80);
+static_assert(offsetof(shared::ColliderMotion, place_to) == 64);
+static_assert(sizeof(shared::StagePush) == 72);
+static_assert(offsetof(shared::StagePush, gust_phases) == 32);
+static_assert(sizeof(shared::StatisticsRecord) == 48);
+
+Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
+                        const std::string& contents, uint64_t bytes)
+{
+    if (bytes <= model.max_buffer_bytes)
+        return {};
+    const uint64_t needed = (bytes + (1u << 20) - 1) >> 20;
+    return invalid(what, name,
+                   contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
+                       std::to_string(model.max_buffer_bytes >> 20) + " MiB");
+}
+
+Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world)
+{
+    const std::vector<glm::vec3> rounded(world.begin(), world.end());
+    return check_positions(subject("cloth", cloth), rounded, "its transform takes vertex ", " to ");
+}
+
+glm::dmat4 without_rounding(const glm::mat4& transform)
+{
+    constexpr double k_rounding = 1e-6;
+    glm::dmat3 m(transform);
+    const glm::dmat3 strain = glm::transpose(m) * m - glm::dmat3(1);
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(strain[column][row]));
+    if (!(largest < k_rounding))
+        return glm::dmat4(transform);
+    m = 0.5 *
+        (m + glm::inverse(glm::transpose(m))); // Newton's iteration for the polar factor (Higham 1986); 1e-13 left
+    glm::dmat4 result(m);
+    result[3] = glm::dvec4(transform[3]);
+    return result;
+}
+
+Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
+                            const std::string& contents, uint64_t workgroups)
+{
+    if (workgroups <= model.max_workgroups)
+        return {};
+    return invalid(what, name,
+                   contents + " " + std::to_string(workgroups) + " workgroups of " +
+                       std::to_string(model.workgroup_size) + ", the device dispatches at most " +
+                       std::to_string(model.max_workgroups) + "; a larger SolverOptions::workgroup_size needs fewer");
+}
+
+} // namespace voile

@@ -1,0 +1,68 @@
+// What each workgroup works on: tiles of grids, runs of a mesh's vertices.
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace voile
+{
+
+namespace
+{
+
+// How many columns of a grid a workgroup works on, unless it or the grid is smaller; bench/NOTES.md has others.
+constexpr uint32_t k_tile_width = 32;
+
+uint32_t tile_width(uint32_t columns, uint32_t workgroup_size)
+{
+    return std::min(std::bit_ceil(std::min(columns, k_tile_width)), workgroup_size);
+}
+
+void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workgroup_size,
+               std::vector<shared::Patch>& patches)
+{
+    const uint32_t width = tile_width(record.columns, workgroup_size);
+    const uint32_t height = workgroup_size / width;
+    for (uint32_t row = 0; row < record.rows; row += height)
+        for (uint32_t column = 0; column < record.columns; column += width)
+            patches.push_back({cloth, record.first_vertex, record.columns, record.rows, column, row,
+                               static_cast<uint32_t>(std::countr_zero(width)), 0});
+}
+
+} // namespace
+
+uint64_t count_grid_patches(uint32_t columns, uint32_t rows, uint32_t workgroup_size)
+{
+    const uint64_t width = tile_width(columns, workgroup_size);
+    const uint64_t height = workgroup_size / width;
+    return (columns + width - 1) / width * ((rows + height - 1) / height);
+}
+
+uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size)
+{
+    return (vertices + workgroup_size - 1) / workgroup_size;
+}
+
+Patches make_patches(const Model& model, uint32_t workgroup_size)
+{
+    Patches result;
+    for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
+    {
+        for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        {
+            const shared::ClothRecord& record = model.records[cloth];
+            if (model.cloths[cloth].integrator != integrator)
+                continue;
+            if (record.columns > 0)
+                add_tiles(record, cloth, workgroup_size, result.patches);
+            else
+                for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
+                    result.patches.push_back({cloth, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
+        }
+        if (integrator == Integrator::rk4)
+            result.rk4 = static_cast<uint32_t>(result.patches.size());
+    }
+    return result;
+}
+
+} // namespace voile

@@ -1,0 +1,47 @@
+// The hierarchy of a mesh collider as boxes to look at.
+#include "solver/solver_state.hpp"
+
+namespace voile
+{
+
+namespace
+{
+
+// Appends the boxes `levels` below the node, 1 or more; `nodes` is the collider's root.
+void collect(const shared::BvhNode* nodes, uint32_t node, uint32_t levels, std::vector<BoundingBox>& boxes)
+{
+    const shared::BvhNode& parent = nodes[node];
+    const auto visit = [&](uint32_t child, const glm::vec3& min, const glm::vec3& max)
+    {
+        if (min.x > max.x) // of a mesh that fits one leaf, the right one
+            return;
+        if (levels == 1 || (child & VOILE_BVH_LEAF_BIT) != 0)
+            boxes.push_back({min, max});
+        else
+            collect(nodes, child, levels - 1, boxes);
+    };
+    visit(parent.left, parent.left_min, parent.left_max);
+    visit(parent.right, parent.right_min, parent.right_max);
+}
+
+} // namespace
+
+std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t level) const
+{
+    if (!state_->has(collider))
+        return {};
+    const Model& model = state_->model;
+    const shared::ColliderRecord& record = model.colliders[collider.index];
+    if (record.kind != VOILE_COLLIDER_MESH || (record.flags & VOILE_COLLIDER_DEFORMS) != 0)
+        return {};
+    std::vector<BoundingBox> boxes;
+    if (level == 0)
+        boxes.push_back({record.box_min, record.box_max});
+    else
+        collect(&model.nodes[record.first_node], 0, level, boxes);
+    for (BoundingBox& box : boxes)
+        box = {box.min + record.origin, box.max + record.origin};
+    return boxes;
+}
+
+} // namespace voile

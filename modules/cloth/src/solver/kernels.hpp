@@ -1,0 +1,52 @@
+// Kernels: the compute pipelines of a solver.
+#pragma once
+
+#include "colliders/refit.hpp"
+
+#include "voile/gpu/kernel.hpp"
+
+namespace voile
+{
+
+struct SolverOptions;
+
+constexpr uint32_t k_most_storage_buffers = 24; // of a kernel: contact's
+
+struct Kernels
+{
+    gpu::Kernel stage; // of RK4, any of the four
+    gpu::Kernel verlet;
+    gpu::Kernel pins;
+    gpu::Kernel holds;
+    gpu::Kernel tethers;
+    gpu::Kernel limit_strain;
+    gpu::Kernel limit_work;
+    gpu::Kernel limit_scale;
+    gpu::Kernel limit_guard;
+    gpu::Kernel edit;
+    gpu::Kernel contact;        // with meshes and planes
+    gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
+    gpu::Kernel contact_moving; // where colliders move or deform
+    gpu::Kernel contact_many;   // where patches have lists of the colliders near them
+    gpu::Kernel collider_reach;
+    gpu::Kernel feature_reach;
+    gpu::Kernel feature_reach_moving;
+    gpu::Kernel feature_contact;
+    gpu::Kernel feature_contact_moving;
+    gpu::Kernel recover;        // out of meshes at rest
+    gpu::Kernel recover_moving; // where colliders move or deform
+    gpu::Kernel deform;
+    RefitKernels refit;
+    gpu::Kernel normals;
+    gpu::Kernel statistics;
+    gpu::Kernel statistics_reduce;
+};
+
+// Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what
+// they find (create_refit_kernels).
+gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options);
+
+// Errors: those of check_limits, a driver that refuses a shader.
+gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options);
+
+} // namespace voile

@@ -1,0 +1,191 @@
+// The recording of a step: the list of passes, as ARCHITECTURE.md shows it.
+#include "solver/solver_state.hpp"
+#include "solver/substeps.hpp"
+
+#include <bit>
+#include <utility>
+
+namespace voile
+{
+
+namespace
+{
+
+constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+constexpr VkAccessFlags2KHR k_storage =
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
+
+// Earlier draws and copies have read the buffers, uploads and earlier steps have written them.
+void begin_scope(gpu::Recorder& recorder)
+{
+    recorder.barrier(VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_compute,
+                     k_storage);
+}
+
+void end_scope(gpu::Recorder& recorder)
+{
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
+}
+
+// The number of a step's first substep. Where the numbers are used up, all that is told apart by them is made anew.
+uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t substeps)
+{
+    const uint32_t taken = substeps + 1; // the strain limit has one of its own
+    if (solver.next_substep >= k_substeps_counted - taken)
+    {
+        solver.next_substep = 0;
+        forget_candidates(recorder, *solver.device);
+    }
+    return std::exchange(solver.next_substep, solver.next_substep + taken);
+}
+
+void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    const uint32_t group = solver.options.workgroup_size;
+    recorder.dispatch(solver.kernels.normals, solver.device->normals_set, solver.device->patch_count * group, group,
+                      std::span<const std::byte>{});
+}
+
+// Finds the way out for vertices inside of colliders. Nothing is recorded where none has an inside.
+//
+// Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
+// and every few steps for what rounding has; besides, as long as the step before has found one inside.
+void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
+{
+    if (!solver.passes.recover)
+        return;
+    if (std::exchange(solver.normals_due, false))
+        record_normals(recorder, solver);
+    const DeviceState& device = *solver.device;
+    const uint32_t group = solver.options.workgroup_size;
+    const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
+    const bool periodic = solver.recovery_step % k_recovery_period == 0;
+    const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
+    const size_t now = solver.recovery_step++ % 2;
+    const size_t next = solver.recovery_step % 2;
+    const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride, recovery_word(next)};
+    clear_dispatch(recorder, device.depenetrations, recovery_word(next), 1, &device.recovery_votes[next]);
+    if (all)
+        recorder.dispatch(kernel, device.recover[next], device.patch_count * group, group, push);
+    else
+        recorder.dispatch_indirect(kernel, device.recover[next], device.depenetrations.handle(),
+                                   recovery_word(now) * sizeof(uint32_t), push);
+    publish_dispatch(recorder);
+}
+
+} // namespace
+
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word, uint32_t groups_each,
+                    const gpu::Buffer* counts)
+{
+    const VkDispatchIndirectCommand none{0, groups_each, 1};
+    constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), word * sizeof(uint32_t), sizeof(none),
+                                            &none);
+    if (counts)
+        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), counts->handle(), 0, VK_WHOLE_SIZE, 0);
+    recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
+                     k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
+                     k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+}
+
+void publish_dispatch(gpu::Recorder& recorder)
+{
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
+                     VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+}
+
+void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
+{
+    constexpr float k_none = -1; // see contact_candidates.glsl
+    const auto fill = [&](const gpu::Buffer& buffer, uint32_t word)
+    { recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), buffer.handle(), 0, VK_WHOLE_SIZE, word); };
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
+    fill(device.candidate_triangles, 0);
+    fill(device.feature_corrections, VOILE_NO_SUBSTEP);
+    fill(device.depenetrations, 0);
+    constexpr uint32_t k_not_a_number = 0xffffffff; // no place is in a box of these
+    fill(device.near_colliders, k_not_a_number);
+    recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                     k_storage);
+}
+
+Result<void> Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps)
+{
+    gpu::Recorder recorder(state_->context, cmd, timestamps);
+    return record(recorder, step);
+}
+
+Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
+{
+    if (auto valid = validate(step); !valid)
+        return valid;
+    if (!state_->device || state_->device->patch_count == 0)
+        return {};
+    state_->lifetime.begin(recorder.cmd());
+    begin_scope(recorder);
+    state_->recovery_due |= state_->changes_due();
+    record_edits(recorder, *state_, step);
+    const uint32_t substeps = State::substeps(*this, step);
+    SubstepRecorder passes(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps));
+    passes.record_collider_reach(0);
+    record_recovery(recorder, *state_, step);
+    passes.record();
+    record_normals(recorder, *state_);
+    end_scope(recorder);
+    state_->lifetime.end(recorder.cmd());
+    return {};
+}
+
+Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps) const
+{
+    if (slot >= state_->options.statistics_slots)
+        return Error{"statistics: slot " + std::to_string(slot) + " of " +
+                     std::to_string(state_->options.statistics_slots) + " does not exist"};
+    if (!state_->device)
+        return {};
+    const DeviceState& device = *state_->device;
+    const Kernels& kernels = state_->kernels;
+    const uint32_t group = state_->options.workgroup_size;
+    gpu::Recorder recorder(state_->context, cmd, timestamps);
+    state_->lifetime.begin(cmd);
+    begin_scope(recorder);
+    recorder.dispatch(kernels.statistics, device.statistics, device.patch_count * group, group,
+                      shared::StatisticsPush{device.collider_count, device.near_stride});
+    recorder.dispatch(kernels.statistics_reduce, device.statistics_reduce, group, group,
+                      shared::StatisticsReducePush{device.patch_count, slot});
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
+                     VK_ACCESS_2_HOST_READ_BIT_KHR);
+    state_->lifetime.end(cmd);
+    return {};
+}
+
+uint32_t Solver::dispatches(const Step& step) const
+{
+    if (!state_->device || state_->device->patch_count == 0 || !validate(step))
+        return 0;
+    const DeviceState& device = *state_->device;
+    const bool rk4 = device.rk4_patches > 0;
+    const bool verlet = device.rk4_patches < device.patch_count;
+    const Passes& passes = state_->passes;
+    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) + (passes.holds > 0 ? 1 : 0) +
+                               (passes.tethers > 0 ? 1 : 0) + (passes.features ? 1 : 0);
+    uint32_t strain = 0;
+    if (passes.strain_spacing > 0) // its passes, what bounds positions, contact, and the guard
+        strain = limit_passes(passes.strain_spacing) + (passes.holds > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) + 7 +
+                 3 * VOILE_LIMIT_LOOKS;
+    const uint32_t substeps = State::substeps(*this, step);
+    const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
+    const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +
+                           (device.near_stride > 0 ? looks_every(VOILE_NEAR_PERIOD) : 0);
+    return substeps * a_substep + (verlet ? 1 : 0) + looks + strain + (passes.recover ? 1 : 0) + 1;
+}
+
+} // namespace voile

@@ -1,0 +1,195 @@
+// Snapshot: the state of all cloths, kept to go back to.
+#include "solver/solver_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace voile
+{
+
+struct Snapshot::Contents
+{
+    gpu::Buffer buffer; // one region after the other, then the recovery's step
+    uint32_t vertices = 0;
+    uint32_t cloths = 0;
+    uint32_t recovery_step = 0; // modulo its period
+    bool filled = false;
+};
+
+Snapshot::Snapshot(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+Snapshot::~Snapshot() = default;
+Snapshot::Snapshot(Snapshot&&) noexcept = default;
+Snapshot& Snapshot::operator=(Snapshot&&) noexcept = default;
+
+std::span<const std::byte> Snapshot::bytes() const
+{
+    contents_->buffer.invalidate();
+    return contents_->buffer.mapped();
+}
+
+namespace
+{
+
+// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of
+// strain limits stand last, before the recovery's step.
+Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, size_t cloths)
+{
+    const auto load = [&](size_t offset)
+    {
+        float value = 0;
+        std::memcpy(&value, bytes.data() + offset, sizeof(value));
+        return value;
+    };
+    const size_t residuals = vertices * sizeof(glm::vec4);
+    const size_t velocities = residuals + vertices * sizeof(glm::uvec2);
+    for (size_t i = 0; i < vertices; ++i)
+    {
+        bool finite = std::isfinite(load(residuals + i * sizeof(glm::uvec2) + sizeof(uint32_t))); // what they count in
+        for (size_t k = 0; k < 4; ++k)
+            finite = finite && std::isfinite(load((4 * i + k) * sizeof(float))) &&
+                     std::isfinite(load(velocities + (4 * i + k) * sizeof(float)));
+        if (!finite)
+            return Error{"snapshot: vertex " + std::to_string(i) + " is not finite"};
+    }
+    const size_t scales = bytes.size() - sizeof(uint32_t) - scales_bytes(cloths);
+    for (size_t offset = scales; offset + sizeof(uint32_t) < bytes.size(); offset += sizeof(float))
+        if (!std::isfinite(load(offset)))
+            return Error{"snapshot: what it has of the strain limit is not finite"};
+    return {};
+}
+
+} // namespace
+
+Result<void> Snapshot::assign(std::span<const std::byte> bytes)
+{
+    const std::span<std::byte> mapped = contents_->buffer.mapped();
+    if (bytes.size() != mapped.size())
+        return Error{"snapshot: " + std::to_string(bytes.size()) + " bytes, this solver's state has " +
+                     std::to_string(mapped.size())};
+    if (auto finite = check_finite(bytes, contents_->vertices, contents_->cloths); !finite)
+        return finite;
+    std::copy(bytes.begin(), bytes.end(), mapped.begin());
+    contents_->buffer.flush();
+    std::memcpy(&contents_->recovery_step, bytes.data() + bytes.size() - sizeof(uint32_t), sizeof(uint32_t));
+    contents_->recovery_step %= k_recovery_period;
+    contents_->filled = true;
+    return {};
+}
+
+namespace
+{
+
+// The start of a buffer.
+struct Region
+{
+    VkBuffer buffer;
+    VkDeviceSize bytes;
+};
+
+// The streams of all vertices, and what recovery and the strain limit remember from one step to the next.
+std::array<Region, 6> regions_of(const DeviceState& device, uint32_t recovery_step)
+{
+    const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
+        return Region{buffer.handle(), bytes_per_vertex * device.vertices};
+    };
+    return {stream(device.state.positions, sizeof(glm::vec4)),
+            stream(device.state.residuals, sizeof(glm::uvec2)),
+            stream(device.state.velocities, sizeof(glm::vec4)),
+            stream(device.normals, sizeof(glm::vec4)),
+            Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)},
+            Region{device.limit_scales.handle(), scales_bytes(device.cloth_count)}};
+}
+
+VkDeviceSize total_bytes(const DeviceState& device)
+{
+    VkDeviceSize bytes = sizeof(uint32_t);
+    for (const Region& region : regions_of(device, 0))
+        bytes += region.bytes;
+    return bytes;
+}
+
+// Copies wait for compute, vertex input and earlier copies; what follows waits for them.
+void barrier(const gpu::Context& context, VkCommandBuffer cmd, bool before)
+{
+    constexpr VkPipelineStageFlags2KHR k_users =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR |
+        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | VK_PIPELINE_STAGE_2_HOST_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    constexpr VkAccessFlags2KHR k_copies = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
+    gpu::Recorder recorder(context, cmd);
+    if (before)
+        recorder.barrier(k_users, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR, k_copy, k_copies);
+    else
+        recorder.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_users,
+                         VK_ACCESS_2_MEMORY_READ_BIT_KHR | VK_ACCESS_2_MEMORY_WRITE_BIT_KHR);
+}
+
+} // namespace
+
+Result<Snapshot> Solver::create_snapshot() const
+{
+    if (!state_->device || state_->device->vertices == 0)
+        return Error{"snapshot: nothing has been uploaded yet"};
+    auto contents = std::make_unique<Snapshot::Contents>();
+    contents->vertices = state_->device->vertices;
+    contents->cloths = state_->device->cloth_count;
+    auto buffer =
+        gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(*state_->device),
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);
+    if (!buffer)
+        return buffer.error();
+    contents->buffer = std::move(buffer.value());
+    return Snapshot(std::move(contents));
+}
+
+Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const
+{
+    const uint32_t vertices = snapshot.contents_->vertices;
+    if (!state_->device || state_->device->vertices != vertices)
+        return Error{"snapshot: it was made for another number of vertices"};
+    const uint32_t step = state_->recovery_step % k_recovery_period;
+    const VkBuffer buffer = snapshot.contents_->buffer.handle();
+    snapshot.contents_->filled = true;
+    snapshot.contents_->recovery_step = step;
+    state_->lifetime.begin(cmd);
+    barrier(state_->context, cmd, true);
+    VkDeviceSize offset = 0;
+    for (const Region& region : regions_of(*state_->device, step))
+    {
+        const VkBufferCopy copy{0, offset, region.bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, region.buffer, buffer, 1, &copy);
+        offset += region.bytes;
+    }
+    state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, offset, sizeof(step), &step);
+    barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
+    state_->recovery_due = true; // as after restoring: both go on alike
+    return {};
+}
+
+Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapshot)
+{
+    const uint32_t vertices = snapshot.contents_->vertices;
+    if (!state_->device || state_->device->vertices != vertices)
+        return Error{"snapshot: it was made for another number of vertices"};
+    if (!snapshot.contents_->filled)
+        return Error{"snapshot: nothing was saved in it"};
+    state_->lifetime.begin(cmd);
+    barrier(state_->context, cmd, true);
+    VkDeviceSize offset = 0;
+    for (const Region& region : regions_of(*state_->device, snapshot.contents_->recovery_step))
+    {
+        const VkBufferCopy copy{offset, 0, region.bytes};
+        state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
+        offset += region.bytes;
+    }
+    barrier(state_->context, cmd, false);
+    state_->lifetime.end(cmd);
+    state_->recovery_step = snapshot.contents_->recovery_step;
+    state_->recovery_due = true;
+    return {};
+}
+
+} // namespace voile

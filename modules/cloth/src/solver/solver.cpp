@@ -1,0 +1,286 @@
+// Solver: creation, additions, upload and queries. Recording is in record.cpp.
+#include "model/stability.hpp"
+#include "solver/solver_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace voile
+{
+
+namespace
+{
+
+// Subgroups of a CPU device are few and narrow: a thread of its own for each triangle only repeats what they share.
+uint32_t feature_threads(const gpu::Context& context, const SolverOptions& options)
+{
+    constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
+    if (options.feature_threads > 0)
+        return options.feature_threads;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.workgroup_size);
+}
+
+// One record per slot, all 0.
+Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
+{
+    auto buffer = gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsRecord),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback);
+    if (buffer)
+    {
+        std::ranges::fill(buffer.value().mapped(), std::byte{0});
+        buffer.value().flush();
+    }
+    return buffer;
+}
+
+} // namespace
+
+bool checks_lifetime(const SolverOptions& options)
+{
+#ifdef NDEBUG
+    constexpr bool k_debug = false;
+#else
+    constexpr bool k_debug = true;
+#endif
+    return options.lifetime_checks.value_or(k_debug);
+}
+
+Requirements requirements()
+{
+    Requirements result;
+    result.device_extensions = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
+    result.storage_buffers = k_most_storage_buffers;
+    return result;
+}
+
+Upload::Upload() = default;
+Upload::~Upload() = default;
+Upload::Upload(Upload&&) noexcept = default;
+Upload& Upload::operator=(Upload&&) noexcept = default;
+
+Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& options)
+{
+    auto context = gpu::create_context(handles);
+    if (!context)
+        return context.error();
+    if (!std::has_single_bit(options.workgroup_size))
+        return Error{"SolverOptions: workgroup_size is " + std::to_string(options.workgroup_size) +
+                     ", must be a power of two"};
+    if (options.statistics_slots < 1 || options.statistics_slots > 16)
+        return Error{"SolverOptions: statistics_slots is " + std::to_string(options.statistics_slots) +
+                     ", must be 1 to 16"};
+    if (options.feature_threads > 0 &&
+        (!std::has_single_bit(options.feature_threads) || options.feature_threads > options.workgroup_size))
+        return Error{"SolverOptions: feature_threads is " + std::to_string(options.feature_threads) +
+                     ", must be 0 or a power of two up to workgroup_size"};
+    if (auto method = check_enumerator("SolverOptions", "contact_method", static_cast<int>(options.contact_method),
+                                       {"normal_ray", "nearest_point"});
+        !method)
+        return method.error();
+    if (auto layout = check_enumerator("SolverOptions", "mesh_layout", static_cast<int>(options.mesh_layout),
+                                       {"compact", "interleaved"});
+        !layout)
+        return layout.error();
+    auto kernels = create_kernels(context.value(), options);
+    if (!kernels)
+        return kernels.error();
+    auto state = std::make_unique<State>();
+    state->context = context.value();
+    state->options = options;
+    state->options.feature_threads = feature_threads(state->context, options);
+    state->model.max_buffer_bytes = state->context.max_buffer_bytes;
+    state->model.max_workgroups = state->context.limits.maxComputeWorkGroupCount[0];
+    state->model.workgroup_size = options.workgroup_size;
+    state->kernels = std::move(kernels.value());
+    auto statistics = create_statistics(state->context, options.statistics_slots);
+    if (!statistics)
+        return statistics.error();
+    state->statistics = std::move(statistics.value());
+    if (checks_lifetime(options))
+    {
+        auto check = LifetimeCheck::create(state->context, "voile::Solver");
+        if (!check)
+            return check.error();
+        state->lifetime = std::move(check.value());
+    }
+    return Solver(std::move(state));
+}
+
+Result<ClothId> Solver::add_cloth(const GridCloth& grid)
+{
+    constexpr uint64_t k_bytes_a_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
+    const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
+    if (auto room = check_room(state_->model, "cloth", grid.name,
+                               std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
+        !room)
+        return room.error();
+    const uint64_t patches = count_grid_patches(grid.columns, grid.rows, state_->model.workgroup_size);
+    if (auto dispatch = state_->check_patches(grid.name, patches); !dispatch)
+        return dispatch.error();
+    auto result = state_->model.add(grid);
+    if (result)
+        state_->added(patches);
+    return result;
+}
+
+Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
+{
+    // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
+    constexpr uint64_t k_bytes_a_vertex = 256;
+    const uint64_t bytes = (state_->model.mesh_vertices.size() + mesh.positions.size()) * k_bytes_a_vertex;
+    if (auto room =
+            check_room(state_->model, "cloth", mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
+        !room)
+        return room.error();
+    const uint64_t patches = count_mesh_patches(mesh.positions.size(), state_->model.workgroup_size);
+    if (auto dispatch = state_->check_patches(mesh.name, patches); !dispatch)
+        return dispatch.error();
+    auto result = state_->model.add(mesh);
+    if (result)
+        state_->added(patches);
+    return result;
+}
+
+Result<ColliderId> Solver::add_collider(const Collider& collider)
+{
+    auto result = std::visit([&](const auto& shape) { return state_->model.add(shape); }, collider);
+    if (result)
+    {
+        state_->colliders.emplace_back();
+        state_->deformations.resize(state_->model.deforming.size());
+        state_->dirty = true;
+    }
+    return result;
+}
+
+bool Solver::needs_upload() const
+{
+    return state_->dirty;
+}
+
+Statistics Solver::statistics(uint32_t slot) const
+{
+    Statistics result;
+    if (slot >= state_->options.statistics_slots)
+        return result;
+    const gpu::Buffer& buffer = state_->statistics;
+    buffer.invalidate();
+    shared::StatisticsRecord record{};
+    std::memcpy(&record, buffer.mapped().data() + slot * sizeof(record), sizeof(record));
+    result.max_stretch = record.max_stretch;
+    result.mean_stretch = record.springs > 0 ? record.stretch_sum / static_cast<float>(record.springs) : 0;
+    result.kinetic_energy = record.kinetic_energy;
+    result.deepest_penetration = record.deepest_penetration;
+    result.penetrating_vertices = record.penetrating_vertices;
+    result.nan_vertices = record.nan_vertices;
+    result.contacts = record.contacts;
+    result.candidates = record.candidates;
+    result.overflowing_vertices = record.overflowing_vertices;
+    return result;
+}
+
+uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
+{
+    if (!validate(Step{.duration = duration}))
+        return 0;
+    uint32_t substeps = 1;
+    for (const shared::ClothRecord& record : state_->model.records)
+        substeps = std::max(substeps, voile::stable_substeps(record, static_cast<double>(duration)));
+    return std::min(substeps, std::max(max_substeps, 1u));
+}
+
+Stability Solver::stability(ClothId cloth, const Step& step) const
+{
+    Stability result;
+    if (!state_->has(cloth) || !validate(step))
+        return result;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
+    result.used = state_->substeps(*this, step);
+    const StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
+    result.stiffness_share = static_cast<float>(scales.stiffness);
+    result.damping_share = static_cast<float>(scales.damping);
+    result.load = static_cast<float>(scales.load);
+    return result;
+}
+
+VertexStreams Solver::vertices(ClothId cloth) const
+{
+    VertexStreams streams;
+    if (!state_->device || cloth.index >= state_->device->cloth_count)
+        return streams;
+    const DeviceState& device = *state_->device;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    streams.positions = device.state.positions.handle();
+    streams.velocities = device.state.velocities.handle();
+    streams.normals = device.normals.handle();
+    streams.offset = record.first_vertex * sizeof(glm::vec4);
+    streams.vertices = record.vertices;
+    return streams;
+}
+
+std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
+{
+    return state_->has(cloth) ? cloth_triangles(state_->model, cloth.index) : std::vector<glm::uvec3>{};
+}
+
+std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
+{
+    if (!state_->has(cloth))
+        return {};
+    const ClothModel& model = state_->model.cloths[cloth.index];
+    if (model.mesh)
+        return model.texture_coordinates;
+    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    std::vector<glm::vec2> result;
+    result.reserve(record.vertices);
+    for (uint32_t row = 0; row < record.rows; ++row)
+        for (uint32_t column = 0; column < record.columns; ++column)
+            result.emplace_back(static_cast<float>(column) * model.spacing.x,
+                                static_cast<float>(row) * model.spacing.y);
+    return result;
+}
+
+const std::string& Solver::name(ClothId cloth) const
+{
+    static const std::string k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].name : k_none;
+}
+
+MeshReport Solver::mesh_report(ClothId cloth) const
+{
+    if (!state_->has(cloth))
+        return {};
+    const ClothModel& model = state_->model.cloths[cloth.index];
+    return model.mesh ? model.mesh->report : MeshReport{};
+}
+
+const gpu::Context& Solver::context() const
+{
+    return state_->context;
+}
+
+uint32_t Solver::vertex_count() const
+{
+    return static_cast<uint32_t>(state_->model.positions.size());
+}
+
+uint32_t Solver::triangle_count() const
+{
+    size_t count = 0;
+    for (size_t i = 0; i < state_->model.cloths.size(); ++i)
+    {
+        const shared::ClothRecord& record = state_->model.records[i];
+        count += record.columns > 0 ? size_t{2} * (record.columns - 1) * (record.rows - 1)
+                                    : state_->model.cloths[i].triangles.size();
+    }
+    return static_cast<uint32_t>(count);
+}
+
+} // namespace voile

@@ -1,0 +1,152 @@
+// What the host does with colliders that are there already: moving them, and holding cloth to their surfaces.
+#include "geometry/bvh_query.hpp"
+#include "solver/solver_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace voile
+{
+
+namespace
+{
+
+// The hierarchy of one mesh collider.
+Bvh bvh_of(const Model& model, uint32_t collider)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    const auto slice = [](const auto& values, uint32_t first, uint32_t count)
+    { return std::vector(values.begin() + first, values.begin() + first + count); };
+    Bvh bvh;
+    bvh.nodes = slice(model.nodes, record.first_node, record.nodes);
+    bvh.triangles = slice(model.triangles, record.first_triangle, record.triangles);
+    return bvh;
+}
+
+// The nearest place of a collider's surface, both in the collider's space, as its record has it.
+using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
+
+glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& x)
+{
+    const glm::dvec3 axis = b - a;
+    const double t = glm::dot(x - a, axis) / std::max(glm::dot(axis, axis), 1e-300);
+    return a + std::clamp(t, 0.0, 1.0) * axis;
+}
+
+glm::dvec3 on_ball(const glm::dvec3& center, double radius, const glm::dvec3& x)
+{
+    const double distance = glm::distance(x, center);
+    return distance > 0 ? center + radius / distance * (x - center) : center + glm::dvec3(0, radius, 0);
+}
+
+glm::dvec3 on_box(const glm::dvec3& half_size, const glm::dvec3& offset)
+{
+    const glm::dvec3 outside = glm::abs(offset) - half_size;
+    glm::dvec3 place = glm::clamp(offset, -half_size, half_size);
+    if (glm::all(glm::lessThan(outside, glm::dvec3(0))))
+    {
+        const int axis = outside.x >= outside.y && outside.x >= outside.z ? 0 : outside.y >= outside.z ? 1 : 2;
+        place[axis] = offset[axis] < 0 ? -half_size[axis] : half_size[axis];
+    }
+    return place;
+}
+
+FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
+{
+    const shared::ColliderRecord& record = model.colliders[collider];
+    const glm::dvec3 shape(record.shape);
+    const auto size = static_cast<double>(record.shape.w);
+    switch (record.kind)
+    {
+    case VOILE_COLLIDER_PLANE:
+        return [=](const glm::dvec3& x) { return x - (glm::dot(shape, x) - size) * shape; };
+    case VOILE_COLLIDER_SPHERE:
+        return [=](const glm::dvec3& x) { return on_ball(glm::dvec3(0), size, x); };
+    case VOILE_COLLIDER_CAPSULE:
+        return [=](const glm::dvec3& x) { return on_ball(nearest_on_segment(-shape, shape, x), size, x); };
+    case VOILE_COLLIDER_BOX:
+        return [=](const glm::dvec3& x) { return on_box(shape, x); };
+    default:
+        return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
+        {
+            const auto nearest = nearest_point(bvh, x, distance);
+            return nearest ? std::optional(nearest->point) : std::nullopt;
+        };
+    }
+}
+
+} // namespace
+
+Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
+{
+    State& s = *state_;
+    if (auto exists = s.check(collider); !exists)
+        return exists;
+    if (!is_rigid(motion))
+        return Error{"collider " + std::to_string(collider.index) +
+                     (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
+    const glm::dvec4 center =
+        glm::dmat4(s.model.placements[collider.index]) * glm::dvec4(s.model.origins[collider.index], 1);
+    const glm::vec3 moved(glm::dvec3(glm::dmat4(motion) * center));
+    if (auto range = check("collider " + std::to_string(collider.index), "its center", moved, k_most_coordinate, " m");
+        !range)
+        return range;
+    ColliderPose& pose = s.colliders[collider.index];
+    pose.to = motion;
+    if (pose.anchor)
+        s.anchors[pose.anchor->index].to = motion;
+    uint32_t& flags = s.model.colliders[collider.index].flags;
+    if ((flags & VOILE_COLLIDER_MOVED) == 0 && motion != glm::mat4(1))
+    {
+        flags |= VOILE_COLLIDER_MOVED;
+        s.edits.colliders.push_back(collider.index);
+        s.update_passes();
+    }
+    return {};
+}
+
+Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance)
+{
+    State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists.error();
+    if (auto exists = s.check(collider); !exists)
+        return exists.error();
+    if (!(distance >= 0) || !std::isfinite(distance))
+        return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
+    if ((s.model.colliders[collider.index].flags & VOILE_COLLIDER_DEFORMS) != 0)
+        return Error{"holds on a surface: collider " + std::to_string(collider.index) +
+                     " deforms, and holds follow rigid motion only"};
+    const auto limit = static_cast<double>(distance);
+    const FindSurface find = surface_finder(s.model, collider.index, limit);
+    const glm::dmat4 placement(s.model.placements[collider.index]);
+    const glm::dmat4 back = glm::inverse(placement);
+    const glm::dvec3 origin = s.model.origins[collider.index];
+    const shared::ClothRecord& record = s.model.records[cloth.index];
+    std::vector<Hold> holds;
+    for (uint32_t i = 0; i < record.vertices; ++i)
+    {
+        const glm::dvec3 world(s.model.start[record.first_vertex + i]);
+        const glm::dvec3 x = glm::dvec3(back * glm::dvec4(world, 1)) - origin;
+        if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
+            holds.push_back({.vertex = i, .place = glm::vec3(placement * glm::dvec4(*place + origin, 1))});
+    }
+    if (holds.empty())
+        return invalid("cloth", name(cloth),
+                       "no vertex starts within " + std::to_string(distance) + " m of the collider");
+    ColliderPose& pose = s.colliders[collider.index];
+    if (!pose.anchor)
+    {
+        auto anchor = add_anchor(pose.from);
+        if (!anchor)
+            return anchor.error();
+        pose.anchor = anchor.value();
+        s.anchors[pose.anchor->index].to = pose.to;
+    }
+    for (Hold& hold : holds)
+        hold.anchor = pose.anchor;
+    return holds;
+}
+
+} // namespace voile

@@ -1,0 +1,168 @@
+// Changes of cloths that are there already. Each is validated here and recorded by edits.cpp.
+#include "solver/solver_state.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace voile
+{
+
+namespace
+{
+
+// The same kind of masses as before: what a vertex's density multiplies is fixed when the cloth is added.
+Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
+{
+    if (cloth.material.index() != material.index())
+        return invalid("cloth", cloth.name,
+                       cloth.material.index() == 0 ? "it was added with a Fabric and stays one"
+                                                   : "it was added with a Material and keeps masses of its own");
+    if (cloth.mesh && bends_isometrically(material) && !cloth.mesh->isometric)
+        return invalid("cloth", cloth.name, "isometric bending of a mesh must be there when the mesh is added");
+    if (auto valid = std::visit([](const auto& m) { return validate(m); }, material); !valid)
+        return invalid("cloth", cloth.name, valid.error().message);
+    return {};
+}
+
+Result<void> check_frame(const std::string& what, const glm::mat4& world_from_anchor)
+{
+    if (auto valid = check_bounded(what, world_from_anchor, k_most_coordinate); !valid)
+        return valid;
+    const float volume = std::abs(glm::determinant(glm::mat3(world_from_anchor)));
+    return check(what, {"its transform's determinant", volume, k_least_anchor_volume, std::pow(k_most_scale, 3.f)});
+}
+
+void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
+{
+    edits.places.push_back({transform, velocity, kind, cloth.index});
+}
+
+} // namespace
+
+Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
+{
+    State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
+    ClothModel& model = s.model.cloths[cloth.index];
+    if (auto valid = check_kind(model, material); !valid)
+        return valid;
+    const bool heavier = density(material) != density(model.material);
+    model.material = material;
+    apply_material(model, s.model.records[cloth.index]);
+    s.edits.records.push_back(cloth.index);
+    if (heavier)
+        add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));
+    s.update_passes();
+    return {};
+}
+
+const ClothMaterial& Solver::material(ClothId cloth) const
+{
+    static const ClothMaterial k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].material : k_none;
+}
+
+Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
+{
+    State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
+    if (auto valid = validate_holds(s.model, cloth.index, holds); !valid)
+        return valid;
+    ClothModel& model = s.model.cloths[cloth.index];
+    std::vector<Hold> before = std::exchange(model.holds, std::vector<Hold>(holds.begin(), holds.end()));
+    if (model.tether_options)
+    {
+        auto tethers = make_tethers(s.model, cloth.index, *model.tether_options);
+        if (!tethers)
+        {
+            model.holds = std::move(before);
+            return tethers.error();
+        }
+        model.tethers = std::move(tethers.value());
+    }
+    add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer held
+    s.update_holds();
+    return {};
+}
+
+const std::vector<Hold>& Solver::holds(ClothId cloth) const
+{
+    static const std::vector<Hold> k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].holds : k_none;
+}
+
+Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)
+{
+    State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
+    ClothModel& model = s.model.cloths[cloth.index];
+    std::vector<shared::TetherRecord> records;
+    if (tethers)
+    {
+        auto made = make_tethers(s.model, cloth.index, *tethers);
+        if (!made)
+            return made.error();
+        records = std::move(made.value());
+    }
+    model.tether_options = tethers;
+    model.tethers = std::move(records);
+    s.update_holds();
+    return {};
+}
+
+Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
+{
+    State& s = *state_;
+    if (auto valid = check_frame("anchor", world_from_anchor); !valid)
+        return valid.error();
+    s.model.anchors.push_back(world_from_anchor);
+    s.anchors.push_back({world_from_anchor, world_from_anchor});
+    if (!s.fits())
+        s.dirty = true;
+    s.edits.pins = true;
+    return AnchorId{static_cast<uint32_t>(s.anchors.size() - 1)};
+}
+
+Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor)
+{
+    State& s = *state_;
+    if (auto exists = check_anchor(s.model, anchor); !exists)
+        return exists;
+    if (auto valid = check_frame("anchor " + std::to_string(anchor.index), world_from_anchor); !valid)
+        return valid;
+    s.anchors[anchor.index].to = world_from_anchor;
+    return {};
+}
+
+Result<void> Solver::reset(ClothId cloth)
+{
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
+    add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->model.cloths[cloth.index].velocity);
+    return {};
+}
+
+Result<void> Solver::teleport(ClothId cloth, const glm::mat4& transform)
+{
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
+    if (auto valid = check_bounded(subject("cloth", name(cloth)), transform, 2 * k_most_coordinate); !valid)
+        return valid;
+    add_place(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
+    return {};
+}
+
+Result<void> Solver::set_velocity(ClothId cloth, const glm::vec3& velocity)
+{
+    if (auto exists = state_->check(cloth); !exists)
+        return exists;
+    if (auto valid = check(subject("cloth", name(cloth)), "velocity", velocity, k_most_speed, " m/s"); !valid)
+        return valid;
+    add_place(state_->edits, cloth, VOILE_EDIT_VELOCITY, glm::mat4(1), velocity);
+    return {};
+}
+
+} // namespace voile

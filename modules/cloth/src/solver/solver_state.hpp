@@ -1,0 +1,165 @@
+// What a Solver and an Upload hold.
+#pragma once
+
+#include "voile/solver.hpp"
+
+#include "colliders/collider_motion.hpp"
+#include "solver/device_state.hpp"
+#include "solver/lifetime_check.hpp"
+
+#include <optional>
+
+namespace voile
+{
+
+// What the host asked for since the last record; recorded at the beginning of the next one. Lists of holds and tethers
+// wait for an upload that is due, and so does what is asked of cloths and colliders that are not uploaded yet.
+struct Edits
+{
+    std::vector<uint32_t> records;        // cloths whose record changed
+    std::vector<uint32_t> colliders;      // colliders whose record changed
+    std::vector<shared::EditPush> places; // in order
+    bool holds = false;
+    bool tethers = false;
+    bool pins = false; // they must be set again
+};
+
+// So many substeps are told apart by the lists of candidates before they must be made anew.
+constexpr uint32_t k_substeps_counted = 1u << (32 - VOILE_CANDIDATE_COUNT_BITS);
+
+// Which of the optional passes a step has, by what there is.
+struct Passes
+{
+    uint32_t pins = 0;
+    uint32_t holds = 0; // others than pins
+    uint32_t tethers = 0;
+    bool moving = false;         // colliders that move or deform
+    bool convex = false;         // colliders with a formula, other than planes
+    bool features = false;       // colliders with corners or edges that vertices alone do not feel
+    uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
+    bool commit = false;         // the contact pass
+    bool recover = false;        // colliders with an inside, out of which vertices are brought
+    float mesh_extent = 0;       // m, that a collider's mesh has at most along an axis from its origin
+};
+
+struct Anchor
+{
+    glm::mat4 from{1.f}; // world from anchor, at the end of the last step
+    glm::mat4 to{1.f};   // at the end of the next one
+};
+
+// As the GPU sees it.
+shared::AnchorRecord make_record(const Anchor& anchor);
+
+// Of the strain limit, on each level.
+constexpr uint32_t k_strain_passes = 16;
+constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
+
+// Steps from one look at all vertices to the next, where none was inside.
+constexpr uint32_t k_recovery_period = 8;
+
+struct Solver::State
+{
+    gpu::Context context;
+    SolverOptions options;
+    Kernels kernels;
+    Model model;
+    std::vector<Anchor> anchors{Anchor{}}; // the first is the world
+    bool anchors_moved = false;            // in the last step
+    std::vector<ColliderPose> colliders;
+    bool colliders_moved = false;          // in the last step
+    std::vector<Deformation> deformations; // of model.deforming
+    float farthest_motion = 0;  // m, of anchors and colliders in the step that is recorded, if there are features
+    bool refit_due = false;     // boxes do not fit: after an upload, and after a mesh came to rest
+    bool normals_due = false;   // they are of other places: after an upload, and after cloths were moved
+    bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
+    uint32_t recovery_step = 0; // counts the steps with recovery
+    uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
+    HoldLists hold_lists;
+    gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
+    Edits edits;
+    Passes passes;
+    std::optional<DeviceState> device; // none before the first upload
+    bool dirty = false;
+    LifetimeCheck lifetime; // the last member: it looks before anything is destroyed
+
+    [[nodiscard]] bool has(ClothId cloth) const { return cloth.index < model.cloths.size(); }
+    [[nodiscard]] bool has(ColliderId collider) const { return collider.index < model.colliders.size(); }
+    [[nodiscard]] Result<void> check(ClothId cloth) const
+    {
+        return check_id("cloth", cloth.index, model.cloths.size());
+    }
+    [[nodiscard]] Result<void> check(ColliderId collider) const
+    {
+        return check_id("collider", collider.index, model.colliders.size());
+    }
+
+    // Substeps that a step takes.
+    [[nodiscard]] static uint32_t substeps(const Solver& solver, const Step& step)
+    {
+        return step.substeps > 0 ? step.substeps : solver.stable_substeps(step.duration, step.max_substeps);
+    }
+
+    // Whether the next record has edits to record.
+    [[nodiscard]] bool changes_due() const;
+    // After holds, tethers or materials changed, or an upload: the passes over what is uploaded.
+    void update_passes();
+    void update_holds();
+    // Errors: a cloth of so many patches makes dispatches too large.
+    [[nodiscard]] Result<void> check_patches(const std::string& name, uint64_t patches) const
+    {
+        return check_dispatch(model, "cloth", name, "with it the solver has", model.patches + patches);
+    }
+    // After a cloth of so many patches was added.
+    void added(uint64_t patches)
+    {
+        model.patches += patches;
+        dirty = true;
+        update_holds();
+    }
+    // What the next upload must have room for.
+    [[nodiscard]] bool fits() const;
+};
+
+// Takes the vertices of deforming meshes into their positions: first the copies, then, once these are visible to
+// compute, the passes. Both do nothing where no mesh deforms.
+void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
+void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
+// After an upload: boxes of each mesh where it is, for statistics that are recorded before the next step.
+void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver);
+
+// Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many
+// workgroups each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word = 0, uint32_t groups_each = 1,
+                    const gpu::Buffer* counts = nullptr);
+
+// Where the size of the recovery's dispatch stands in the buffer of depenetrations, of even and of odd steps.
+constexpr uint32_t recovery_word(size_t step)
+{
+    return static_cast<uint32_t>(step % 2) * VOILE_DISPATCH_WORDS;
+}
+
+// Makes the size of an indirect dispatch visible that a dispatch has written.
+void publish_dispatch(gpu::Recorder& recorder);
+
+// Empties the lists of candidates and the corrections by features, both told apart by substeps: the next contact pass
+// makes lists anew. Between barriers of its own.
+void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
+
+// vkCmdUpdateBuffer takes at most 64 KiB at a time, and multiples of 4 bytes.
+void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
+
+// Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
+void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);
+
+// Whether solvers with these options look for commands that run when they are destroyed.
+bool checks_lifetime(const SolverOptions& options);
+
+struct Upload::Contents
+{
+    std::vector<gpu::Buffer> staging;
+    std::optional<DeviceState> replaced;
+    LifetimeCheck lifetime; // the last member, as the solver's
+};
+
+} // namespace voile

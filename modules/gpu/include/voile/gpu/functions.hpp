@@ -1,0 +1,96 @@
+// DeviceFunctions: the functions of a device that this library and the engine call.
+#pragma once
+
+#include "voile/gpu/vulkan.hpp"
+
+namespace voile::gpu
+{
+
+// Those of buffers, kernels, command buffers and timestamps, which every device has.
+#define VOILE_COMPUTE_FUNCTIONS(use)                                                                                   \
+    use(vkAllocateDescriptorSets);                                                                                     \
+    use(vkCmdBindDescriptorSets);                                                                                      \
+    use(vkCmdBindPipeline);                                                                                            \
+    use(vkCmdCopyBuffer);                                                                                              \
+    use(vkCmdDispatch);                                                                                                \
+    use(vkCmdDispatchIndirect);                                                                                        \
+    use(vkCmdFillBuffer);                                                                                              \
+    use(vkCmdPipelineBarrier2KHR);                                                                                     \
+    use(vkCmdPushConstants);                                                                                           \
+    use(vkCmdResetEvent);                                                                                              \
+    use(vkCmdResetQueryPool);                                                                                          \
+    use(vkCmdSetEvent);                                                                                                \
+    use(vkCmdUpdateBuffer);                                                                                            \
+    use(vkCmdWriteTimestamp2KHR);                                                                                      \
+    use(vkCreateComputePipelines);                                                                                     \
+    use(vkCreateDescriptorPool);                                                                                       \
+    use(vkCreateDescriptorSetLayout);                                                                                  \
+    use(vkCreateEvent);                                                                                                \
+    use(vkCreatePipelineLayout);                                                                                       \
+    use(vkCreateQueryPool);                                                                                            \
+    use(vkCreateShaderModule);                                                                                         \
+    use(vkDestroyDescriptorPool);                                                                                      \
+    use(vkDestroyDescriptorSetLayout);                                                                                 \
+    use(vkDestroyEvent);                                                                                               \
+    use(vkDestroyPipeline);                                                                                            \
+    use(vkDestroyPipelineLayout);                                                                                      \
+    use(vkDestroyQueryPool);                                                                                           \
+    use(vkDestroyShaderModule);                                                                                        \
+    use(vkGetEventStatus);                                                                                             \
+    use(vkGetQueryPoolResults);                                                                                        \
+    use(vkUpdateDescriptorSets);
+
+// Those of the engine's submissions, pictures and windows.
+#define VOILE_ENGINE_FUNCTIONS(use)                                                                                    \
+    use(vkAcquireNextImageKHR);                                                                                        \
+    use(vkAllocateCommandBuffers);                                                                                     \
+    use(vkBeginCommandBuffer);                                                                                         \
+    use(vkCmdBeginRenderingKHR);                                                                                       \
+    use(vkCmdBindIndexBuffer);                                                                                         \
+    use(vkCmdBindVertexBuffers);                                                                                       \
+    use(vkCmdBlitImage);                                                                                               \
+    use(vkCmdCopyImageToBuffer);                                                                                       \
+    use(vkCmdDraw);                                                                                                    \
+    use(vkCmdDrawIndexed);                                                                                             \
+    use(vkCmdEndRenderingKHR);                                                                                         \
+    use(vkCmdSetScissor);                                                                                              \
+    use(vkCmdSetViewport);                                                                                             \
+    use(vkCmdWaitEvents);                                                                                              \
+    use(vkCreateCommandPool);                                                                                          \
+    use(vkCreateFence);                                                                                                \
+    use(vkCreateGraphicsPipelines);                                                                                    \
+    use(vkCreateImageView);                                                                                            \
+    use(vkCreatePipelineCache);                                                                                        \
+    use(vkCreateSampler);                                                                                              \
+    use(vkCreateSemaphore);                                                                                            \
+    use(vkCreateSwapchainKHR);                                                                                         \
+    use(vkDestroyCommandPool);                                                                                         \
+    use(vkDestroyFence);                                                                                               \
+    use(vkDestroyImageView);                                                                                           \
+    use(vkDestroyPipelineCache);                                                                                       \
+    use(vkDestroySampler);                                                                                             \
+    use(vkDestroySemaphore);                                                                                           \
+    use(vkDestroySwapchainKHR);                                                                                        \
+    use(vkDeviceWaitIdle);                                                                                             \
+    use(vkEndCommandBuffer);                                                                                           \
+    use(vkGetDeviceQueue);                                                                                             \
+    use(vkGetSwapchainImagesKHR);                                                                                      \
+    use(vkQueuePresentKHR);                                                                                            \
+    use(vkQueueSubmit2KHR);                                                                                            \
+    use(vkResetCommandPool);                                                                                           \
+    use(vkResetFences);                                                                                                \
+    use(vkWaitForFences);
+
+struct DeviceFunctions
+{
+#define VOILE_DECLARE_FUNCTION(name) PFN_##name name = nullptr
+    VOILE_COMPUTE_FUNCTIONS(VOILE_DECLARE_FUNCTION)
+    VOILE_ENGINE_FUNCTIONS(VOILE_DECLARE_FUNCTION)
+#undef VOILE_DECLARE_FUNCTION
+};
+
+// Null where the device does not have a function. What an extension brought and a later version of Vulkan took over is
+// found by either name.
+DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);
+
+} // namespace voile::gpu

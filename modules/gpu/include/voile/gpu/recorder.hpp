@@ -1,0 +1,100 @@
+// Recorder: where compute passes are recorded. The helper that dispatches owns the barrier.
+#pragma once
+
+#include "voile/gpu/kernel.hpp"
+#include "voile/gpu/timestamps.hpp"
+
+namespace voile::gpu
+{
+
+// A scope that RenderDoc and validation show as `name`, and that is timed when `timestamps` is given.
+class LabelScope
+{
+public:
+    LabelScope(const Context& context, VkCommandBuffer cmd, const char* name, Timestamps* timestamps = nullptr);
+    ~LabelScope();
+    LabelScope(const LabelScope&) = delete;
+    LabelScope& operator=(const LabelScope&) = delete;
+
+private:
+    const Context& context_;
+    VkCommandBuffer cmd_;
+    Timestamps* timestamps_;
+    uint32_t pass_ = 0;
+};
+
+// Whether a dispatch is followed by its barrier. `unordered` is for a dispatch that touches nothing that the
+// next one touches: the barrier then comes with the next ordered one.
+enum class Ordering
+{
+    ordered,
+    unordered,
+};
+
+class Recorder
+{
+public:
+    // Called after each dispatch with the command buffer so far; returns the one to go on in. Tests split a
+    // frame into one command buffer a dispatch this way: validation then sees hazards that it cannot see inside one.
+    using Split = VkCommandBuffer (*)(void* user, VkCommandBuffer cmd);
+
+    Recorder(const Context& context, VkCommandBuffer cmd, Timestamps* timestamps = nullptr)
+        : context_(context), cmd_(cmd), timestamps_(timestamps)
+    {
+    }
+
+    void split_with(Split split, void* user)
+    {
+        split_ = split;
+        split_user_ = user;
+    }
+
+    // Label, optional timestamps, pipeline, set, push constants, and enough workgroups of `group_size` for
+    // `threads`; then a barrier from compute writes to compute reads and writes, unless `ordering` says otherwise.
+    // Nothing is recorded for 0 threads. `push` must be exactly the kernel's push-constant block.
+    void dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
+                  std::span<const std::byte> push, Ordering ordering = Ordering::ordered);
+
+    template <typename Push>
+    void dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size, const Push& push,
+                  Ordering ordering = Ordering::ordered)
+    {
+        dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
+    }
+
+    // The same with the workgroups that `sizes` holds at `offset` (bytes), three words; an earlier dispatch may have
+    // written them, if a barrier has made them visible to indirect commands.
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
+                           std::span<const std::byte> push);
+
+    template <typename Push>
+    void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
+                           const Push& push)
+    {
+        dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
+    }
+
+    // A global memory barrier between two scopes.
+    void barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
+                 VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access);
+
+    [[nodiscard]] VkCommandBuffer cmd() const { return cmd_; }
+    [[nodiscard]] Timestamps* timestamps() const { return timestamps_; }
+    [[nodiscard]] const Context& context() const { return context_; }
+    [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
+
+private:
+    void bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push);
+    // Within the pass: where waiting costs something, it is the pass's cost, and some devices only finish here.
+    void compute_barrier();
+    void finish_dispatch(); // counts it, and splits
+
+    const Context& context_;
+    VkCommandBuffer cmd_;
+    Timestamps* timestamps_;
+    Split split_ = nullptr;
+    void* split_user_ = nullptr;
+    uint32_t dispatches_ = 0;
+};
+
+} // namespace voile::gpu

@@ -1,0 +1,56 @@
+// Traversal of a bounding volume hierarchy with a box as the query.
+//
+// The including kernel declares `bvh_nodes[]` and defines before the include
+//   void take_leaf(uint first, uint count)
+// which is called for every leaf that the query reaches, with its triangles, and boxes_overlap; or else VOILE_REACHED as the
+// name of a function of (box_min, box_max, node_min, node_max) that tells whether the query reaches a node's box: of less than
+// the box, or of what is near it.
+#ifndef VOILE_BVH_GLSL
+#define VOILE_BVH_GLSL
+
+#ifndef VOILE_REACHED
+#define VOILE_REACHED boxes_overlap
+#endif
+
+// Leaves that the traversal has found and not yet handed on. Neighboring threads find theirs at different steps; taking
+// them together keeps what is done with them out of the loop over nodes.
+#define VOILE_BVH_WAITING_LEAVES 8
+
+void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
+{
+    uint stack[VOILE_BVH_MAX_DEPTH];
+    uint entries = 0;
+    uint leaves[VOILE_BVH_WAITING_LEAVES];
+    uint waiting = 0;
+    uint node = 0;
+    bool done = false;
+    while (!done)
+    {
+        while (waiting + 2 <= VOILE_BVH_WAITING_LEAVES)
+        {
+            const BvhNode n = bvh_nodes[first_node + node];
+            const bool left = VOILE_REACHED(box_min, box_max, n.left_min, n.left_max);
+            const bool right = VOILE_REACHED(box_min, box_max, n.right_min, n.right_max);
+            const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
+            const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
+            if (left && left_leaf)
+                leaves[waiting++] = n.left;
+            if (right && right_leaf)
+                leaves[waiting++] = n.right;
+            const bool go_left = left && !left_leaf;
+            const bool go_right = right && !right_leaf;
+            if (go_left && go_right)
+                stack[entries++] = n.right;
+            done = !go_left && !go_right && entries == 0;
+            if (done)
+                break;
+            node = go_left ? n.left : go_right ? n.right : stack[--entries];
+        }
+        for (uint i = 0; i < waiting; ++i)
+            take_leaf(first_triangle + (leaves[i] & VOILE_BVH_FIRST_MASK),
+                      ((leaves[i] >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1);
+        waiting = 0;
+    }
+}
+
+#endif

@@ -1,0 +1,172 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which colliders each patch of cloth can reach before the next such look, one bit per collider. One workgroup per patch.
+//
+// The patch's box has room for twice its vertices' speed, or that of what may hit them; the bits cover all that touches the box.
+// A collider stands for the box around all that it sweeps until the end of the step.
+// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of what deforms, feature sets.
+// Writes: near colliders.
+#include "shared/bvh_layout.h"
+#include "shared/cloth_layout.h"
+#include "shared/feature_layout.h"
+#include "shared/padded_layout.h"
+
+layout(local_size_x_id = 0) in;
+const uint COLLIDERS_MOVE = 1;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 5, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 6, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(set = 0, binding = 7, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer NearColliders { uint near_colliders[]; };
+
+layout(push_constant, std430) uniform Push { ColliderReachPush push; };
+
+#include "shared/patch.glsl"
+#include "colliders/collider_pose.glsl"
+
+// Contact looks this much farther than the thickness, in thicknesses: for lists of candidates, and for roundings.
+#define VOILE_NEAR_ROOM 2.0
+// Roundings of coordinates, as a fraction.
+#define VOILE_NEAR_ROUNDING 2e-6
+// What a rotation by the chord between two quaternions is faster than an even one, at most.
+#define VOILE_CHORD_RATE 1.3
+
+struct Box
+{
+    vec3 min;
+    vec3 max;
+};
+
+shared Box boxes[gl_WorkGroupSize.x];
+shared uint first_word;
+shared uint end_word;
+
+Box grown(Box box, float margin) { return Box(box.min - margin, box.max + margin); }
+Box shifted(Box box, vec3 displacement) { return Box(box.min + displacement, box.max + displacement); }
+Box joined(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
+
+// Where the patch's vertices can be until the next look.
+Box box_of_patch(PatchVertex self)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    boxes[thread] = Box(vec3(3e38), vec3(-3e38));
+    if (self.exists)
+    {
+        const vec3 x = positions[self.index].xyz;
+        const float speed = max(2 * length(velocities[self.index].xyz), push.sudden);
+        boxes[thread] = grown(Box(x, x), speed * push.time + VOILE_NEAR_ROOM * cloths[self.cloth].thickness);
+    }
+    barrier();
+    for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
+    {
+        if (thread < half_size)
+            boxes[thread] = joined(boxes[thread], boxes[thread + half_size]);
+        barrier();
+    }
+    return boxes[0];
+}
+
+// Of a collider that is no plane, in its own space.
+Box local_box(ColliderRecord collider)
+{
+    if (collider.kind == VOILE_COLLIDER_SPHERE)
+        return Box(-collider.shape.www, collider.shape.www);
+    if (collider.kind == VOILE_COLLIDER_CAPSULE)
+        return Box(-abs(collider.shape.xyz) - collider.shape.w, abs(collider.shape.xyz) + collider.shape.w);
+    if (collider.kind == VOILE_COLLIDER_BOX)
+        return Box(-collider.shape.xyz, collider.shape.xyz);
+    if (!is_deforming(collider.flags))
+        return Box(collider.box_min, collider.box_max);
+    const PaddedBox root = padded_boxes[collider.first_node];
+    return Box(root.min, root.max);
+}
+
+// m: by how much more than its radius what turns can come near to something `distance` away within a substep, as contact sees
+// the path of a vertex straight in the collider's space.
+float turning_reach(ColliderMotion motion, float distance)
+{
+    const float angle = 2 * acos(clamp(dot(motion.rotation_from, motion.rotation_to), 0, 1));
+    return VOILE_CHORD_RATE * angle * push.progress_per_substep * distance;
+}
+
+// Whether the collider, until the end of the step, touches the box.
+bool touches(uint c, ColliderRecord collider, Box box)
+{
+    if (collider.kind == VOILE_COLLIDER_PLANE)
+        return true;
+    Box around = local_box(collider);
+    if (!is_moved(collider.flags))
+        around = shifted(around, collider.origin);
+    else
+    {
+        const ColliderMotion motion = collider_motions[c];
+        const float radius = length(max(abs(around.min), abs(around.max)));
+        const Box sweep = Box(min(motion.place_from, motion.place_to), max(motion.place_from, motion.place_to));
+        around = grown(shifted(sweep, motion.origin), radius);
+        const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
+        around = grown(around, turning_reach(motion, length(farthest)));
+    }
+    return all(lessThanEqual(around.min, box.max)) && all(lessThanEqual(box.min, around.max));
+}
+
+// Nothing that is not finite is far away.
+uint bits_of(uint word, uint cloth, Box box)
+{
+    const float farthest = length(max(abs(box.min), abs(box.max)));
+    const float reach = 1.01 * cloths[cloth].thickness + VOILE_NEAR_ROUNDING * farthest;
+    uint bits = 0;
+    const uint end = min(32, push.colliders - 32 * word);
+    for (uint bit = 0; bit < end; ++bit)
+    {
+        const uint c = 32 * word + bit;
+        const ColliderRecord collider = colliders[c];
+        if ((collider.layers & cloths[cloth].layers) == 0)
+            continue;
+        const bool has_features = push.features != 0 && feature_sets[c].features > 0;
+        const float loose = has_features ? VOILE_MOST_STRETCH * feature_sets[c].edge : 0;
+        bits |= touches(c, collider, grown(box, reach + loose)) ? 1u << bit : 0;
+    }
+    return bits;
+}
+
+void write_corner(uint word, vec3 corner)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        near_colliders[word + axis] = floatBitsToUint(corner[axis]);
+}
+
+void main()
+{
+    const uint thread = gl_LocalInvocationID.x;
+    const uint words = (push.colliders + 31) / 32;
+    if (thread == 0)
+    {
+        first_word = words;
+        end_word = 0;
+    }
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const Box box = box_of_patch(self);
+    const uint header = gl_WorkGroupID.x * push.near_stride;
+    for (uint word = thread; word < words; word += gl_WorkGroupSize.x)
+    {
+        const uint bits = bits_of(word, self.cloth, box);
+        near_colliders[header + VOILE_NEAR_WORDS + word] = bits;
+        if (bits != 0)
+        {
+            atomicMin(first_word, word);
+            atomicMax(end_word, word + 1);
+        }
+    }
+    barrier();
+    if (thread > 0)
+        return;
+    write_corner(header + VOILE_NEAR_MIN, box.min);
+    write_corner(header + VOILE_NEAR_MAX, box.max);
+    near_colliders[header + VOILE_NEAR_FIRST] = first_word;
+    near_colliders[header + VOILE_NEAR_END] = end_word;
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The vertices of a deforming mesh collider, from what the host gave, into the collider's space. One thread a vertex.
+// A vertex that is not finite, or beyond the range of positions, stays where it is.
+// Reads: input. Writes: deforming positions.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Input { float words[]; };
+layout(set = 0, binding = 1, std430) buffer DeformingPositions { vec4 deforming_positions[]; };
+
+layout(push_constant, std430) uniform Push { DeformPush push; };
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= push.vertices)
+        return;
+    const uint word = push.first_word + i * push.stride;
+    vec3 p = (push.transform * vec4(words[word], words[word + 1], words[word + 2], 1)).xyz;
+    if (any(isnan(p)) || any(greaterThan(abs(p + push.origin), vec3(VOILE_MOST_COORDINATE))))
+        p = deforming_positions[push.first_from + i].xyz;
+    deforming_positions[push.first_to + i] = vec4(p, 0);
+}

@@ -1,0 +1,90 @@
+// The colliders that a vertex can reach, in their order: those in the list of its patch (collider_reach.comp), or all.
+//
+// A list holds for what stays in the patch's box: whoever leaves that walks over all colliders, so that none is ever missed. Both
+// ways give the same results to the bit, as a collider that is not reached changes nothing.
+//
+// The including kernel declares near_colliders[], push.colliders and push.near_stride. Where it defines VOILE_NEAR_LISTS as
+// false there are no lists.
+#ifndef VOILE_NEAR_COLLIDERS_GLSL
+#define VOILE_NEAR_COLLIDERS_GLSL
+
+#ifndef VOILE_NEAR_LISTS
+#define VOILE_NEAR_LISTS true
+#endif
+
+#define VOILE_ALL_COLLIDERS 0xffffffffu
+
+struct ColliderWalk
+{
+    uint patch_index;
+    uint first; // word of the patch's bits, or VOILE_ALL_COLLIDERS
+    uint next;  // word of the bits; without lists: the next collider
+    uint end;
+    uint bits;  // of the word before `next`, those to come
+};
+
+vec3 near_corner(uint word)
+{
+    return vec3(uintBitsToFloat(near_colliders[word]), uintBitsToFloat(near_colliders[word + 1]),
+                uintBitsToFloat(near_colliders[word + 2]));
+}
+
+// Whether the list of a patch holds for what is in the box.
+bool has_near_list(uint patch_index, vec3 box_min, vec3 box_max)
+{
+    if (!VOILE_NEAR_LISTS || push.near_stride == 0)
+        return false;
+    const uint header = patch_index * push.near_stride;
+    return all(greaterThanEqual(box_min, near_corner(header + VOILE_NEAR_MIN))) &&
+           all(lessThanEqual(box_max, near_corner(header + VOILE_NEAR_MAX)));
+}
+
+uint collider_bits(uint first, uint word)
+{
+    if (first != VOILE_ALL_COLLIDERS)
+        return near_colliders[first + word];
+    const uint left = push.colliders - 32 * word;
+    return left < 32 ? (1u << left) - 1 : 0xffffffffu;
+}
+
+ColliderWalk walk_all(uint patch_index) { return ColliderWalk(patch_index, VOILE_ALL_COLLIDERS, 0, (push.colliders + 31) / 32, 0); }
+
+// Over what something in the box can reach.
+ColliderWalk walk_colliders(uint patch_index, vec3 box_min, vec3 box_max)
+{
+    if (!has_near_list(patch_index, box_min, box_max))
+        return walk_all(patch_index);
+    const uint header = patch_index * push.near_stride;
+    return ColliderWalk(patch_index, header + VOILE_NEAR_WORDS, near_colliders[header + VOILE_NEAR_FIRST],
+                        near_colliders[header + VOILE_NEAR_END], 0);
+}
+
+bool next_collider(inout ColliderWalk walk, out uint c)
+{
+    if (!VOILE_NEAR_LISTS)
+    {
+        c = walk.next++;
+        return c < push.colliders;
+    }
+    c = 0;
+    while (walk.bits == 0)
+    {
+        if (walk.next >= walk.end)
+            return false;
+        walk.bits = collider_bits(walk.first, walk.next++);
+    }
+    c = 32 * (walk.next - 1) + uint(findLSB(walk.bits));
+    walk.bits &= walk.bits - 1;
+    return true;
+}
+
+// After collider c has moved the vertex to x: goes on over all that follow, if it is out of the list's box.
+void keep_walking(inout ColliderWalk walk, uint c, vec3 x)
+{
+    if (walk.first == VOILE_ALL_COLLIDERS || has_near_list(walk.patch_index, x, x))
+        return;
+    walk = ColliderWalk(walk.patch_index, VOILE_ALL_COLLIDERS, c / 32 + 1, (push.colliders + 31) / 32,
+                        collider_bits(VOILE_ALL_COLLIDERS, c / 32) & ~((2u << (c % 32)) - 1));
+}
+
+#endif

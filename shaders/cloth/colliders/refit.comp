@@ -1,0 +1,115 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+// Refit of a padded tree: computes the boxes of one level and folds them several levels up. The first dispatch takes the
+// last level's boxes from the vertices, the others take theirs from the dispatch before; the last one ends at the root.
+//
+// A subtree with its root `root` on a level of m boxes has the boxes root, root + m, root + 2 m, ... of any level below: its
+// k-th box on the next but j level is root + k m for k < 2^j, and folds boxes k and k + 2^j of the level under it. A
+// workgroup takes a run of neighboring roots, so that what it reads and writes are runs of neighboring boxes. A thread
+// computes one half of a box, its minimum or its maximum, so that each store of neighboring threads fills a run of memory.
+// Threads fold in registers as far as the boxes they hold go, then in shared memory.
+// Reads: leaves and positions, or boxes of the bottom level. Writes: boxes, those of the bottom level only from leaves.
+#include "shared/padded_layout.h"
+
+layout(local_size_x_id = 0) in; // a power of two, at least 2
+layout(constant_id = 1) const uint FROM_LEAVES = 1;
+
+layout(set = 0, binding = 0, std430) readonly buffer Leaves { PaddedLeaf leaves[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 2, std430) buffer Boxes { vec4 box_halves[]; }; // PaddedBox: minimum, maximum, ...
+
+layout(push_constant, std430) uniform Push { RefitPush push; };
+
+// min() is no constant expression.
+const uint RUN = gl_WorkGroupSize.x / 2 < VOILE_REFIT_RUN ? gl_WorkGroupSize.x / 2 : VOILE_REFIT_RUN;
+const uint LANES = 2 * RUN;
+const uint ROWS = gl_WorkGroupSize.x / LANES;
+
+shared vec3 shared_halves[gl_WorkGroupSize.x];
+
+// Of this thread.
+bool upper;  // whether it computes maxima
+uint root;   // of its subtree, on its level
+uint roots;  // how many that level has
+uint row;    // its boxes of the bottom level are the subtree's row-th, (row + ROWS)-th, ...
+
+vec3 fold(vec3 a, vec3 b) { return upper ? max(a, b) : min(a, b); }
+
+// What changes nothing when it is folded.
+vec3 nothing() { return vec3(upper ? uintBitsToFloat(0xff800000u) : uintBitsToFloat(0x7f800000u)); }
+
+// Where the subtree's k-th box stands on the level on which it has `width` boxes.
+uint place(uint k, uint width) { return 2 * (push.first_box + roots * (width + k) - 1 + root) + uint(upper); }
+
+void store(uint k, uint width, vec3 value)
+{
+    if (root < roots)
+        box_halves[place(k, width)] = vec4(value, 0);
+}
+
+vec3 leaf_half(uint slot)
+{
+    const uvec3 corners = leaves[push.first_leaf + slot].corners;
+    const uvec3 from = push.first_from + corners;
+    const uvec3 to = push.first_to + corners;
+    const vec3 start = fold(fold(positions[from.x].xyz, positions[from.y].xyz), positions[from.z].xyz);
+    const vec3 end = fold(fold(positions[to.x].xyz, positions[to.y].xyz), positions[to.z].xyz);
+    return fold(start, end);
+}
+
+// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold: there is nothing in
+// what its subtrees lack, and folding it leaves the others as they are.
+vec3 bottom_half(uint k)
+{
+    const uint width = 1u << push.levels;
+    if (root >= roots || k >= width)
+        return nothing();
+    if (FROM_LEAVES == 0)
+        return box_halves[place(k, width)].xyz;
+    const vec3 value = leaf_half(root + k * roots);
+    store(k, width, value);
+    return value;
+}
+
+vec3 fold_in_registers()
+{
+    const uint width = 1u << push.levels;
+    vec3 values[VOILE_REFIT_ITEMS];
+    [[unroll]] for (uint i = 0; i < VOILE_REFIT_ITEMS; ++i)
+        values[i] = bottom_half(row + i * ROWS);
+    [[unroll]] for (uint items = VOILE_REFIT_ITEMS / 2; items > 0; items /= 2)
+        [[unroll]] for (uint i = 0; i < items; ++i)
+        {
+            values[i] = fold(values[i], values[i + items]);
+            if (items * ROWS < width)
+                store(row + i * ROWS, items * ROWS, values[i]);
+        }
+    return values[0];
+}
+
+void fold_rows(vec3 value)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    shared_halves[thread] = value;
+    for (uint rows = ROWS / 2; rows > 0; rows /= 2)
+    {
+        barrier();
+        if (row >= rows)
+            continue;
+        value = fold(value, shared_halves[thread + rows * LANES]);
+        shared_halves[thread] = value;
+        if (rows < 1u << push.levels)
+            store(row, rows, value);
+    }
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationID.x % LANES;
+    upper = lane % 2 == 1;
+    root = gl_WorkGroupID.x * RUN + lane / 2;
+    roots = 1u << (push.bottom - push.levels);
+    row = gl_LocalInvocationID.x / LANES;
+    fold_rows(fold_in_registers());
+}

@@ -1,0 +1,42 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Takes the state back towards the one before the strain limit where the limit has raised a cloth's energy. The straight
+// line between both crosses no surface: contact has checked it.
+// Reads: patches, cloths, scales, the state before. Writes: state.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Scales { LimitScale scales[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 4, std430) readonly buffer VelocitiesBefore { vec4 velocities_before[]; };
+layout(set = 0, binding = 5, std430) readonly buffer ResidualsBefore { uvec2 residuals_before[]; };
+layout(set = 0, binding = 6, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 7, std430) buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 8, std430) buffer Residuals { uvec2 residuals[]; };
+
+#include "shared/patch.glsl"
+#include "shared/fine_position.glsl"
+
+void main()
+{
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    if (!self.exists || cloths[self.cloth].strain_limit == 0)
+        return;
+    const LimitScale scale = scales[self.cloth];
+    const uint i = self.index;
+    // What a vertex touched in the last substep decides about Verlet's next kick.
+    velocities[i].w = velocities_before[i].w;
+    if (scale.position == 1 && scale.velocity == 1 && scale.shift_rate == 0)
+        return;
+    const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
+    const FinePosition to = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    const vec3 shift = displacement(from, to);
+    const FinePosition between = moved(from, scale.position * shift);
+    positions[i].xyz = between.x;
+    residuals[i] = pack_residual(between);
+    const vec3 v = velocities_before[i].xyz;
+    velocities[i].xyz = v + scale.velocity * (velocities[i].xyz - v) + scale.shift_rate * shift;
+}

@@ -1,0 +1,146 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How much of what the strain limit has changed each cloth keeps: as much as its energy bears. The sums of a cloth's patches
+// are added up by the workgroup of its first one; the others have nothing to do.
+//
+// Velocities take what leaves them the least kinetic energy. Positions take what is paid for: by the kinetic energy that
+// goes, by what damping and contact have taken in this step, and by a reserve. The first brings a cloth back that has fallen
+// beyond its limit within the step. The second keeps one from creeping beyond it; it counts as far as the limit undoes the
+// step, or a limit that cannot be kept would shake the cloth with all that damping takes. The reserve is what the limit has
+// taken from the cloth's energy in the last steps: its passes are no exact projection, and give some of it back.
+//
+// What a part of the displacements costs follows from the slope at their start and from the cost of all of them, as if springs
+// were linear. They are not: what is kept is measured, taken back further where it costs too much, and measured again. What
+// costs a little too much then is taken back by as much as the estimate says; what costs more is not kept at all.
+// Reads: patches, work. Writes: one scale per cloth.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 1, std430) readonly buffer StepWorksFirst { LimitWork step_works_first[]; };
+layout(set = 0, binding = 2, std430) readonly buffer StepWorksLast { LimitWork step_works_last[]; };
+layout(set = 0, binding = 3, std430) readonly buffer WorksBefore { LimitWork works_before[]; };
+layout(set = 0, binding = 4, std430) readonly buffer WorksAfter { LimitWork works_after[]; };
+layout(set = 0, binding = 5, std430) buffer Scales { LimitScale scales[]; };
+
+layout(push_constant, std430) uniform Push { LimitScalePush push; };
+
+const float k_kept = 0.9; // of the reserve, per step
+// A limit whose displacements are up to so many times the step's own, in the same places, undoes the step.
+const float k_undoing = 5;
+const float k_overdraft = 1.001; // of what there is to pay with, that displacements may cost: the reserve owes the rest
+// What costs up to so much more than there is, as measured in the last look, is taken back unmeasured.
+const float k_near = 1.1;
+
+struct Energies
+{
+    float lost;  // J, in the step before the limit
+    float slope; // J, of the cost in what is kept of the limit's displacements, at none of them
+    float cost;  // J, of the displacements as they are now
+    float v_dv;  // what follows is the limit's, see LimitWork
+    float dv_dv;
+    float v_dx;
+    float dx_dx;
+    float dv_dx;
+    float undone;
+};
+
+shared Energies sums[gl_WorkGroupSize.x];
+
+Energies add(Energies a, Energies b)
+{
+    return Energies(a.lost + b.lost, a.slope + b.slope, a.cost + b.cost, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv,
+                    a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
+}
+
+// J, what displacements from one state to the other add. `kept`: how much of those that the work at the first is of.
+float stored(LimitWork from, LimitWork to, float kept)
+{
+    return to.energy - from.energy - 0.5 * (kept * from.linear_work + to.linear_work);
+}
+
+// `kept`: of the limit's displacements, what they are now.
+Energies energies_of(uint patch_index, float kept)
+{
+    const LimitWork first = step_works_first[patch_index];
+    const LimitWork last = step_works_last[patch_index];
+    const LimitWork before = works_before[patch_index];
+    const LimitWork after = works_after[patch_index];
+    return Energies(-stored(first, last, 1) - first.v_dv - 0.5 * first.dv_dv, -before.work, stored(before, after, kept),
+                    before.v_dv, before.dv_dv, before.v_dx, before.dx_dx, before.dv_dx, before.undone);
+}
+
+// Where a x + 1/2 b x^2 is least between 0 and `most`.
+float least(float a, float b, float most) { return b > 0 ? clamp(-a / b, 0, most) : 0; }
+
+// What to keep of displacements that cost `slope` at their start and `cost` in all, so that it costs no more than `available`.
+float affordable(float slope, float cost, float available)
+{
+    if (cost <= available)
+        return 1;
+    const float curvature = max(cost - slope, 1e-6 * abs(slope));
+    return clamp((sqrt(slope * slope + 4 * curvature * available) - slope) / (2 * curvature), 0, 1);
+}
+
+LimitScale scale_of(float reserve, Energies e)
+{
+    // v dv + shift dx with the least kinetic energy, one after the other in turn.
+    float v = 1;
+    float shift = 0;
+    for (int i = 0; i < 8; ++i)
+    {
+        v = least(e.v_dv + shift * e.dv_dx, e.dv_dv, 1);
+        shift = least(e.v_dx + v * e.dv_dx, e.dx_dx, push.rate);
+    }
+    const float kinetic = v * e.v_dv + shift * e.v_dx + v * shift * e.dv_dx + 0.5 * (v * v * e.dv_dv + shift * shift * e.dx_dx);
+    const float saved = reserve - kinetic;
+    const float undone = e.dx_dx > 0 ? clamp(k_undoing * e.undone / e.dx_dx, 0, 1) : 1;
+    const float lost = undone * max(e.lost, 0);
+    const float x = affordable(e.slope, e.cost, max(saved + lost, 0));
+    const float sum = x + v + shift + saved + lost;
+    return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, saved, lost);
+}
+
+// Of what is kept of the displacements. Velocities are as they shall be.
+LimitScale looked_at(LimitScale s, Energies e)
+{
+    const bool last = push.look == VOILE_LIMIT_LOOKS;
+    const float available = max(s.saved + s.lost, 0);
+    float x = 1;
+    if (!(e.cost <= k_overdraft * available))
+        x = last && !(e.cost <= k_near * available) ? 0 : affordable(e.slope * s.kept, e.cost, available);
+    x = isnan(x) ? 0 : x;
+    float saved = s.saved;
+    if (last)
+    {
+        const float cost = x * e.cost;
+        saved -= cost > 0 ? max(cost - s.lost, 0) : cost;
+        saved *= saved > 0 ? k_kept : 1;
+    }
+    return LimitScale(x, 1, 0, x * s.kept, isnan(saved) || isinf(saved) ? 0 : saved, s.lost);
+}
+
+void main()
+{
+    const uint first = gl_WorkGroupID.x;
+    const uint cloth = patches[first].cloth;
+    if (first > 0 && patches[first - 1].cloth == cloth)
+        return;
+    const uint thread = gl_LocalInvocationID.x;
+    const LimitScale scale = scales[cloth];
+    const float kept = push.look == 0 ? 1 : scale.kept;
+    Energies sum = Energies(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    for (uint c = first + thread; c < push.patches && patches[c].cloth == cloth; c += gl_WorkGroupSize.x)
+        sum = add(sum, energies_of(c, kept));
+    sums[thread] = sum;
+    barrier();
+    for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
+    {
+        if (thread < half_size)
+            sums[thread] = add(sums[thread], sums[thread + half_size]);
+        barrier();
+    }
+    if (thread == 0)
+        scales[cloth] = push.look == 0 ? scale_of(scale.saved, sums[0]) : looked_at(scale, sums[0]);
+}

@@ -1,0 +1,102 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What a step, or the strain limit with the contact pass after it, does to the energy of each cloth: per patch, what springs
+// store in one of the states that the displacements lead between, the work of all conservative forces there along the
+// displacements, and what the kinetic energy follows from.
+//
+// It runs for each of both states. Springs store what their lengths say; of bending and gravity, the mean of the work at one
+// state and at the other is exact.
+// Reads: cloths, patches, mesh lists, both states. Writes: one sum per workgroup.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // where forces are taken
+layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 5, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 6, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 7, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Before { vec4 before[]; };
+layout(set = 0, binding = 9, std430) readonly buffer VelocitiesBefore { vec4 velocities_before[]; };
+layout(set = 0, binding = 10, std430) readonly buffer ResidualsBefore { uvec2 residuals_before[]; };
+layout(set = 0, binding = 11, std430) readonly buffer After { vec4 after[]; };
+layout(set = 0, binding = 12, std430) readonly buffer VelocitiesAfter { vec4 velocities_after[]; };
+layout(set = 0, binding = 13, std430) readonly buffer ResidualsAfter { uvec2 residuals_after[]; };
+layout(set = 0, binding = 14, std430) writeonly buffer Works { LimitWork works[]; };
+layout(set = 0, binding = 15, std430) readonly buffer StepStart { vec4 step_start[]; };
+layout(set = 0, binding = 16, std430) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
+layout(set = 0, binding = 17, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+
+layout(push_constant, std430) uniform Push { StagePush push; }; // without air
+
+bool VERLET; // whether the patch's cloth uses it
+#include "forces/forces.glsl"
+
+shared LimitWork sums[gl_WorkGroupSize.x];
+
+// Without damping, with the stiffness that the substeps have.
+struct Conservative
+{
+    float energy; // J, the vertex's part of what springs store
+    vec3 springs; // N
+    vec3 linear;  // N, bending and gravity
+};
+
+Conservative conservative_forces(PatchVertex self, FinePosition x, float mass)
+{
+    const uint cloth = self.cloth;
+    const float stiffness = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
+    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
+    return Conservative(g.energy, g.force, g.bending + mass * push.gravity);
+}
+
+LimitWork add(LimitWork a, LimitWork b)
+{
+    return LimitWork(a.energy + b.energy, a.work + b.work, a.linear_work + b.linear_work, a.v_dv + b.v_dv,
+                     a.dv_dv + b.dv_dv, a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
+}
+
+LimitWork work_of(PatchVertex self)
+{
+    const uint i = self.index;
+    if (!self.exists || cloths[self.cloth].strain_limit == 0)
+        return LimitWork(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
+    const FinePosition to = FinePosition(after[i].xyz, unpack_residual(residuals_after[i]));
+    const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
+    const vec3 dx = displacement(from, to);
+    const float inverse_mass = before[i].w;
+    if (inverse_mass == 0) // What moves it works against its springs.
+    {
+        const Conservative c = conservative_forces(self, here, 0);
+        return LimitWork(c.energy, 0, -dot(c.springs, dx), 0, 0, 0, 0, 0, 0);
+    }
+    const FinePosition start = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
+    const vec3 v = velocities_before[i].xyz;
+    const vec3 dv = velocities_after[i].xyz - v;
+    const float mass = 1 / inverse_mass;
+    const Conservative c = conservative_forces(self, here, mass);
+    return LimitWork(c.energy, dot(c.springs + c.linear, dx), dot(c.linear, dx), mass * dot(v, dv), mass * dot(dv, dv),
+                     mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx),
+                     -mass * dot(dx, displacement(start, from)));
+}
+
+void main()
+{
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    VERLET = (cloths[self.cloth].flags & VOILE_CLOTH_VERLET) != 0;
+    const uint thread = gl_LocalInvocationID.x;
+    sums[thread] = work_of(self);
+    barrier();
+    for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
+    {
+        if (thread < half_size)
+            sums[thread] = add(sums[thread], sums[thread + half_size]);
+        barrier();
+    }
+    if (thread == 0)
+        works[gl_WorkGroupID.x] = sums[0];
+}

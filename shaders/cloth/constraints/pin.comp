@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Pins, once a step before its first substep: sets each on its place and gives it the velocity that takes it to where it is
+// at the step's end, along a straight line. One thread a pin.
+// Anchors can leap and scale: a pin stays within the range of positions.
+// Reads: holds, anchors. Writes: state.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Holds { HoldRecord holds[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
+layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Residuals { uvec2 residuals[]; };
+
+layout(push_constant, std430) uniform Push { HoldPush push; };
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= push.count)
+        return;
+    const HoldRecord hold = holds[push.first + gl_GlobalInvocationID.x];
+    const AnchorRecord anchor = anchors[hold.anchor];
+    const bool placed = (hold.flags & VOILE_HOLD_PLACED) != 0;
+    const vec3 bound = vec3(VOILE_MOST_COORDINATE);
+    const vec3 from = placed ? clamp((anchor.from * vec4(hold.place, 1)).xyz, -bound, bound) : positions[hold.vertex].xyz;
+    const vec3 to = clamp((placed ? anchor.to * vec4(hold.place, 1) : anchor.motion * vec4(from, 1)).xyz, -bound, bound);
+    positions[hold.vertex] = vec4(from, 0);
+    if (placed)
+        residuals[hold.vertex] = uvec2(0);
+    velocities[hold.vertex] = vec4((to - from) / push.step, 0);
+}

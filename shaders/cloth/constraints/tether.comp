@@ -1,0 +1,75 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Tethers, once per substep after integration: no vertex goes farther from its pins than the length of the cloth between them.
+// One thread per vertex that has any; pins have none, so that no thread reads what another one writes.
+//
+// A vertex that is farther away already goes no farther, and comes back by its springs: pulled back at once, it would load
+// them with more than the cloth has.
+//
+// Two pins that are farther apart than the tethers to them together have no position for the vertex. Both tethers then grow
+// in proportion until they meet: the vertex comes to rest, instead of being pulled to whichever comes last.
+// Source: Kim, Chentanez and Müller 2012, "Long range attachments". Reads: tethers, cloths, state. Writes: proposed state,
+// predicted velocities.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Tethers { TetherRecord tethers[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(set = 0, binding = 5, std430) writeonly buffer Residuals { uvec2 residuals[]; };
+
+layout(set = 0, binding = 6, std430) readonly buffer StatePositions { vec4 state_positions[]; }; // before the substep
+
+layout(push_constant, std430) uniform Push { HoldPush push; };
+
+// m: the tether's length, or more where another one's pin is too far away, or the vertex was.
+float length_of(TetherRecord tether, uint t, vec3 pin)
+{
+    const float before = distance(state_positions[tether.vertex].xyz, state_positions[tether.pins[t]].xyz);
+    float growth = 1;
+    for (uint other = 0; other < tether.count; ++other)
+    {
+        const float both = tether.lengths[t] + tether.lengths[other];
+        if (other != t)
+            growth = max(growth, distance(pin, positions[tether.pins[other]].xyz) / both);
+    }
+    return max(growth * tether.lengths[t], before);
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= push.count)
+        return;
+    const TetherRecord tether = tethers[push.first + gl_GlobalInvocationID.x];
+    const vec3 start = positions[tether.vertex].xyz;
+    const vec4 before = velocities[tether.vertex];
+    if (positions[tether.vertex].w == 0)
+        return;
+    vec3 shift = vec3(0); // m
+    vec3 v = before.xyz;
+    bool taut = false;
+    for (uint t = 0; t < tether.count; ++t)
+    {
+        const vec3 pin = positions[tether.pins[t]].xyz;
+        const vec3 offset = (start - pin) + shift;
+        const float distance = length(offset);
+        const float longest = length_of(tether, t, pin);
+        if (distance <= longest)
+            continue;
+        const vec3 n = offset / distance;
+        shift -= (distance - longest) * n;
+        v -= max(dot(v - velocities[tether.pins[t]].xyz, n), 0) * n;
+        taut = true;
+    }
+    if (!taut)
+        return;
+    positions[tether.vertex].xyz = start + shift;
+    residuals[tether.vertex] = uvec2(0);
+    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
+    velocities[tether.vertex] = vec4(v, push.step > 0 ? uint(before.w) | VOILE_VERTEX_TAUT : before.w);
+    if ((cloths[tether.cloth].flags & VOILE_CLOTH_VERLET) != 0)
+        predicted[tether.vertex].xyz += v - before.xyz;
+}

@@ -1,0 +1,159 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Contact of corners and edges of colliders with the triangles and edges of all cloths: what vertices alone miss where a
+// collider stands between them. Each vertex takes its share of what meets the triangles around it; as many threads as a
+// patch has groups look at these, and the first of them adds up.
+//
+// A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
+// it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
+// and Coulomb friction acts: at the contact where the piece is fast, on the vertex where that is slow. Pieces with a held vertex
+// go where that is held. The vertices' own contact comes after and has the last word.
+//
+// Of a cloth that is brought out of a collider (recover.comp), that collider's features hold nothing back: a sheet that it
+// stands through would be stretched across its edges until it snaps free.
+// Reads: the patches that are near (feature_reach.comp), cloths, patches, mesh lists, colliders and their motions, features and
+// their hierarchy, positions before the substep, proposed state, residuals of both, this step's votes of recovery.
+// Writes: corrections of vertices that meet something, which the contact pass adds to the proposed state; predicted velocities.
+#include "shared/bvh_layout.h"
+#include "shared/cloth_layout.h"
+#include "shared/feature_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Corrections { FeatureCorrection corrections[]; };
+layout(set = 0, binding = 5, std430) readonly buffer NearPatches { uint near_patches[]; };
+layout(set = 0, binding = 6, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(set = 0, binding = 7, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 8, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 9, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 11, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(set = 0, binding = 12, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 13, std430) readonly buffer Features { Feature features[]; };
+layout(set = 0, binding = 14, std430) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
+layout(set = 0, binding = 15, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(set = 0, binding = 16, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; // of each cloth
+
+layout(push_constant, std430) uniform Push { FeaturePush push; };
+
+#include "shared/patch.glsl"
+#include "colliders/collider_pose.glsl"
+#include "contact/friction.glsl"
+#include "colliders/near_colliders.glsl"
+#include "shared/mesh.glsl"
+#include "contact/feature_pieces.glsl"
+#include "contact/feature_meeting.glsl"
+
+// Of the threads of the group, those of a vertex side by side.
+shared Response responses[gl_WorkGroupSize.x];
+
+// Whether a box is nearer to another, that of a piece of cloth, than the thickness.
+bool is_near(vec3 piece_min, vec3 piece_max, vec3 node_min, vec3 node_max)
+{
+    const vec3 gap = max(max(node_min - piece_max, piece_min - node_max), vec3(0));
+    return dot(gap, gap) <= self.thickness * self.thickness;
+}
+
+void take_leaf(uint first, uint count)
+{
+    for (uint f = first; f < first + count; ++f)
+        visit_feature(features[f]);
+}
+
+#define VOILE_REACHED is_near
+#include "colliders/bvh.glsl"
+
+// The sum of the directions in which the cloth's vertices are brought out, in the collider's space; 0 if none is inside it.
+vec3 way_out(uint cloth, uint c)
+{
+    const uint word = VOILE_VOTE_WORDS * cloth;
+    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
+        return vec3(0);
+    const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
+    return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
+}
+
+// The `part`-th of so many `parts` of the pieces around the vertex.
+void visit_collider(uint c, uint part, uint parts)
+{
+    const ColliderRecord collider = colliders[c];
+    const FeatureSet set = feature_sets[c];
+    if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
+        return;
+    select_collider(c);
+    piece.a = traveller(self.earlier, self.place, self.velocity, self.inverse_mass);
+    // Most vertices are told by their own place alone that they are far from everything.
+    const float loose = VOILE_MOST_STRETCH * set.edge;
+    const vec3 low = min(piece.a.from, piece.a.to) - loose;
+    const vec3 high = max(piece.a.from, piece.a.to) + loose;
+    if (!is_near(low, high, set.box_min, set.box_max))
+        return;
+    friction = find_friction();
+    leaving = way_out(self.vertex.cloth, c);
+    const uint count = corner_count();
+    for (uint k = part; k < count; k += parts)
+    {
+        if (!load_piece(k))
+            continue;
+        vec3 piece_low;
+        vec3 piece_high;
+        piece_box(piece_low, piece_high);
+        visit_box(set.first_node, set.first_feature, max(piece_low, low), min(piece_high, high));
+    }
+}
+
+void visit_colliders(uint part, uint parts)
+{
+    const uint i = self.vertex.index;
+    const uint cloth = self.vertex.cloth;
+    self.earlier = earlier_position(i);
+    self.place = proposed_position(i);
+    self.inverse_mass = proposed_positions[i].w;
+    self.velocity = proposed_velocities[i].xyz;
+    self.thickness = cloths[cloth].thickness;
+    if (self.inverse_mass == 0)
+        return;
+    ColliderWalk walk = walk_colliders(near_patches[gl_WorkGroupID.x], min(self.earlier.x, self.place.x),
+                                       max(self.earlier.x, self.place.x));
+    uint c;
+    while (next_collider(walk, c))
+        visit_collider(c, part, parts);
+}
+
+void write_correction()
+{
+    const uint i = self.vertex.index;
+    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, 0);
+    if (is_verlet(self.vertex.cloth))
+        predicted[i] += vec4(response.change, 0);
+}
+
+void main()
+{
+    const uint parts = gl_NumWorkGroups.y;
+    const uint thread = gl_LocalInvocationID.x;
+    const uint part = thread % parts;
+    self.vertex = patch_vertex(near_patches[gl_WorkGroupID.x],
+                               (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / parts);
+    if (self.vertex.exists)
+        visit_colliders(part, parts);
+    responses[thread] = response;
+    barrier();
+    if (part > 0)
+        return;
+    for (uint other = thread + 1; other < thread + parts; ++other)
+        merge(responses[other]);
+    if (response.collider == k_no_collider)
+        return;
+    select_collider(response.collider);
+    friction = find_friction();
+    add_friction();
+    write_correction();
+}

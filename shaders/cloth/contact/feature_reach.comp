@@ -1,0 +1,97 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which patches of cloth can meet corners and edges of colliders before the next such look: feature_contact.comp runs over
+// these alone, by an indirect dispatch. One thread a vertex.
+// Reads: cloths, patches, positions and velocities before the substep, colliders and their motions, features and their
+// hierarchy.
+// Writes: which patches these are, their list and the size of the dispatch, whose x is 0 before.
+#include "shared/bvh_layout.h"
+#include "shared/cloth_layout.h"
+#include "shared/feature_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 5, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 6, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(set = 0, binding = 7, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 8, std430) buffer Dispatch { uint dispatch_size[]; };
+layout(set = 0, binding = 9, std430) writeonly buffer NearPatches { uint near_patches[]; };
+layout(set = 0, binding = 10, std430) readonly buffer NearColliders { uint near_colliders[]; };
+
+layout(push_constant, std430) uniform Push { FeatureReachPush push; };
+
+#include "shared/patch.glsl"
+#include "colliders/collider_pose.glsl"
+#include "colliders/near_colliders.glsl"
+
+shared uint near_vertices;
+bool is_near = false;
+
+bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+{
+    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
+}
+
+void take_leaf(uint first, uint count) { is_near = true; }
+
+// The first leaf is enough.
+bool first_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+{
+    return !is_near && boxes_overlap(a_min, a_max, b_min, b_max);
+}
+
+#define VOILE_REACHED first_overlap
+#include "colliders/bvh.glsl"
+
+// `margin`: m, how far the vertex can go.
+void look(uint c, uint cloth, vec3 place, float margin)
+{
+    const FeatureSet set = feature_sets[c];
+    const uint flags = colliders[c].flags;
+    // The residual is far less than the cloth's edges.
+    vec3 from = from_origin(c, flags, FinePosition(place, vec3(0)));
+    vec3 to = from;
+    if (is_moved(flags))
+    {
+        from = to_collider(pose_at(c, push.progress_from), to);
+        to = to_collider(pose_at(c, push.progress_to), to);
+        margin += 0.5 * distance(from, to); // on the arc between them
+    }
+    const float reach = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;
+    const vec3 box_min = min(from, to) - reach;
+    const vec3 box_max = max(from, to) + reach;
+    if ((colliders[c].layers & cloths[cloth].layers) != 0 && boxes_overlap(box_min, box_max, set.box_min, set.box_max))
+        visit_box(set.first_node, set.first_feature, box_min, box_max);
+}
+
+void main()
+{
+    if (gl_LocalInvocationID.x == 0)
+        near_vertices = 0;
+    barrier();
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const vec4 place = self.exists ? positions[self.index] : vec4(0);
+    if (place.w > 0)
+    {
+        const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
+        ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, place.xyz - margin, place.xyz + margin);
+        uint c;
+        while (next_collider(walk, c))
+            if (feature_sets[c].features > 0)
+                look(c, self.cloth, place.xyz, margin);
+    }
+    if (is_near)
+        atomicOr(near_vertices, 1);
+    barrier();
+    if (gl_LocalInvocationID.x > 0)
+        return;
+    patches[gl_WorkGroupID.x].near_features = near_vertices;
+    if (near_vertices != 0)
+        near_patches[atomicAdd(dispatch_size[0], 1)] = gl_WorkGroupID.x;
+}

@@ -1,0 +1,216 @@
+// Whether a point lies inside a mesh, how deep, where lines through it leave the mesh, and what a segment crosses.
+//
+// All of this is in the collider's space, at the step's start, or at its end if `solid_at_end`. The including kernel declares
+// `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]`, `deforming_positions[]` and includes
+// collider_pose.glsl before.
+#ifndef VOILE_SOLID_QUERY_GLSL
+#define VOILE_SOLID_QUERY_GLSL
+
+#include "contact/triangle.glsl"
+
+struct Corners
+{
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+
+bool solid_at_end = false;
+
+#define VOILE_SOLID_LINE 0    // along an axis, in both directions
+#define VOILE_SOLID_SEGMENT 1
+#define VOILE_SOLID_NEAREST 2 // the nearest surface
+
+struct SolidQuery
+{
+    int kind;
+    bool deforms;
+    uint first_corner; // of a mesh that deforms: its first vertex
+    vec3 origin;
+
+    int axis;      // of the line
+    int winding;   // how often the mesh winds around the origin
+    float ends[2]; // m, the farthest places at which the line meets the mesh, before and behind the origin
+
+    vec3 span;      // m, of the segment from the origin
+    bool outwards;  // only crossings from inside count
+    float crossing; // the first, as a share of the span; 2: none
+    vec3 normal;    // there, unit, outwards
+
+    float distance; // m, to the nearest surface so far
+};
+SolidQuery solid;
+
+Corners corners_of(uint index)
+{
+    if (!solid.deforms)
+    {
+        const BvhTriangle stored = bvh_triangles[index];
+        return Corners(stored.a, stored.b, stored.c);
+    }
+    const uvec3 corners = solid.first_corner + padded_leaves[index].corners;
+    return Corners(deforming_positions[corners.x].xyz, deforming_positions[corners.y].xyz,
+                   deforming_positions[corners.z].xyz);
+}
+
+// How the edge from a to b counts for the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards. To the bit
+// the opposite of the edge from b to a: whatever rounding does, both triangles of an edge agree on it.
+int edge_winding(vec2 a, vec2 b)
+{
+    precise const float left = a.x * b.y;
+    precise const float right = b.x * a.y;
+    if (a.y <= 0 && b.y > 0 && left > right)
+        return 1;
+    return a.y > 0 && b.y <= 0 && left < right ? -1 : 0;
+}
+
+// The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). Summed over what a
+// closed mesh has on one side of the origin it is the mesh's winding number, also where the line meets edges and vertices.
+void visit_line(Corners t, vec3 normal)
+{
+    const int x = (solid.axis + 1) % 3;
+    const int y = (solid.axis + 2) % 3;
+    const vec3 a = t.a - solid.origin;
+    const vec3 b = t.b - solid.origin;
+    const vec3 c = t.c - solid.origin;
+    const vec2 pa = vec2(a[x], a[y]);
+    const vec2 pb = vec2(b[x], b[y]);
+    const vec2 pc = vec2(c[x], c[y]);
+    const int winding = edge_winding(pa, pb) + edge_winding(pb, pc) + edge_winding(pc, pa);
+    if (winding == 0)
+        return;
+    const vec3 heights = vec3(a[solid.axis], b[solid.axis], c[solid.axis]);
+    const float lowest = min(heights.x, min(heights.y, heights.z));
+    const float highest = max(heights.x, max(heights.y, heights.z));
+    const float slope = normal[solid.axis];
+    const float height = slope == 0 ? lowest : clamp(dot(a, normal) / slope, lowest, highest);
+    solid.winding += height > 0 ? winding : 0;
+    solid.ends[0] = max(solid.ends[0], height);
+    solid.ends[1] = max(solid.ends[1], -height);
+}
+
+void visit_segment(Corners t, vec3 normal)
+{
+    const float along = segment_triangle(solid.origin, solid.span, t.a, t.b, t.c);
+    if (along >= solid.crossing || (solid.outwards && dot(solid.span, normal) <= 0))
+        return;
+    solid.crossing = along;
+    solid.normal = normalize(normal);
+}
+
+void take_leaf(uint first, uint count)
+{
+    for (uint i = first; i < first + count; ++i)
+    {
+        const Corners t = corners_of(i);
+        const vec3 normal = cross(t.b - t.a, t.c - t.a);
+        if (solid.kind == VOILE_SOLID_LINE)
+            visit_line(t, normal);
+        else if (solid.kind == VOILE_SOLID_SEGMENT)
+            visit_segment(t, normal);
+        else
+            solid.distance = min(solid.distance, distance(solid.origin, nearest_on_triangle(solid.origin, t.a, t.b, t.c)));
+    }
+}
+
+bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+{
+    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
+}
+
+bool solid_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
+{
+    if (solid.kind == VOILE_SOLID_NEAREST)
+        return distance(solid.origin, clamp(solid.origin, node_min, node_max)) <= solid.distance;
+    return boxes_overlap(box_min, box_max, node_min, node_max);
+}
+
+#define VOILE_REACHED solid_reaches
+#include "colliders/bvh.glsl"
+#include "colliders/padded.glsl"
+
+void begin_solid_query(uint c, ColliderRecord collider, int kind, vec3 origin)
+{
+    solid.kind = kind;
+    solid.origin = origin;
+    solid.deforms = is_deforming(collider.flags);
+    if (solid.deforms)
+        solid.first_corner = solid_at_end ? collider_motions[c].first_to : collider_motions[c].first_from;
+}
+
+void visit(ColliderRecord collider, vec3 box_min, vec3 box_max)
+{
+    if (solid.deforms)
+        visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
+    else
+        visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+}
+
+// How often the mesh winds around a point; `solid.ends` are where the line along the axis meets it last. A box has exactly
+// the extent of what is in it: a line along an axis misses none that it should meet.
+int line_winding(uint c, ColliderRecord collider, vec3 origin, int axis)
+{
+    begin_solid_query(c, collider, VOILE_SOLID_LINE, origin);
+    solid.axis = axis;
+    solid.winding = 0;
+    solid.ends[0] = solid.ends[1] = 0;
+    vec3 box_min = origin;
+    vec3 box_max = origin;
+    box_min[axis] = -3e38;
+    box_max[axis] = 3e38;
+    visit(collider, box_min, box_max);
+    return solid.winding;
+}
+
+// Whether the way from one place to another crosses the mesh; outwards: from inside. The first crossing is in `solid`.
+bool crosses(uint c, ColliderRecord collider, vec3 from, vec3 to, bool outwards)
+{
+    begin_solid_query(c, collider, VOILE_SOLID_SEGMENT, from);
+    solid.span = to - from;
+    solid.outwards = outwards;
+    solid.crossing = 2;
+    visit(collider, min(from, to), max(from, to));
+    return solid.crossing <= 1;
+}
+
+bool in_box(ColliderRecord collider, vec3 local)
+{
+    if (!is_deforming(collider.flags))
+        return boxes_overlap(local, local, collider.box_min, collider.box_max);
+    const PaddedBox root = padded_boxes[collider.first_node];
+    return boxes_overlap(local, local, root.min, root.max);
+}
+
+// m: how far it is to the nearest surface; `limit` if it is at least that.
+float nearest_distance(uint c, ColliderRecord collider, vec3 origin, float limit)
+{
+    begin_solid_query(c, collider, VOILE_SOLID_NEAREST, origin);
+    solid.distance = limit;
+    visit(collider, origin - limit, origin + limit);
+    return solid.distance;
+}
+
+// Of a triangle seen from the origin, signed by its winding; half of it (Van Oosterom and Strackee 1983).
+float half_solid_angle(vec3 a, vec3 b, vec3 c)
+{
+    const float la = length(a);
+    const float lb = length(b);
+    const float lc = length(c);
+    return atan(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
+// How much of all directions the mesh fills, seen from a point (Jacobson et al. 2013, "Robust inside-outside segmentation using
+// generalized winding numbers"). Looks at every triangle.
+float generalized_winding(uint c, ColliderRecord collider, vec3 origin)
+{
+    begin_solid_query(c, collider, VOILE_SOLID_LINE, origin);
+    float sum = 0;
+    for (uint i = 0; i < collider.triangles; ++i)
+    {
+        const Corners t = corners_of(collider.first_triangle + i);
+        sum += half_solid_angle(t.a - origin, t.b - origin, t.c - origin);
+    }
+    return sum / 6.28318531;
+}
+
+#endif

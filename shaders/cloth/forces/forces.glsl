@@ -1,0 +1,309 @@
+// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbors (no atomics, so the sum's
+// order never changes).
+//
+// The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[],
+// mesh_springs[], mesh_corners[], membrane_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
+#ifndef VOILE_FORCES_GLSL
+#define VOILE_FORCES_GLSL
+
+#include "shared/patch.glsl"
+#include "shared/fine_position.glsl"
+#include "shared/mesh.glsl"
+#include "integration/stability.glsl"
+#include "forces/wind.glsl"
+
+struct Gather
+{
+    FinePosition x; // of the vertex
+    vec3 v;         // m/s
+    vec3 force;   // N, of the springs
+    float energy; // J, the vertex's part of what the springs store
+    vec3 bending; // N, of the isometric model
+    float bending_stiffness; // the step's scale of it: bending sees bending_stiffness * x + bending_damping * v
+    float bending_damping;   // s
+    vec3 wind;      // m/s, at x
+    vec3 air;       // N
+    float air_rate; // N s/m, force over relative velocity
+    Viscosity viscosity; // of fast springs
+};
+
+// Verlet has no damping of its own, and springs that change much within a substep heat it up: its resonances with modes near
+// the end of its reach gain energy without bound. So fast springs are viscous, by a coefficient that grows with the speed
+// (von Neumann and Richtmyer 1950, "A method for the numerical calculation of hydrodynamic shocks"): where both ends
+// approach or part by more than k_viscous_strain of the rest length in a substep, along the spring; where one passes the
+// other by more than k_viscous_shear of it, in all directions. Slower springs feel nothing. The pair's forces are equal and
+// opposite. bench/NOTES.md has the measurements behind the numbers.
+const float k_viscous_strain = 0.02;
+const float k_viscous_shear = 0.2;
+
+void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
+{
+    const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
+    const float inverse_length = inversesqrt(length_squared);
+    const vec3 direction = delta * inverse_length;
+    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest pulls with nothing.
+    const float excess =
+        fma(delta.x, delta.x, fma(delta.y, delta.y, fma(delta.z, delta.z, -rest_length * rest_length)));
+    const float stretch = excess * (1 / (length_squared * inverse_length + rest_length));
+    const float rate = dot(relative_velocity, direction);
+    float viscosity = 0;
+    if (VERLET)
+    {
+        // Without branches: of the vertices that are computed together, some nearly always have a fast spring.
+        const float per_length = push.step / max(rest_length, 1e-9); // 0 where there is no such spring
+        const float sharpness = g.viscosity.sharpness;
+        const float along = clamp(fma(abs(rate), per_length * sharpness, -k_viscous_strain * sharpness), 0, 1);
+        const float across = clamp(fma(dot(relative_velocity, relative_velocity), per_length * per_length * sharpness,
+                                       -k_viscous_shear * k_viscous_shear * sharpness), 0, 1);
+        // A stretched spring resists in all directions and leaves less of the reach.
+        const float share = clamp(rest_length * inverse_length, 0, 1);
+        const float scale = share * share * g.viscosity.scale * stiffness;
+        viscosity = scale * along;
+        g.force += scale * across * relative_velocity;
+    }
+    g.force += (stiffness * stretch + (damping + viscosity) * rate) * direction;
+    g.energy += 0.25 * stiffness * stretch * stretch;
+}
+
+// Drag of the air on `share` of the triangle that the edges to two neighbors span, with the vertex's velocity: 1/2 rho
+// A C |u| u along the normal and across it. Its parts along and across the wind are the drag and the lift.
+void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
+{
+    const vec3 across = cross(to_b, to_c); // twice the area, along the normal
+    const float across_length = length(across);
+    if (across_length < 1e-20)
+        return;
+    const vec3 n = across / across_length;
+    // Beyond that speed, and that area below, the force in the densest air would overflow.
+    const vec3 u = clamp(g.wind - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
+    const float u_n = dot(u, n);
+    const vec3 u_t = u - u_n * n;
+    const float c = 0.25 * push.air_density * share * min(across_length, VOILE_MOST_AIR_AREA);
+    const float normal = c * cloths[cloth].drag_normal * abs(u_n);
+    const float tangential = c * cloths[cloth].drag_tangential * length(u_t);
+    g.air += normal * u_n * n + tangential * u_t;
+    g.air_rate += normal + tangential;
+}
+
+bool feels_air(uint cloth) { return cloths[cloth].drag_normal + cloths[cloth].drag_tangential > 0; }
+bool bends_isometrically(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_ISOMETRIC) != 0; }
+
+FinePosition position_of(uint vertex)
+{
+    const vec3 x = stage_positions[vertex].xyz;
+    return FinePosition(x, unpack_residual(stage_residuals[vertex]));
+}
+
+// From the vertex to another one, m.
+vec3 delta_to(Gather g, uint other) { return displacement(g.x, position_of(other)); }
+
+// A neighbor on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
+// to it pulls with nothing, and no branch keeps loads from being issued together.
+// `bending`: of the model's form, between the neighbor and the vertex. Returns the displacement to the neighbor, m.
+vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
+{
+    const uint other = exists ? neighbor(self.index, offset, self.columns) : self.index;
+    const vec3 delta = delta_to(g, other);
+    const vec3 velocity = stage_velocities[other].xyz - g.v;
+    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, delta, velocity);
+    g.bending += bending * (g.bending_stiffness * delta + g.bending_damping * velocity);
+    return delta;
+}
+
+bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
+
+// Which lines of the grid there are beside the vertex's, on either side.
+struct Beside
+{
+    bvec2 next; // ahead, behind
+    bvec2 far;
+};
+
+Beside beside(int place, uint lines)
+{
+    return Beside(bvec2(uint(place + 1) < lines, place > 0), bvec2(uint(place + 2) < lines, place > 1));
+}
+
+// What the neighbors of one line have of the bending energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of
+// the line: minus its gradient is the sum of them times the displacements.
+struct LineBending
+{
+    vec2 next;
+    float far;
+};
+
+LineBending line_bending(Beside line, float c)
+{
+    const float middle = all(line.next) ? 2 * c : 0;
+    return LineBending(vec2(middle) + 2 * c * vec2(line.far), -c);
+}
+
+// What springs along the row and along the column have of their stiffness at the grid's border.
+vec2 border_shares(uint cloth, PatchVertex self)
+{
+    const float share = cloths[cloth].border_share;
+    return vec2(self.place.y == 0 || self.place.y + 1 == int(self.rows) ? share : 1,
+                self.place.x == 0 || self.place.x + 1 == int(self.columns) ? share : 1);
+}
+
+SpringClass scaled(SpringClass spring, float stiffness, float damping)
+{
+    spring.stiffness *= stiffness;
+    spring.damping *= damping;
+    return spring;
+}
+
+SpringClass grid_springs(uint cloth, int c, vec2 shares, StabilityScales scales)
+{
+    const float share = c % 4 == 0 ? shares.x : c % 4 == 1 ? shares.y : 1;
+    return scaled(cloths[cloth].springs[c], share * scales.stiffness, share * scales.damping);
+}
+
+// Eight springs per vertex, and bending from the same neighbors. The isometric model (Bergou et al. 2006, "A quadratic
+// bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
+// the sum of the squared second differences along rows and columns and of twice the squared twist of the cells,
+// x_diagonal - x_along_row - x_along_column + x. One neighbor after the other: what is kept of several takes registers.
+void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales scales)
+{
+    const vec2 shares = border_shares(cloth, self);
+    SpringClass springs[VOILE_SPRING_CLASSES];
+    for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
+        springs[c] = grid_springs(cloth, c, shares, scales);
+    const vec2 c = shares * cloths[cloth].bending.xy;
+    const float twist = cloths[cloth].bending.z;
+    const Beside row = beside(self.place.x, self.columns);
+    const Beside column = beside(self.place.y, self.rows);
+    const LineBending row_bending = line_bending(row, c.x);
+    const LineBending column_bending = line_bending(column, c.y);
+    // Each neighbor along a line belongs to the cells on both of its sides.
+    const float row_cells = twist * (float(column.next.x) + float(column.next.y));
+    const float column_cells = twist * (float(row.next.x) + float(row.next.y));
+    const vec3 east = add_neighbor(g, self, ivec2(1, 0), row.next.x, springs[0], row_bending.next.x + row_cells);
+    const vec3 west = add_neighbor(g, self, ivec2(-1, 0), row.next.y, springs[0], row_bending.next.y + row_cells);
+    const vec3 south =
+        add_neighbor(g, self, ivec2(0, 1), column.next.x, springs[1], column_bending.next.x + column_cells);
+    const vec3 north =
+        add_neighbor(g, self, ivec2(0, -1), column.next.y, springs[1], column_bending.next.y + column_cells);
+    add_neighbor(g, self, ivec2(1, 1), row.next.x && column.next.x, springs[2], -twist);
+    add_neighbor(g, self, ivec2(-1, -1), row.next.y && column.next.y, springs[2], -twist);
+    add_neighbor(g, self, ivec2(1, -1), row.next.x && column.next.y, springs[3], -twist);
+    add_neighbor(g, self, ivec2(-1, 1), row.next.y && column.next.x, springs[3], -twist);
+    if (c.x != 0 || has_springs(springs[4]))
+    {
+        add_neighbor(g, self, ivec2(2, 0), row.far.x, springs[4], row_bending.far);
+        add_neighbor(g, self, ivec2(-2, 0), row.far.y, springs[4], row_bending.far);
+    }
+    if (c.y != 0 || has_springs(springs[5]))
+    {
+        add_neighbor(g, self, ivec2(0, 2), column.far.x, springs[5], column_bending.far);
+        add_neighbor(g, self, ivec2(0, -2), column.far.y, springs[5], column_bending.far);
+    }
+    if (has_springs(springs[6]))
+    {
+        add_neighbor(g, self, ivec2(2, 2), row.far.x && column.far.x, springs[6], 0);
+        add_neighbor(g, self, ivec2(-2, -2), row.far.y && column.far.y, springs[6], 0);
+        add_neighbor(g, self, ivec2(2, -2), row.far.x && column.far.y, springs[7], 0);
+        add_neighbor(g, self, ivec2(-2, 2), row.far.y && column.far.x, springs[7], 0);
+    }
+    if (feels_air(cloth))
+    {
+        // Of each cell around it the vertex has a quarter: half of the triangle that two sides span.
+        add_air(g, cloth, east, north, 0.5);
+        add_air(g, cloth, north, west, 0.5);
+        add_air(g, cloth, west, south, 0.5);
+        add_air(g, cloth, south, east, 0.5);
+    }
+}
+
+#include "forces/membrane.glsl"
+
+// A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it,
+// with the membrane of a Fabric.
+void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
+{
+    const uint first_vertex = cloths[cloth].first_vertex;
+    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    // The next entry is loaded while one is computed.
+    MeshSpring next;
+    if (vertex.springs > 0)
+        next = mesh_springs[vertex.first_spring];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = next;
+        next = mesh_springs[vertex.first_spring + min(s + 1, vertex.springs - 1) * MESH_STRIDE];
+        const uint other = first_vertex + (entry.neighbor & ~VOILE_OPPOSITE_BIT);
+        const bool opposite = (entry.neighbor & VOILE_OPPOSITE_BIT) != 0;
+        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
+        const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
+        const float stiffness = scales.stiffness * weight * spring.stiffness;
+        const float damping = scales.damping * weight * spring.damping;
+        const bool pulls = stiffness + damping > 0;
+        if (!pulls && entry.bending == 0)
+            continue;
+        const vec3 delta = delta_to(g, other);
+        const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
+        if (pulls)
+            add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
+        g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
+    }
+    g.bending *= cloths[cloth].bending.x;
+    if (alike && !feels_air(cloth))
+        return;
+    SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
+    for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
+        membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
+    MeshCorner next_corner;
+    if (vertex.corners > 0)
+        next_corner = mesh_corners[vertex.first_corner];
+    for (uint t = 0; t < vertex.corners; ++t)
+    {
+        const uint entry = vertex.first_corner + t * MESH_STRIDE;
+        const MeshCorner corner = next_corner;
+        next_corner = mesh_corners[vertex.first_corner + min(t + 1, vertex.corners - 1) * MESH_STRIDE];
+        const uint b = first_vertex + corner.b;
+        const uint c = first_vertex + corner.c;
+        const FinePosition x_b = position_of(b);
+        const FinePosition x_c = position_of(c);
+        if (!alike)
+            add_membrane(g, membrane, membrane_corners[entry], TriangleCorner(x_b, stage_velocities[b].xyz),
+                         TriangleCorner(x_c, stage_velocities[c].xyz));
+        if (feels_air(cloth))
+            add_air(g, cloth, displacement(g.x, x_b), displacement(g.x, x_c), 1.0 / 3);
+    }
+}
+
+// All forces on a vertex but gravity and linear drag.
+Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity viscosity, StabilityScales scales)
+{
+    Gather g;
+    g.x = x;
+    g.v = v;
+    g.force = g.bending = g.air = vec3(0);
+    g.energy = g.air_rate = 0;
+    g.wind = wind;
+    g.viscosity = viscosity;
+    g.bending_stiffness = scales.stiffness;
+    g.bending_damping = scales.damping * cloths[self.cloth].bending_time;
+    if (self.columns > 0)
+        gather_grid(g, self.cloth, self, scales);
+    else
+        gather_mesh(g, self.cloth, self.local, scales);
+    return g;
+}
+
+// The acceleration of a vertex, m/s^2.
+vec3 acceleration(PatchVertex self, FinePosition x, float inverse_mass, vec3 v)
+{
+    const uint cloth = self.cloth;
+    const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    Viscosity viscosity = k_no_viscosity;
+    if (VERLET)
+        viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, push.step);
+    const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
+    const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
+    const float air = air_scale(inverse_mass * g.air_rate, push.step);
+    return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
+}
+
+#endif

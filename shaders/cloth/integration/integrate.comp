@@ -1,0 +1,79 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
+//
+// A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
+// neighbors, and writes the next stage's state. Stage 4 writes the result of the step, from the velocities of all stages:
+// they are k1 to k4 of the positions, and their differences have k1 to k3 of the velocities in them. So no stage keeps sums.
+// One kernel for all stages: four of them, each with the forces in it, are slower beside contact on an H200 (bench/NOTES.md).
+// Reads: cloths, patches, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
+// Writes: next state.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer BasePositions { vec4 base_positions[]; }; // w: inverse mass, 1/kg
+layout(set = 0, binding = 3, std430) readonly buffer BaseVelocities { vec4 base_velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage_positions[]; };
+layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
+layout(set = 0, binding = 8, std430) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for stage 4
+layout(set = 0, binding = 9, std430) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
+layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 11, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 13, std430) readonly buffer BaseResiduals { uvec2 base_residuals[]; };
+layout(set = 0, binding = 14, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 15, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(set = 0, binding = 16, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+
+layout(push_constant, std430) uniform Push { StagePush push; };
+
+const bool VERLET = false;
+#include "forces/forces.glsl"
+
+FinePosition base_position(uint i)
+{
+    const vec3 x = base_positions[i].xyz;
+    return FinePosition(x, unpack_residual(base_residuals[i]));
+}
+
+void write_position(uint i, FinePosition x, float inverse_mass)
+{
+    next_positions[i] = vec4(x.x, inverse_mass);
+    next_residuals[i] = pack_residual(x);
+}
+
+void main()
+{
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
+    if (!self.exists)
+        return;
+    const uint i = self.index;
+    const vec4 stage_x = stage_positions[i];
+    const vec3 stage_v = stage_velocities[i].xyz;
+    const float inverse_mass = stage_x.w;
+    const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
+    const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
+
+    // Stage 1's state is the base state: one read serves both.
+    const FinePosition x = push.stage == 1 ? here : base_position(i);
+    const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
+    const float h = push.step;
+    if (push.stage == 4)
+    {
+        const vec3 second = second_velocities[i].xyz;
+        const vec3 third = third_velocities[i].xyz;
+        write_position(i, moved(x, h / 6 * (v + 2 * (second + third) + stage_v)), inverse_mass);
+        // h / 2 k1 + h k2 + h k3 + h / 2 k4, over 3
+        const vec3 change = (second - v) + 2 * (third - v) + (stage_v - v) + 0.5 * h * a;
+        next_velocities[i] = vec4(v + change / 3, 0);
+        return;
+    }
+    const float reach = push.stage == 3 ? h : 0.5 * h;
+    write_position(i, moved(x, reach * stage_v), inverse_mass);
+    next_velocities[i] = vec4(v + reach * a, 0);
+}

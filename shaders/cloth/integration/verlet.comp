@@ -1,0 +1,58 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One step of velocity Verlet (Swope et al. 1982) for the cloths that use it: kick and drift in one dispatch.
+//
+// The half kicks at the end of one substep and at the beginning of the next are one: a step of n substeps is n + 1
+// dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
+// after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction for the
+// next (stability.glsl), which keeps the second order.
+// A thread moves one vertex. Reads: cloths, patches, mesh lists, positions and their residuals, predicted and own velocities.
+// Writes: next positions and residuals, velocities, predicted velocities.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // w: inverse mass, 1/kg
+layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; }; // predicted
+layout(set = 0, binding = 4, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 5, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer NextPredicted { vec4 next_predicted[]; };
+layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(set = 0, binding = 11, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(set = 0, binding = 12, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(set = 0, binding = 13, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+
+layout(push_constant, std430) uniform Push { StagePush push; };
+
+const bool VERLET = true;
+#include "forces/forces.glsl"
+
+void main()
+{
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
+    if (!self.exists)
+        return;
+    const uint i = self.index;
+    const vec4 stage_x = stage_positions[i];
+    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
+    const vec3 a = stage_x.w > 0 ? acceleration(self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
+    const vec4 before = velocities[i];
+    // What touches a collider or hangs on a taut tether leaves the step with the velocity that this gave it: half a kick more
+    // would drive it into the surface. The next step's first kick has that half in it.
+    const bool ends = push.drift == 0;
+    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_MEETS);
+    const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
+    const vec3 v = before.xyz + kick * a;
+    const FinePosition next = moved(x, push.drift * v);
+    next_positions[i] = vec4(next.x, stage_x.w);
+    next_residuals[i] = pack_residual(next);
+    next_velocities[i] = vec4(v, ends ? touches : 0);
+    const StabilityScales scales =
+        stability_scales(cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
+    next_predicted[i] = vec4(v + verlet_prediction(scales) * push.step * a, 0);
+}

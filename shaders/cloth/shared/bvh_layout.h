@@ -1,0 +1,45 @@
+// The bounding volume hierarchy as the GPU reads it. Written by modules/cloth/src/bvh.cpp, read by bvh.glsl.
+#ifndef VOILE_BVH_LAYOUT_H
+#define VOILE_BVH_LAYOUT_H
+
+#include "../../shared_types.h"
+
+VOILE_SHARED_BEGIN(voile)
+
+// An inner node holds the boxes of both its children, so that one 64-byte read decides about two subtrees.
+// A child is an inner node's index, or, with the highest bit set, a leaf: bits 29-30 are its triangle count minus one
+// (1 to 4), bits 0-28 the index of its first triangle. Node 0 is the root; it always exists. A tree whose root has one
+// child only (a mesh that fits one leaf) has an empty right box: min = +infinity, max = -infinity.
+struct BvhNode
+{
+    vec3 left_min;
+    uint left;
+    vec3 left_max;
+    uint padding_0;
+    vec3 right_min;
+    uint right;
+    vec3 right_max;
+    uint padding_1;
+};
+
+// A triangle in leaf order.
+struct BvhTriangle
+{
+    vec3 a;
+    uint index; // in the mesh that the tree was built from
+    vec3 b;
+    uint padding_0;
+    vec3 c;
+    uint padding_1;
+};
+
+VOILE_SHARED_END
+
+#define VOILE_BVH_LEAF_BIT 0x80000000u
+#define VOILE_BVH_COUNT_SHIFT 29
+#define VOILE_BVH_COUNT_MASK 3u
+#define VOILE_BVH_FIRST_MASK 0x1fffffffu
+// Traversal keeps at most one entry a level: the builder never makes a deeper tree.
+#define VOILE_BVH_MAX_DEPTH 48
+
+#endif

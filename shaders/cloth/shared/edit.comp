@@ -1,0 +1,73 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the host does to a whole cloth between two steps: masses by a new density, reset, teleport, a velocity. One thread a
+// vertex of that cloth.
+// Reads: cloths, start. Writes: state.
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Start { vec4 start[]; }; // w: inverse of what density multiplies
+layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer StartResiduals { uvec2 start_residuals[]; };
+layout(set = 0, binding = 5, std430) buffer Residuals { uvec2 residuals[]; };
+
+layout(push_constant, std430) uniform Push { EditPush push; };
+
+#include "shared/fine_position.glsl"
+
+// Products of floats and their sums, with what their rounding leaves, which is added up by itself: beside large numbers it would
+// be lost.
+FinePosition moved_by(mat4 transform, FinePosition p)
+{
+    vec3 x = transform[3].xyz;
+    vec3 residual = mat3(transform) * p.residual;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        precise const vec3 product = transform[axis].xyz * p.x[axis];
+        precise const vec3 rest = fma(transform[axis].xyz, vec3(p.x[axis]), -product);
+        const FinePosition sum = moved(FinePosition(x, vec3(0)), product);
+        x = sum.x;
+        residual += sum.residual + rest;
+    }
+    return moved(FinePosition(x, vec3(0)), residual);
+}
+
+void main()
+{
+    const uint local = gl_GlobalInvocationID.x;
+    if (local >= cloths[push.cloth].vertices)
+        return;
+    const uint i = cloths[push.cloth].first_vertex + local;
+    const float inverse_mass = start[i].w * cloths[push.cloth].inverse_density;
+    if (push.kind == VOILE_EDIT_MASSES)
+    {
+        // Heavier: the momentum stays, lighter: the velocity. Kinetic energy never grows with the mass.
+        const float before = positions[i].w;
+        if (before > inverse_mass)
+            velocities[i].xyz *= inverse_mass / before;
+        positions[i].w = inverse_mass;
+    }
+    else if (push.kind == VOILE_EDIT_RESET)
+    {
+        positions[i] = vec4(start[i].xyz, inverse_mass);
+        residuals[i] = start_residuals[i];
+        velocities[i] = vec4(push.velocity, 0);
+    }
+    else if (push.kind == VOILE_EDIT_TRANSFORM)
+    {
+        const vec3 x = positions[i].xyz;
+        const vec3 residual = unpack_residual(residuals[i]);
+        FinePosition next = moved_by(push.transform, FinePosition(x, residual));
+        // Scales multiply from call to call: what they make stays within the ranges of the input.
+        next.x = clamp(next.x, vec3(-VOILE_MOST_COORDINATE), vec3(VOILE_MOST_COORDINATE));
+        const vec3 v = mat3(push.transform) * velocities[i].xyz;
+        positions[i].xyz = next.x;
+        residuals[i] = pack_residual(next);
+        velocities[i] = vec4(clamp(v, vec3(-VOILE_MOST_SPEED), vec3(VOILE_MOST_SPEED)), 0);
+    }
+    else
+        velocities[i] = vec4(push.velocity, 0);
+}

@@ -1,0 +1,45 @@
+// Which vertex of a patch a thread works on.
+//
+// The including kernel declares patches[].
+#ifndef VOILE_PATCH_GLSL
+#define VOILE_PATCH_GLSL
+
+#include "shared/grid.glsl"
+
+struct PatchVertex
+{
+    bool exists; // false for the threads beyond the cloth's border
+    uint cloth;
+    uint local; // counted within the cloth
+    uint index; // in the solver's buffers
+    uint columns; // of the cloth; of a mesh 0
+    uint rows;
+    ivec2 place; // column and row in a grid
+};
+
+PatchVertex patch_vertex(uint patch_index, uint thread)
+{
+    const Patch c = patches[patch_index];
+    PatchVertex vertex;
+    vertex.cloth = c.cloth;
+    vertex.columns = c.columns;
+    vertex.rows = c.rows;
+    if (c.columns > 0)
+    {
+        vertex.place = ivec2(c.first + (thread & ((1u << c.tile_shift) - 1)), c.row + (thread >> c.tile_shift));
+        vertex.exists = in_grid(vertex.place, c.columns, c.rows);
+        vertex.local = uint(vertex.place.y) * c.columns + uint(vertex.place.x);
+    }
+    else
+    {
+        vertex.place = ivec2(0);
+        vertex.local = c.first + thread;
+        vertex.exists = vertex.local < c.rows;
+    }
+    vertex.index = c.first_vertex + vertex.local;
+    return vertex;
+}
+
+PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x); }
+
+#endif

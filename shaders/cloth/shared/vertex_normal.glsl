@@ -1,0 +1,59 @@
+// The normal of a vertex, from the buffers that the including kernel names VOILE_NORMAL_POSITIONS and
+// VOILE_NORMAL_RESIDUALS. The kernel declares cloths[], mesh_vertices[] and mesh_corners[] too.
+#ifndef VOILE_VERTEX_NORMAL_GLSL
+#define VOILE_VERTEX_NORMAL_GLSL
+
+#include "shared/patch.glsl"
+#include "shared/fine_position.glsl"
+#include "shared/mesh.glsl"
+
+vec3 vertex_delta(uint from, uint to)
+{
+    const vec3 a = VOILE_NORMAL_POSITIONS[from].xyz;
+    const vec3 b = VOILE_NORMAL_POSITIONS[to].xyz;
+    return displacement(FinePosition(a, unpack_residual(VOILE_NORMAL_RESIDUALS[from])),
+                        FinePosition(b, unpack_residual(VOILE_NORMAL_RESIDUALS[to])));
+}
+
+vec3 neighbor_delta(PatchVertex self, ivec2 offset, uint columns, uint rows)
+{
+    if (!in_grid(self.place + offset, columns, rows))
+        return vec3(0);
+    return vertex_delta(self.index, neighbor(self.index, offset, columns));
+}
+
+// The sum of the cross products of consecutive neighbors around the vertex, E x N + N x W + W x S + S x E, is the one
+// product (E - W) x (N - S): the area-weighted normal of the four quadrants. Up for a flat grid seen from above.
+vec3 grid_across(PatchVertex self, uint columns, uint rows)
+{
+    const vec3 along_row = neighbor_delta(self, ivec2(1, 0), columns, rows) -
+                           neighbor_delta(self, ivec2(-1, 0), columns, rows);
+    const vec3 along_column = neighbor_delta(self, ivec2(0, 1), columns, rows) -
+                              neighbor_delta(self, ivec2(0, -1), columns, rows);
+    return cross(along_column, along_row);
+}
+
+// The area-weighted normal of the triangles around the vertex.
+vec3 mesh_across(uint cloth, uint local)
+{
+    const uint first_vertex = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    vec3 across = vec3(0);
+    for (uint c = 0; c < vertex.corners; ++c)
+    {
+        const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
+        across += cross(vertex_delta(first_vertex + local, first_vertex + corner.b),
+                        vertex_delta(first_vertex + local, first_vertex + corner.c));
+    }
+    return across;
+}
+
+vec3 vertex_normal(PatchVertex self)
+{
+    const uint columns = cloths[self.cloth].columns;
+    const vec3 n = columns > 0 ? grid_across(self, columns, cloths[self.cloth].rows) : mesh_across(self.cloth, self.local);
+    const float length_squared = dot(n, n);
+    return length_squared > 1e-30 ? n * inversesqrt(length_squared) : vec3(0, 1, 0);
+}
+
+#endif

@@ -1,0 +1,160 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Statistics of one patch of vertices: stretch, kinetic energy, values that are not finite, penetration.
+//
+// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and how
+// deep it lies under the surface of a collider.
+// Reads: cloths, patches, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
+#include "shared/bvh_layout.h"
+#include "shared/cloth_layout.h"
+#include "shared/padded_layout.h"
+
+layout(local_size_x_id = 0) in;
+const uint COLLIDERS_MOVE = 1;
+
+layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(set = 0, binding = 5, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(set = 0, binding = 6, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(set = 0, binding = 11, std430) readonly buffer CandidateTriangles { uint candidate_triangles[]; };
+layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
+layout(set = 0, binding = 16, std430) readonly buffer NearColliders { uint near_colliders[]; };
+
+layout(push_constant, std430) uniform Push { StatisticsPush push; };
+
+#include "shared/patch.glsl"
+#include "colliders/collider_pose.glsl"
+#include "contact/convex.glsl"
+#include "shared/fine_position.glsl"
+#include "colliders/near_colliders.glsl"
+#include "contact/solid_query.glsl"
+#include "shared/grid.glsl"
+#include "shared/mesh.glsl"
+#include "statistics/statistics_merge.glsl"
+
+bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
+
+FinePosition position_of(uint i)
+{
+    const vec3 x = positions[i].xyz;
+    return FinePosition(x, unpack_residual(residuals[i]));
+}
+
+void measure_spring(uint self, uint other, float rest_length, inout StatisticsRecord record)
+{
+    const float stretch = length(displacement(position_of(self), position_of(other))) / rest_length - 1;
+    record.max_stretch = max(record.max_stretch, stretch);
+    record.stretch_sum += stretch;
+    record.springs += 1;
+}
+
+void measure_grid_springs(PatchVertex self, inout StatisticsRecord record)
+{
+    const uint cloth = self.cloth;
+    for (int c = 0; c < 4; ++c) // structural and shear
+    {
+        const SpringClass spring = cloths[cloth].springs[c];
+        const ivec2 offset = k_spring_offsets[c];
+        if (spring.stiffness > 0 &&
+            in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows))
+            measure_spring(self.index, neighbor(self.index, offset, cloths[cloth].columns), spring.rest_length, record);
+    }
+}
+
+// An edge is measured by the vertex with the smaller index.
+void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
+{
+    const uint first = cloths[cloth].first_vertex;
+    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
+    for (uint s = 0; s < vertex.springs; ++s)
+    {
+        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
+        if (entry.neighbor > local && (entry.neighbor & VOILE_OPPOSITE_BIT) == 0)
+            measure_spring(first + local, first + entry.neighbor, entry.rest_length, record);
+    }
+}
+
+// Whether the generalized winding number says that a point is inside a mesh with one side; one with two has no inside. Of a closed
+// mesh it is the signed crossings of a line. Outside of its box no mesh fills half of all directions.
+bool is_in_mesh(uint c, ColliderRecord collider, vec3 place)
+{
+    if ((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(collider, place))
+        return false;
+    if ((collider.flags & VOILE_COLLIDER_CLOSED) != 0)
+        return line_winding(c, collider, place, 1) > 0;
+    return generalized_winding(c, collider, place) > 0.5;
+}
+
+// m: how deep a point is in a collider; 0 or less: it is not inside.
+float depth_in(uint c, ColliderRecord collider, vec3 place)
+{
+    if (collider.kind == VOILE_COLLIDER_PLANE)
+        return -plane_surface(collider, place).distance;
+    if (collider.kind != VOILE_COLLIDER_MESH)
+        return -convex_surface(collider, place).distance;
+    return is_in_mesh(c, collider, place) ? nearest_distance(c, collider, place, 3e38) : 0;
+}
+
+void measure_penetration(FinePosition p, uint layers, inout StatisticsRecord record)
+{
+    solid_at_end = true;
+    float depth = 0;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, p.x, p.x);
+    uint c;
+    while (next_collider(walk, c))
+    {
+        const ColliderRecord collider = colliders[c];
+        if ((collider.layers & layers) != 0)
+            depth = max(depth, depth_in(c, collider, into_collider(c, collider.flags, p, 1)));
+    }
+    record.deepest_penetration = depth;
+    record.penetrating_vertices = depth > 0 ? 1 : 0;
+}
+
+void count_candidates(uint vertex, inout StatisticsRecord record)
+{
+    const uint count = candidate_triangles[vertex] & VOILE_CANDIDATE_COUNT_MASK;
+    record.candidates = min(count, VOILE_CANDIDATES);
+    record.overflowing_vertices = count > VOILE_CANDIDATES ? 1 : 0;
+}
+
+void main()
+{
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const uint cloth = self.cloth;
+    StatisticsRecord record = no_statistics();
+    if (self.exists)
+    {
+        const uint i = self.index;
+        const vec4 x = positions[i];
+        const vec4 v = velocities[i];
+        if (!finite(x.xyz) || !finite(v.xyz))
+            record.nan_vertices = 1;
+        else
+        {
+            const uint columns = cloths[cloth].columns;
+            if (columns > 0)
+                measure_grid_springs(self, record);
+            else
+                measure_mesh_springs(cloth, self.local, record);
+            measure_penetration(position_of(i), cloths[cloth].layers, record);
+            if (push.colliders > 0)
+                count_candidates(i, record);
+            record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
+            record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) != 0 ? 1 : 0;
+        }
+    }
+    const StatisticsRecord merged = merge_workgroup(record);
+    if (gl_LocalInvocationID.x == 0)
+        partials[gl_WorkGroupID.x] = merged;
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Merges the patches' statistics into one record. One workgroup: a thread takes every group-size-th patch, then they fold.
+// Reads: partials. Writes: result[slot].
+#include "shared/cloth_layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
+
+layout(push_constant, std430) uniform Push { StatisticsReducePush push; };
+
+#include "statistics/statistics_merge.glsl"
+
+void main()
+{
+    StatisticsRecord record = no_statistics();
+    for (uint c = gl_LocalInvocationID.x; c < push.patches; c += gl_WorkGroupSize.x)
+        record = merge(record, partials[c]);
+    const StatisticsRecord merged = merge_workgroup(record);
+    if (gl_LocalInvocationID.x == 0)
+        result[push.slot] = merged;
+}

@@ -1,0 +1,20 @@
+// Push constants of visit_padded.comp.
+#ifndef VOILE_VISIT_PADDED_LAYOUT_H
+#define VOILE_VISIT_PADDED_LAYOUT_H
+
+#include "../../shaders/shared_types.h"
+
+VOILE_SHARED_BEGIN(tests)
+
+struct VisitPush
+{
+    uint first_box;
+    uint first_leaf;
+    uint triangles;
+    uint queries;
+    uint room; // of an answer: how many were found, and their slots as far as they fit
+};
+
+VOILE_SHARED_END
+
+#endif

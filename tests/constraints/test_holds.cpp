@@ -1,0 +1,313 @@
+// Holds, anchors and tethers: pins that move and change, springs, leashes, backstops, and what they refuse.
+#include "support/close_to.hpp"
+#include "support/cloth_harness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+constexpr double k_gravity = 9.81;
+
+voile::GridCloth sheet(uint32_t side)
+{
+    voile::GridCloth grid;
+    grid.columns = grid.rows = side;
+    grid.transform[3] = {0, 2, 0, 1};
+    voile::Fabric fabric;
+    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
+    grid.material = fabric;
+    return grid;
+}
+
+glm::mat4 at(const glm::vec3& place, float degrees = 0)
+{
+    glm::mat4 m(1.f);
+    const float angle = degrees * 3.14159265f / 180;
+    m[0] = {std::cos(angle), 0, -std::sin(angle), 0};
+    m[2] = {std::sin(angle), 0, std::cos(angle), 0};
+    m[3] = glm::vec4(place, 1);
+    return m;
+}
+
+std::string message(const voile::Result<void>& result)
+{
+    return result ? "" : result.error().message;
+}
+
+} // namespace
+
+TEST_CASE("pins follow an anchor exactly, with its velocity, and stop with it")
+{
+    for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+    {
+        CAPTURE(int(integrator));
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(8);
+        grid.integrator = integrator;
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(at({0, 2, -0.5f})));
+        std::vector<voile::Hold> holds;
+        for (uint32_t column = 0; column < 8; ++column)
+        {
+            voile::Hold hold{.vertex = column, .anchor = rod};
+            if (column % 2 == 0) // the others stay where they are as seen from the rod
+                hold.place = glm::vec3(static_cast<float>(column) / 7 - 0.5f, 0, 0);
+            holds.push_back(hold);
+        }
+        voile::engine::take(harness.solver.set_holds(id, holds));
+        harness.upload();
+        for (int frame = 1; frame <= 30; ++frame)
+        {
+            const glm::vec3 place(0.02f * static_cast<float>(frame), 2, -0.5f);
+            const glm::mat4 transform = at(place, 2 * static_cast<float>(frame));
+            voile::engine::take(harness.solver.move_anchor(rod, transform));
+            const auto before = harness.positions(id);
+            harness.step({});
+            const auto x = harness.positions(id);
+            const auto v = harness.velocities(id);
+            for (uint32_t column = 0; column < 8; ++column)
+            {
+                const glm::vec3 expected = transform * glm::vec4(static_cast<float>(column) / 7 - 0.5f, 0, 0, 1);
+                // Each step adds its velocity substep by substep: their rounding, 2^-24 of 2 m each. A pin that goes on
+                // from where it is keeps that of the steps before.
+                const double substeps = harness.solver.stable_substeps(1.f / 60);
+                const double bound = 2 * std::exp2(-24) * substeps * (column % 2 == 0 ? 1 : frame);
+                CHECK(static_cast<double>(glm::distance(glm::vec3(x[column]), expected)) < bound);
+                CHECK(static_cast<double>(glm::distance(glm::vec3(v[column]),
+                                                        60.f * (expected - glm::vec3(before[column])))) < 60 * bound);
+                CHECK(x[column].w == 0);
+            }
+        }
+        harness.step({}, 2); // the rod rests
+        const auto x = harness.positions(id);
+        harness.step({});
+        for (uint32_t column = 0; column < 8; ++column)
+        {
+            CHECK(harness.velocities(id)[column] == glm::vec4(0));
+            CHECK(harness.positions(id)[column] == x[column]);
+        }
+        CHECK(harness.statistics().nan_vertices == 0);
+    }
+}
+
+TEST_CASE("pins change at run time, and what is let go falls")
+{
+    ClothHarness harness;
+    voile::GridCloth grid = sheet(6);
+    grid.held = {0, 5, 5};
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    const float mass = 1 / harness.positions(id)[1].w;
+    harness.step({}, 10);
+    CHECK(harness.positions(id)[0] == glm::vec4(-0.5f, 2, -0.5f, 0));
+    CHECK(harness.positions(id)[5] == glm::vec4(0.5f, 2, -0.5f, 0));
+
+    const voile::Hold one{.vertex = 35};
+    const auto there = harness.positions(id)[35];
+    voile::engine::take(harness.solver.set_holds(id, {&one, 1}));
+    CHECK_FALSE(harness.solver.needs_upload());
+    harness.step({}, 20);
+    CHECK(glm::vec3(harness.positions(id)[35]) == glm::vec3(there)); // where it was when it was pinned
+    CHECK(harness.positions(id)[0].y < 1.9f);
+    CHECK(1 / harness.positions(id)[0].w == tests::close_to(mass / 2, 1e-7)); // a corner again
+
+    voile::engine::take(harness.solver.set_holds(id, {}));
+    const float height = harness.positions(id)[35].y;
+    harness.step({}, 10);
+    CHECK(harness.positions(id)[35].y < height - 0.05f);
+}
+
+TEST_CASE("more holds than there was room for need an upload, and then hold")
+{
+    ClothHarness harness;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(10)));
+    harness.upload();
+    harness.step({}, 3);
+    std::vector<voile::Hold> all;
+    for (uint32_t i = 0; i < 100; ++i)
+        all.push_back({.vertex = i});
+    voile::engine::take(harness.solver.set_holds(id, all));
+    CHECK(harness.solver.needs_upload());
+    harness.step({}); // recorded without the upload: as before
+    harness.upload();
+    const auto x = harness.positions(id);
+    harness.step({}, 5);
+    for (uint32_t i = 0; i < 100; ++i)
+        CHECK(glm::vec3(harness.positions(id)[i]) == glm::vec3(x[i]));
+}
+
+TEST_CASE("a spring holds a vertex at m g / k below its place")
+{
+    for (const float stiffness : {5.f, 5000.f}) // the second far beyond what the substep bears explicitly
+    {
+        CAPTURE(stiffness);
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(2);
+        voile::Material material;
+        material.vertex_mass = 0.02f; // nothing joins the vertices
+        grid.material = material;
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        std::vector<voile::Hold> holds;
+        for (uint32_t i = 0; i < 4; ++i)
+            holds.push_back({.vertex = i, .stiffness = stiffness, .damping = 0.5f});
+        voile::engine::take(harness.solver.set_holds(id, holds));
+        harness.upload();
+        harness.step({.substeps = 20}, 120);
+        const double sag = 0.02 * k_gravity / static_cast<double>(stiffness);
+        // Backward Euler looks half of g h^2 ahead: 3.4e-6 m.
+        for (const glm::vec4& x : harness.positions(id))
+            CHECK(std::abs(2 - static_cast<double>(x.y) - sag) < 5e-6 + 1e-4 * sag);
+    }
+}
+
+TEST_CASE("a leash keeps a vertex near a moving place, a backstop in front of it")
+{
+    ClothHarness harness;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(12)));
+    const voile::AnchorId body = voile::engine::take(harness.solver.add_anchor(at({0, 2, 0})));
+    std::vector<voile::Hold> holds;
+    for (uint32_t i = 0; i < 144; ++i)
+        holds.push_back({.vertex = i,
+                         .anchor = body,
+                         .stiffness = 0,
+                         .max_distance = 0.1f,
+                         .backstop_normal = {0, 1, 0},
+                         .backstop = 0.03f});
+    voile::engine::take(harness.solver.set_holds(id, holds));
+    harness.upload();
+    const auto start = harness.positions(id);
+    double deepest = 0;
+    for (int frame = 1; frame <= 60; ++frame)
+    {
+        const float t = static_cast<float>(frame) / 60;
+        const glm::vec3 place(0.3f * std::sin(6 * t), 2 + 0.2f * std::sin(9 * t), 0);
+        voile::engine::take(harness.solver.move_anchor(body, at(place)));
+        harness.step({});
+        const auto x = harness.positions(id);
+        for (uint32_t i = 0; i < 144; ++i)
+        {
+            const glm::vec3 pose = glm::vec3(start[i]) - glm::vec3(0, 2, 0) + place;
+            CHECK(glm::distance(glm::vec3(x[i]), pose) < 0.1f + 1e-5f);
+            CHECK(x[i].y - pose.y > -0.03f - 1e-5f);
+            deepest = std::max(deepest, static_cast<double>(pose.y - x[i].y));
+        }
+    }
+    CHECK(deepest > 0.0299); // it did hang in the backstop
+}
+
+TEST_CASE("tethers keep a soft hanging cloth at its length")
+{
+    for (const bool tethered : {false, true})
+    {
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(16);
+        voile::Fabric soft;
+        soft.stretch_stiffness = {3, 3}; // rho g L / 2k = 25 %
+        soft.shear_stiffness = 1;
+        soft.damping_ratio = 0.3f;
+        grid.material = soft;
+        for (uint32_t column = 0; column < 16; ++column)
+            grid.held.push_back(column);
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        if (tethered)
+            voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{.stretch = 0.02f}));
+        harness.upload();
+        harness.step({}, 180);
+        double longest = 0;
+        const auto x = harness.positions(id);
+        for (uint32_t column = 0; column < 16; ++column)
+            longest =
+                std::max(longest, static_cast<double>(glm::distance(glm::vec3(x[column]), glm::vec3(x[240 + column]))));
+        if (tethered)
+            CHECK(longest < 1.02 + 1e-4);
+        else
+            CHECK(longest > 1.15);
+    }
+}
+
+TEST_CASE("tethers measure the way over the cloth")
+{
+    // Pinned at one corner: the far corner is a diagonal away, over a triangulated grid too.
+    ClothHarness harness;
+    voile::GridCloth grid = sheet(33);
+    std::get<voile::Fabric>(grid.material).stretch_stiffness = {0.05f, 0.05f};
+    std::get<voile::Fabric>(grid.material).shear_stiffness = 0.01f;
+    grid.held = {0};
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{}));
+    harness.upload();
+    harness.step({}, 300);
+    const auto x = harness.positions(id);
+    const double diagonal = std::sqrt(2.0);
+    const auto hangs = static_cast<double>(glm::distance(glm::vec3(x[0]), glm::vec3(x[33 * 33 - 1])));
+    CHECK(hangs < diagonal * 1.01); // fast marching: its front is exact but for the first triangles' fans
+    CHECK(hangs > diagonal * 0.97);
+}
+
+TEST_CASE("holds and tethers refuse bad input, and nothing changes")
+{
+    ClothHarness harness;
+    voile::GridCloth grid = sheet(4);
+    grid.name = "flag";
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    const auto refused = [&](const voile::Hold& hold)
+    {
+        const std::string reason = message(harness.solver.set_holds(id, {&hold, 1}));
+        CHECK(harness.solver.holds(id).empty());
+        return reason;
+    };
+    CHECK(refused({.vertex = 16}) == "cloth \"flag\": held vertex 16 of 16");
+    CHECK(refused({.vertex = 3, .anchor = voile::AnchorId{7}}) ==
+          "cloth \"flag\": the hold of vertex 3: anchor 7 does not exist");
+    CHECK(refused({.vertex = 1, .place = glm::vec3(NAN)}) ==
+          "cloth \"flag\": the hold of vertex 1: place is (nan, nan, nan) m, each must be -1e+06 to 1e+06");
+    CHECK(refused({.vertex = 1, .stiffness = -1}) ==
+          "cloth \"flag\": the hold of vertex 1: stiffness is -1 N/m, must be 0 to 1e+09, or infinite for a pin");
+    CHECK(refused({.vertex = 1, .damping = INFINITY}).find("damping is inf") != std::string::npos);
+    CHECK(refused({.vertex = 1, .max_distance = -2}).find("max_distance is -2") != std::string::npos);
+    CHECK(refused({.vertex = 1, .backstop_normal = {0, 2, 0}}).find("not of unit length") != std::string::npos);
+    const voile::Hold twice[] = {{.vertex = 2}, {.vertex = 2}};
+    CHECK(message(harness.solver.set_holds(id, twice)) == "cloth \"flag\": vertex 2 is held twice");
+
+    CHECK(message(harness.solver.set_tethers(id, voile::Tethers{})) ==
+          "cloth \"flag\": tethers need a pin, and it has none");
+    const voile::Hold pin{.vertex = 0};
+    voile::engine::take(harness.solver.set_holds(id, {&pin, 1}));
+    CHECK(message(harness.solver.set_tethers(id, voile::Tethers{.stretch = -1})).find("must be 0 to 10") !=
+          std::string::npos);
+    voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{}));
+    CHECK(message(harness.solver.set_holds(id, {})) == "cloth \"flag\": tethers need a pin, and it has none");
+    CHECK(harness.solver.holds(id).size() == 1);
+    glm::mat4 flat(1.f);
+    flat[2] = {};
+    CHECK(harness.solver.add_anchor(flat).error().message ==
+          "anchor: its transform's determinant is 0, must be 1e-09 to 1e+09");
+    CHECK(harness.solver.add_anchor(glm::mat4(NAN)).error().message == "anchor: its transform is not finite");
+    CHECK(message(harness.solver.move_anchor({0}, glm::mat4(1.f))) == "anchor 0 does not exist");
+}
+
+TEST_CASE("vertices are attached to a collider's surface")
+{
+    ClothHarness harness;
+    voile::GridCloth grid = sheet(20);
+    grid.transform[3] = {0, 0.5f, 0, 1};
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    const voile::ColliderId ball =
+        voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.2f, 0}, .radius = 0.3f}));
+    const auto holds = voile::engine::take(harness.solver.holds_on_surface(id, ball, 0.02f));
+    CHECK(holds.size() > 3);
+    CHECK(holds.size() < 100);
+    voile::engine::take(harness.solver.set_holds(id, holds));
+    harness.upload();
+    harness.step({}, 30);
+    const auto x = harness.positions(id);
+    for (const voile::Hold& hold : holds)
+        CHECK(static_cast<double>(glm::distance(glm::vec3(x[hold.vertex]), glm::vec3(0, 0.2f, 0))) ==
+              tests::close_to(0.3, 6e-7));
+    CHECK_FALSE(harness.solver.holds_on_surface(id, ball, 0).ok());
+}

@@ -1,0 +1,180 @@
+// The lists of triangles that vertices keep from substep to substep: with them contact finds what it finds without.
+#include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+#include "support/hard_shapes.hpp"
+
+#include "voile/mesh_checks.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using tests::ClothHarness;
+
+namespace
+{
+
+constexpr float k_substep = 1.f / 4096; // s; sums of it are exact
+constexpr uint32_t k_substeps = 64;
+constexpr uint32_t k_other_layer = 2;
+
+struct Shot
+{
+    float thickness; // m
+    float speed;     // m/s, up and half of it aside
+    uint32_t rings;  // of the lump: its edges are some 0.5 m / rings long
+};
+
+class Scene : public ClothHarness
+{
+public:
+    explicit Scene(const Shot& shot) : ClothHarness({.recovery = false}), mesh_(tests::lump_with_ears(shot.rings))
+    {
+        voile::GridCloth grid = tests::flat_sheet(24, 0.45f, -0.325f); // under the lump: its ears are above
+        grid.transform = grid.transform * glm::mat4_cast(glm::quat(glm::vec3(0.05f, 0.7f, 0.02f)));
+        grid.velocity = {0.5f * shot.speed, shot.speed, 0};
+        tests::fabric_of(grid).thickness = shot.thickness;
+        tests::fabric_of(grid).areal_density *= 1.4f; // for the substeps that k_substeps are
+        id = voile::engine::take(solver.add_cloth(grid));
+        (void)voile::engine::take(solver.add_collider(tests::collider(mesh_)));
+        upload();
+    }
+
+    // An upload makes all lists anew.
+    void forget_lists()
+    {
+        (void)voile::engine::take(solver.add_collider(voile::SphereCollider{.radius = 0.1f, .layers = k_other_layer}));
+        upload();
+    }
+
+    voile::ClothId id;
+
+private:
+    voile::engine::Mesh mesh_;
+};
+
+// The farthest that one is from the other.
+float difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    float most = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, a[i] == b[i] ? 0 : glm::distance(a[i], b[i]));
+    return most;
+}
+
+// The same shot with lists that live on, and with lists that serve one substep. `rounding`: m, that they may differ by.
+voile::Statistics compare(const Shot& shot, float rounding)
+{
+    CAPTURE(shot.thickness);
+    CAPTURE(shot.rings);
+    Scene kept(shot);
+    Scene fresh(shot);
+    REQUIRE(kept.solver.stable_substeps(k_substep * k_substeps) <= k_substeps);
+    voile::Statistics most;
+    constexpr uint32_t k_a_step = 32;
+    for (uint32_t step = 0; step < k_substeps / k_a_step; ++step)
+    {
+        kept.step({.duration = k_a_step * k_substep, .substeps = k_a_step});
+        for (uint32_t i = 0; i < k_a_step; ++i)
+        {
+            fresh.forget_lists();
+            fresh.step({.duration = k_substep, .substeps = 1});
+        }
+        CHECK(difference(kept.positions(kept.id), fresh.positions(fresh.id)) <= rounding);
+        CHECK(difference(kept.velocities(kept.id), fresh.velocities(fresh.id)) <= rounding / k_substep);
+        const voile::Statistics now = kept.statistics();
+        most.contacts = std::max(most.contacts, now.contacts);
+        most.overflowing_vertices = std::max(most.overflowing_vertices, now.overflowing_vertices);
+    }
+    return most;
+}
+
+} // namespace
+
+TEST_CASE("lists of near triangles change no bit of what contact finds")
+{
+    const voile::Statistics most = compare({.thickness = 0.005f, .speed = 3, .rings = 48}, 0);
+    CHECK(most.contacts > 20);
+    CHECK(most.overflowing_vertices == 0);
+}
+
+TEST_CASE("where more triangles are near than a list holds, nothing is lost")
+{
+    // What traverses the hierarchy in every substep is a second instance of the same code; a compiler may round it in
+    // another order, and touch a substep earlier (an H200's: 5e-6 m).
+    const voile::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160}, 1e-5f);
+    CHECK(most.contacts > 20);
+    CHECK(most.overflowing_vertices > 0);
+}
+
+// Within the thickness lie hundreds of triangles, but few of them nearer than cloth at rest is: those a list can hold.
+TEST_CASE("cloth at rest that is far thicker than triangles are long has lists of them")
+{
+    voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 240); // edges of 4 mm and less
+    for (glm::vec3& p : ball.positions)
+        p = glm::vec3(p.y, p.z - 0.3f, p.x); // its poles, where slivers meet, aside
+    ClothHarness harness;
+    voile::GridCloth grid = tests::flat_sheet(24, 0.3f, 0.031f);
+    tests::fabric_of(grid).thickness = 0.03f;
+    (void)voile::engine::take(harness.solver.add_cloth(grid));
+    (void)voile::engine::take(harness.solver.add_collider(tests::collider(ball)));
+    harness.upload();
+    harness.step({}, 60);
+    const voile::Statistics statistics = harness.statistics();
+    CHECK(statistics.contacts > 100);
+    CHECK(statistics.candidates > statistics.contacts);
+    CHECK(statistics.overflowing_vertices == 0);
+}
+
+// The balls of all lists are to be as wide as the collider goes in a substep, then, and have thousands of triangles;
+// and the next larger float is farther than such lists tell distances apart.
+TEST_CASE("a collider that is carried off by hundreds of meters in a step leaves lists behind that come to an end")
+{
+    const voile::engine::Mesh lump = tests::lump_with_ears(160);
+    ClothHarness harness({.feature_contact = false, .recovery = false});
+    voile::GridCloth grid = tests::flat_sheet(24, 0.45f, -0.325f); // within the thickness, so that lists are narrow
+    tests::fabric_of(grid).thickness = 0.03f;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(tests::collider(lump)));
+    harness.upload();
+    const voile::Step still{.substeps = 10, .gravity = {0, 0, 0}};
+    harness.step(still);
+    CHECK(harness.statistics().candidates > 100);
+    for (const float x : {400.f, 400.01f})
+    {
+        REQUIRE(harness.solver.move_collider(with, tests::moved({x, 0, 0})));
+        harness.step(still);
+    }
+    const voile::Statistics after = harness.statistics();
+    CHECK(after.candidates == 0);
+    CHECK(after.nan_vertices == 0);
+    CHECK(std::abs(harness.positions(id)[0].x + 0.225f) < 0.05f); // it has not gone along
+}
+
+// The lists of cloth at rest are old, and were made for what is near by the thickness that it had.
+TEST_CASE("cloth at rest that becomes thicker rises by as much, on triangles that no list had")
+{
+    const voile::engine::Mesh lump = tests::lump_with_ears(96);
+    ClothHarness harness({.feature_contact = false});
+    voile::GridCloth grid = tests::flat_sheet(24, 0.35f, -0.29f);
+    grid.transform = tests::moved({0, -0.302f, 0});
+    voile::Fabric& fabric = tests::fabric_of(grid);
+    fabric.thickness = 0.004f;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    const voile::MeshCollider collider = tests::collider(lump);
+    (void)voile::engine::take(harness.solver.add_collider(collider));
+    harness.upload();
+    const voile::Step pressed{.gravity = {0, 9.81f, 0}}; // upwards, against the side without ears
+    harness.step(pressed, 15);
+    fabric.thickness = 0.0065f; // wider than a list's ball is
+    REQUIRE(harness.solver.set_material(id, fabric));
+    harness.step(pressed);
+    const voile::MeshDistance distance = voile::engine::take(voile::MeshDistance::create(collider));
+    double nearest = 1;
+    for (const glm::vec4& p : harness.positions(id))
+        nearest = std::min(nearest, distance.nearest(glm::dvec3(p)).signed_distance);
+    CHECK(nearest > 0.0065 - 1e-6);
+    CHECK(nearest < 0.0075);
+}

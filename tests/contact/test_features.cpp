@@ -1,0 +1,191 @@
+// Which edges and corners of colliders count as such: those that can stand between the vertices of a cloth, and no
+// others.
+#include "colliders/collider_features.hpp"
+#include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+#include "support/hard_shapes.hpp"
+
+#include "voile/engine/assets/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace
+{
+
+constexpr float k_thickness = 0.003f; // m
+constexpr float k_length = 1;         // m, of prisms, along z
+
+voile::engine::Mesh prism(double radius, uint32_t sides)
+{
+    constexpr double k_half = k_length / 2;
+    return tests::closed_cylinder(radius, -k_half, k_half, sides);
+}
+
+struct Count
+{
+    uint32_t along = 0;  // edges along z
+    uint32_t around = 0; // edges at an end
+    uint32_t corners = 0;
+};
+
+// For a cloth whose longest edges are 5 cm.
+Count count(const voile::engine::Mesh& mesh)
+{
+    voile::Model model;
+    voile::GridCloth sheet = tests::flat_sheet(21, std::numbers::sqrt2_v<float> / 2, 1);
+    tests::fabric_of(sheet).thickness = k_thickness;
+    REQUIRE(model.add(sheet));
+    REQUIRE(model.add(tests::collider(mesh)));
+    Count result;
+    for (const auto& feature : voile::find_features(model).features)
+    {
+        if (feature.a == feature.b)
+            ++result.corners;
+        else if (std::abs(feature.a.z - feature.b.z) > k_length / 2)
+            ++result.along;
+        else
+            ++result.around;
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("the flats of a cylinder are no edges, though they reach its rims")
+{
+    // Across 5 cm of it normals turn by 2.9 degrees on either side; 10.2 would count.
+    const Count found = count(prism(0.5, 64));
+    CHECK(found.along == 0);
+    CHECK(found.around == 2 * 64);
+    CHECK(found.corners > 64);
+}
+
+TEST_CASE("all edges of a thin rod stand out, however little each of them turns")
+{
+    const Count found = count(prism(0.01, 32)); // 11 degrees an edge
+    CHECK(found.along >= 32);
+    CHECK(found.corners >= 2);
+}
+
+TEST_CASE("the edges of a prism stand out where the angle is sharp, its flats' diagonals never")
+{
+    const Count found = count(prism(0.5, 6));
+    CHECK(found.along == 6);
+    CHECK(found.around == 2 * 6);
+    CHECK(found.corners == 2 * 6);
+}
+
+TEST_CASE("a round mesh has no features, a box of triangles has 12 edges and 8 corners")
+{
+    const Count ball = count(voile::engine::make_sphere({0, 0, 0}, 0.5f, 96));
+    CHECK(ball.along + ball.around + ball.corners == 0);
+    const Count box = count(voile::engine::make_box(glm::vec3(-0.5f), glm::vec3(0.5f)));
+    CHECK(box.along == 4);
+    CHECK(box.around == 8);
+    CHECK(box.corners == 8);
+}
+
+namespace
+{
+
+// A flat disc about the y axis, a fan of twelve triangles in its middle: more than there are threads for them.
+voile::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles)
+{
+    constexpr uint32_t k_sectors = 12;
+    constexpr uint32_t k_rings = 5;
+    const auto at = [](uint32_t ring, uint32_t sector)
+    { return ring == 0 ? 0 : 1 + (ring - 1) * k_sectors + sector % k_sectors; };
+    positions = {{0, 0, 0}};
+    for (uint32_t ring = 1; ring <= k_rings; ++ring)
+        for (uint32_t sector = 0; sector < k_sectors; ++sector)
+        {
+            const double angle = 0.1 + 2 * std::numbers::pi * sector / k_sectors;
+            positions.emplace_back(0.04 * ring * glm::dvec3(std::cos(angle), 0, std::sin(angle)));
+            triangles.emplace_back(at(ring - 1, sector), at(ring, sector + 1), at(ring, sector));
+            if (ring > 1)
+                triangles.emplace_back(at(ring - 1, sector), at(ring - 1, sector + 1), at(ring, sector + 1));
+        }
+    return {.positions = positions, .triangles = triangles};
+}
+
+// Cloth that falls at 2 m/s on two walls between its vertices, which cross; where it is after two frames.
+std::vector<glm::vec4> fall_on_walls(bool mesh, const voile::SolverOptions& options)
+{
+    tests::ClothHarness harness(options);
+    voile::GridCloth sheet = tests::flat_sheet(12, 0.44f, 0.01f); // vertices 4 cm apart
+    sheet.velocity = {0, -2, 0};
+    tests::fabric_of(sheet).thickness = k_thickness;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    voile::MeshCloth round = disc(positions, triangles);
+    round.transform = sheet.transform;
+    round.velocity = sheet.velocity;
+    round.material = sheet.material;
+    const voile::ClothId id = mesh ? voile::engine::take(harness.solver.add_cloth(round))
+                                   : voile::engine::take(harness.solver.add_cloth(sheet));
+    for (const glm::vec3& half : {glm::vec3(0.3f, 0.3f, 0.005f), glm::vec3(0.005f, 0.3f, 0.3f)})
+        (void)voile::engine::take(harness.solver.add_collider(
+            tests::collider(voile::engine::make_box({-half.x, -0.6f, -half.z}, {half.x, 0, half.z}))));
+    harness.upload();
+    harness.step({}, 2);
+    return harness.positions(id);
+}
+
+float farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    float result = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        result = std::max(result, glm::distance(glm::vec3(a[i]), glm::vec3(b[i])));
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("edges of a collider hold cloth alike, however many threads share what is around a vertex")
+{
+    for (const bool mesh : {false, true})
+    {
+        CAPTURE(mesh);
+        const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.feature_threads = 1});
+        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
+        for (const voile::SolverOptions& options : {voile::SolverOptions{.workgroup_size = 1, .feature_threads = 1},
+                                                    voile::SolverOptions{.workgroup_size = 2, .feature_threads = 2},
+                                                    voile::SolverOptions{.workgroup_size = 32, .feature_threads = 4},
+                                                    voile::SolverOptions{.workgroup_size = 128, .feature_threads = 8},
+                                                    voile::SolverOptions{.workgroup_size = 64, .feature_threads = 64}})
+        {
+            CAPTURE(options.workgroup_size);
+            CAPTURE(options.feature_threads);
+            CHECK(farthest(usual, fall_on_walls(mesh, options)) < 1e-4f);
+        }
+    }
+}
+
+TEST_CASE("enumerators of the options that do not exist are refused")
+{
+    const auto refused = [](const voile::SolverOptions& options)
+    {
+        const auto solver = voile::Solver::create(tests::device().context().handles, options);
+        return solver ? "accepted" : solver.error().message;
+    };
+    CHECK(refused({.contact_method = static_cast<voile::ContactMethod>(5)}) ==
+          "SolverOptions: contact_method is 5, must be normal_ray or nearest_point");
+    CHECK(refused({.mesh_layout = static_cast<voile::MeshLayout>(2)}) ==
+          "SolverOptions: mesh_layout is 2, must be compact or interleaved");
+}
+
+TEST_CASE("threads that share what is around a vertex are as many as a workgroup may have, and a power of two")
+{
+    for (const uint32_t threads : {3u, 128u})
+    {
+        const auto solver = voile::Solver::create(tests::device().context().handles,
+                                                  {.workgroup_size = 64, .feature_threads = threads});
+        REQUIRE(!solver);
+        CHECK(solver.error().message == "SolverOptions: feature_threads is " + std::to_string(threads) +
+                                            ", must be 0 or a power of two up to workgroup_size");
+    }
+}

@@ -1,0 +1,86 @@
+// What friction holds. How far it lets slide: test_contact and the physics report.
+#include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+
+#include "shared/cloth_layout.h"
+#include "voile/engine/assets/shapes.hpp"
+#include "voile/fabrics.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+
+TEST_CASE("friction holds stiff cloth on triangles")
+{
+    // 1.5 kN/m between vertices of 1.3e-4 N: an ulp of a coordinate pulls with a sixth of a vertex's weight. If held
+    // vertices wandered by ulps, the cloth would slip here and there, and creep 0.07 mm.
+    const voile::engine::Mesh ground = voile::engine::make_ground(0.5f);
+    const glm::mat4 tilt = glm::rotate(glm::mat4(1.f), glm::radians(-30.f), glm::vec3(0, 0, 1));
+    tests::ClothHarness harness;
+    voile::GridCloth grid;
+    grid.columns = grid.rows = 21;
+    grid.width = grid.depth = 0.2f;
+    grid.integrator = voile::Integrator::verlet;
+    grid.material = voile::Fabric{
+        .areal_density = 0.13f, .stretch_stiffness = {1500, 1500}, .static_friction = 0.8f, .kinetic_friction = 0.8f};
+    grid.transform = tilt;
+    grid.transform[3] = 0.005f * tilt[1] + glm::vec4(0, 0, 0, 1);
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    (void)voile::engine::take(
+        harness.solver.add_collider(voile::MeshCollider{.positions = ground.positions,
+                                                        .triangles = ground.triangles,
+                                                        .transform = glm::rotate(tilt, 0.4f, glm::vec3(0, 1, 0))}));
+    harness.upload();
+    harness.step({.duration = 0.02f});
+    const auto start = harness.positions(id);
+    harness.step({.duration = 0.02f}, 8);
+    const auto end = harness.positions(id);
+    float moved = 0;
+    for (size_t i = 0; i < start.size(); ++i)
+        moved = std::max(moved, glm::distance(glm::vec3(start[i]), glm::vec3(end[i])));
+    CHECK(moved < 1e-6f); // some ulps, where a vertex still gave way
+    float speed = 0;
+    for (const glm::vec4& v : harness.velocities(id))
+        speed = std::max(speed, glm::length(glm::vec3(v)));
+    CHECK(speed < 1e-3f); // what rests is told to rest: no kick of gravity and springs that contact has not answered
+}
+
+TEST_CASE("friction holds coarse cloth that a ball bears between its vertices")
+{
+    // Few of its vertices touch. Most belong to several triangles that lie on the ball. It crept by 2 mm/s and slid
+    // off.
+    for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
+    {
+        CAPTURE(integrator == voile::Integrator::verlet);
+        tests::ClothHarness harness;
+        voile::GridCloth silk;
+        silk.columns = 8;
+        silk.rows = 9;
+        silk.width = 0.8f;
+        silk.depth = 0.9f;
+        silk.material = voile::silk();
+        silk.integrator = integrator;
+        silk.transform = glm::rotate(tests::moved({0.05f, 0.9f, 0.03f}), 0.4f, glm::vec3(0, 1, 0));
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(silk));
+        (void)voile::engine::take(
+            harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.5f, 0}, .radius = 0.35f}));
+        harness.upload();
+        harness.step({}, 210);
+        const auto start = harness.positions(id);
+        harness.step({}, 60);
+        const auto end = harness.positions(id);
+        const auto velocities = harness.velocities(id);
+        double moved = 0;
+        int borne = 0;
+        for (size_t i = 0; i < end.size(); ++i)
+        {
+            if ((static_cast<uint32_t>(velocities[i].w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) == 0)
+                continue;
+            moved += static_cast<double>(glm::distance(glm::vec3(start[i]), glm::vec3(end[i])));
+            ++borne;
+        }
+        CHECK(borne > 20);
+        CHECK(moved < 3e-4 * borne); // m, in a second
+        MESSAGE("creep: ", moved / borne, " m/s");
+    }
+}

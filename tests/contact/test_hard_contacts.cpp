@@ -1,0 +1,156 @@
+// The hard cases of contact: cloth that is shot at thin, pointed and hollow things. Nothing may get to a wrong side at
+// any time, and what can rest must come to rest.
+#include "support/hard_shapes.hpp"
+#include "support/shots.hpp"
+
+#include <numbers>
+
+namespace
+{
+
+using tests::moved;
+using tests::Seen;
+using tests::Shot;
+using Scene = tests::ShotScene;
+using tests::edge_of_a_box;
+
+constexpr float k_thick = 0.003f; // cotton's
+constexpr float k_thin = 0.001f;
+const Shot k_shots[] = {
+    {64, 2, 5, k_thick, 12}, {64, 2, 20, k_thin, 8}, {64, 2, 60, k_thick, 6}, {64, 2, 60, k_thin, 6}};
+const Shot k_drop = {32, 1, 5, k_thick, 0, 1.225f};
+
+void shoot(const Scene& scene)
+{
+    for (const Shot& shot : k_shots)
+        (void)tests::shoot(scene, shot);
+}
+
+// `frames`: until what hangs has ceased to swing.
+void let_rest(const Scene& scene, uint32_t frames)
+{
+    CAPTURE(scene.name);
+    Shot drop = k_drop;
+    drop.frames = frames;
+    const Seen seen = tests::shoot(scene, drop);
+    // In a frame it goes less than what it may lie too deep.
+    CHECK(seen.speed * static_cast<double>(tests::k_shot_duration) < static_cast<double>(drop.thickness) / 10);
+    if (scene.top)
+        CHECK(seen.highest > static_cast<double>(*scene.top));
+    if (scene.apart_at_rest)
+        CHECK(seen.at_end.count() == 0);
+}
+
+Scene pair_of_triangles(const std::string& name, float width)
+{
+    return {.name = name,
+            .mesh = tests::triangle_pair(width),
+            .height = 0.15f,
+            .traced = true,
+            .top = 0.f,
+            .apart_when_slow = width < 0.1f,
+            .apart_at_rest = true};
+}
+
+Scene upright_needle()
+{
+    return {.name = "upright needle",
+            .mesh = tests::needle(0.5f, 0.02f),
+            .height = 0.65f,
+            .ground = true,
+            .traced = true,
+            .top = 0.5f};
+}
+
+Scene lying_needle()
+{
+    Scene scene{
+        .name = "lying needle", .mesh = tests::needle(1, 0.02f), .height = 0.45f, .ground = true, .traced = true};
+    tests::place(scene.mesh, glm::rotate(moved({0.5f, 0.3f, 0}), std::numbers::pi_v<float> / 2, glm::vec3(0, 0, 1)));
+    scene.top = 0.3f;
+    scene.apart_at_rest = true;
+    return scene;
+}
+
+Scene round_bowl()
+{
+    return {.name = "round bowl", .mesh = tests::round_bowl(1.6f), .height = 1, .focus = glm::dvec3(0, 1.6, 0)};
+}
+
+Scene corner()
+{
+    return {.name = "corner", .mesh = tests::corner_bowl(3.6f), .height = 2.05f, .focus = glm::dvec3(0, 2, 0)};
+}
+
+// What is watched for long need not be traced all the time.
+Scene at_length(Scene scene)
+{
+    scene.traced = false;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("cloth shot at two triangles, a square meter together")
+{
+    shoot(pair_of_triangles("square of 1 m", 1));
+}
+
+TEST_CASE("cloth shot at two triangles, a strip of 2 cm")
+{
+    shoot(pair_of_triangles("strip of 2 cm", 0.02f));
+}
+
+TEST_CASE("cloth shot at the point of a needle")
+{
+    shoot(upright_needle());
+}
+
+TEST_CASE("cloth shot at a needle that lies in its way")
+{
+    shoot(lying_needle());
+}
+
+TEST_CASE("cloth shot at the edge of a box of triangles")
+{
+    shoot(edge_of_a_box(false));
+}
+
+TEST_CASE("cloth shot at the edge of a box with a formula")
+{
+    shoot(edge_of_a_box(true));
+}
+
+TEST_CASE("cloth shot into a round bowl")
+{
+    shoot(round_bowl());
+}
+
+TEST_CASE("cloth shot into the corner of three squares")
+{
+    shoot(corner());
+}
+
+TEST_CASE("cloth comes to rest on two triangles")
+{
+    let_rest(pair_of_triangles("square of 1 m", 1), 120);
+}
+
+TEST_CASE("cloth comes to rest on a needle")
+{
+    Scene upright = upright_needle();
+    upright.top.reset(); // all of it hangs from one point, which can come through
+    let_rest(at_length(upright), 240);
+    let_rest(at_length(lying_needle()), 270);
+}
+
+TEST_CASE("cloth comes to rest on the edge of a box")
+{
+    let_rest(at_length(edge_of_a_box(false)), 400);
+}
+
+TEST_CASE("cloth comes to rest in a bowl")
+{
+    let_rest(round_bowl(), 90);
+    let_rest(corner(), 200);
+}

@@ -1,0 +1,418 @@
+// OBJ in and out.
+#include "voile/engine/assets/obj.hpp"
+
+#include "support/close_to.hpp"
+#include "support/mesh_checks.hpp"
+#include "support/test_folder.hpp"
+#include "voile/engine/assets/file.hpp"
+#include "voile/engine/assets/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace
+{
+
+const std::string k_triangle = "v 0 0 0\nv 0 0 1\nv 1 0 0\n";
+
+struct Loaded
+{
+    voile::engine::Mesh mesh;
+    voile::engine::MeshReport report;
+};
+
+Loaded load(const std::string& text)
+{
+    const TestFolder folder;
+    Loaded loaded;
+    auto mesh = voile::engine::load_obj(folder.write("a.obj", text), &loaded.report);
+    REQUIRE_MESSAGE(mesh, mesh.error().message);
+    loaded.mesh = std::move(mesh.value());
+    CHECK(loaded.mesh.normals.size() == loaded.mesh.positions.size());
+    CHECK(loaded.mesh.texture_coordinates.size() == loaded.mesh.positions.size());
+    return loaded;
+}
+
+// What loading says about the text, the file called FILE.
+std::string message(const std::string& text)
+{
+    const TestFolder folder;
+    const std::string path = folder.write("a.obj", text).string();
+    const auto mesh = voile::engine::load_obj(path);
+    if (mesh)
+        return "accepted";
+    const std::string& error = mesh.error().message;
+    CHECK(error.find('\n') == std::string::npos);
+    REQUIRE(error.starts_with(path));
+    return "FILE" + error.substr(path.size());
+}
+
+} // namespace
+
+TEST_CASE("a triangle")
+{
+    const Loaded loaded = load(k_triangle + "f 1 2 3\n");
+    CHECK(loaded.mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
+    CHECK(loaded.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}});
+    CHECK(loaded.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
+    CHECK(loaded.mesh.texture_coordinates == std::vector<glm::vec2>(3, {0, 0}));
+    CHECK(loaded.report.normals_computed);
+    CHECK(loaded.report.polygons_triangulated == 0);
+    CHECK(loaded.report.degenerate_triangles == 0);
+    CHECK(loaded.report.duplicate_triangles == 0);
+}
+
+TEST_CASE("polygons are cut, concave ones within their outline")
+{
+    const Loaded loaded = load("v 0 0 0\nv 1 0 3\nv 2 0 0\nv 1 0 1\n"            // a dart
+                               "v 5 0 0\nv 5 0 1\nv 6 0 1\nv 6 0 0\n"            // a square
+                               "v 8 0 0\nv 8 0 2\nv 9 0 3\nv 10 0 2\nv 10 0 0\n" // a house
+                               "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12 13\n");
+    CHECK(loaded.mesh.triangles.size() == 7);
+    CHECK(loaded.report.polygons_triangulated == 3);
+    CHECK(total_area(loaded.mesh) == tests::close_to(2. + 1. + 5., 1e-7)); // more if cut outside
+    CHECK(loaded.mesh.normals == std::vector<glm::vec3>(13, {0, 1, 0}));
+}
+
+TEST_CASE("a polygon of more corners than fit in a byte")
+{
+    constexpr int k_corners = 300;
+    std::string text;
+    std::string face = "f";
+    for (int i = 0; i < k_corners; ++i)
+    {
+        const double angle = -2. * 3.14159265358979 * i / k_corners;
+        text += "v " + std::to_string(std::cos(angle)) + " 0 " + std::to_string(std::sin(angle)) + "\n";
+        face += " " + std::to_string(i + 1);
+    }
+    const Loaded loaded = load(text + face + "\n");
+    CHECK(loaded.mesh.triangles.size() == k_corners - 2);
+    CHECK(total_area(loaded.mesh) == tests::close_to(3.14159, 3e-4));
+}
+
+TEST_CASE("negative indices count back from the line they stand on")
+{
+    const Loaded loaded = load(k_triangle + "f -3 -2 -1\nv 5 0 0\nv 5 0 1\nv 6 0 0\nf -3 -2 -1\n");
+    CHECK(loaded.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {3, 4, 5}});
+    CHECK(loaded.mesh.positions[4] == glm::vec3(5, 0, 1));
+}
+
+TEST_CASE("a face may refer to what comes later")
+{
+    CHECK(load("f 1 2 3\n" + k_triangle).mesh.triangles.size() == 1);
+}
+
+TEST_CASE("texture coordinates and normals, in all forms of a corner")
+{
+    const std::string lists = k_triangle + "vt 0.5 0.25\nvt 1 0\nvn 0 2 0\nvn 1 0 0\n";
+    const Loaded both = load(lists + "f 1/1/1 2/2/1 3/1/1\n");
+    CHECK_FALSE(both.report.normals_computed);
+    CHECK(both.mesh.texture_coordinates == std::vector<glm::vec2>{{0.5, 0.25}, {1, 0}, {0.5, 0.25}});
+    CHECK(both.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0})); // made unit length
+
+    const Loaded texture = load(lists + "f 1/1 2/2 3/-1\n");
+    CHECK(texture.report.normals_computed);
+    CHECK(texture.mesh.texture_coordinates == std::vector<glm::vec2>{{0.5, 0.25}, {1, 0}, {1, 0}});
+
+    const Loaded normal = load(lists + "f 1//2 2//2 3//-1\n");
+    CHECK_FALSE(normal.report.normals_computed);
+    CHECK(normal.mesh.normals == std::vector<glm::vec3>(3, {1, 0, 0}));
+    CHECK(normal.mesh.texture_coordinates == std::vector<glm::vec2>(3, {0, 0}));
+
+    // One corner without a normal, or with one that points nowhere: all are computed.
+    CHECK(load(lists + "f 1//2 2//2 3\n").mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
+    CHECK(load(lists + "vn 0 0 0\nf 1//2 2//2 3//3\n").mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
+}
+
+TEST_CASE("a normal too long for its square to be a float")
+{
+    const Loaded loaded = load(k_triangle + "vn 0 1e30 0\nf 1//1 2//1 3//1\n");
+    CHECK(loaded.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
+}
+
+TEST_CASE("a position with two texture coordinates becomes two vertices")
+{
+    const Loaded loaded = load(k_triangle + "v 1 0 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 3/2 2/2 4/2\n");
+    CHECK(loaded.mesh.positions.size() == 6);
+    CHECK(loaded.mesh.triangles.size() == 2);
+}
+
+TEST_CASE("positions that no triangle uses are left out")
+{
+    const Loaded loaded = load("v 9 9 9\n" + k_triangle + "f 2 3 4\n");
+    CHECK(loaded.mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
+}
+
+TEST_CASE(
+    "vertices by position: the file's own, in its order, whatever texture coordinates and normals the corners have")
+{
+    const TestFolder folder;
+    // Two triangles that share an edge but no texture coordinate and no normal; a vertex that nothing uses.
+    const std::string path =
+        folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                              "vn 0 1 0\nvn 0 0 1\nf 4/1/1 3/2/1 1/3/1\nf 1/1/2 5/2/2 4/3/2\n");
+    CHECK(voile::engine::load_obj(path).value().positions.size() == 6); // both corners of the edge twice
+    const auto mesh = voile::engine::load_obj(path, nullptr, voile::engine::MeshVertices::positions);
+    REQUIRE(mesh);
+    REQUIRE(mesh.value().positions.size() == 5);
+    CHECK(mesh.value().positions[1] == glm::vec3(9));
+    CHECK(mesh.value().positions[4] == glm::vec3(0, 0, 1));
+    CHECK(mesh.value().triangles[0] == glm::uvec3(3, 2, 0));
+    CHECK(mesh.value().triangles[1] == glm::uvec3(0, 4, 3));
+    CHECK(mesh.value().texture_coordinates[3] == glm::vec2(0, 0));
+    CHECK(std::abs(mesh.value().normals[0].y) == 1);
+}
+
+TEST_CASE("line ends, blanks, comments, continued lines, weights, colors, a byte order mark")
+{
+    const voile::engine::Mesh plain = load(k_triangle + "f 1 2 3\n").mesh;
+    for (const std::string& text : {
+             std::string("v 0 0 0\r\nv 0 0 1\r\nv 1 0 0\r\nf 1 2 3\r\n"),
+             std::string("v 0 0 0\rv 0 0 1\rv 1 0 0\rf 1 2 3\r"),
+             "\xEF\xBB\xBF" + k_triangle + "f 1 2 3", // and no line feed at the end
+             std::string("# C:\\models\\\n\n  v\t0 0   0 # first\nv 0 0 1 #\nv +1 -0 .0e1\n\nf 1 2 3 # all\n"),
+             std::string("v 0 \\\n0 0\nv 0 0 1\nv 1 0 0\nf 1 \\\r\n2 \\\n3\n"),
+             std::string("v 0 0 0 1\nv 0 0 1 0.5 0.5 0.5\nv 1 0 0 1 0 0 0\nf 1 2 3\n"),
+         })
+    {
+        CAPTURE(text);
+        const Loaded loaded = load(text);
+        CHECK(loaded.mesh.positions == plain.positions);
+        CHECK(loaded.mesh.triangles == plain.triangles);
+    }
+}
+
+TEST_CASE("objects and groups become one mesh, and what is no mesh is ignored")
+{
+    const Loaded loaded = load("mtllib gone.mtl\no one\n" + k_triangle +
+                               "g a b\nusemtl red\ns 1\nf 1 2 3\no two\ng\ns off\nv 1 0 1\nl 1 2\np 1\nf 3 2 4\n");
+    CHECK(loaded.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}});
+}
+
+TEST_CASE("degenerate and duplicate triangles are dropped and counted")
+{
+    const Loaded loaded = load(k_triangle + "v 0.5 0 0\nv 0 0 0\n"
+                                            "f 1 2 3\n"
+                                            "f 1 4 3\n" // in a line
+                                            "f 1 1 2\n" // a corner twice
+                                            "f 1 5 2\n" // two at one place
+                                            "f 2 3 1\n" // the first again
+                                            "f 3 2 1\n" // and turned over
+                                            "f 5 2 3\n" // and with a repeated position
+    );
+    CHECK(loaded.mesh.triangles.size() == 1);
+    CHECK(loaded.report.degenerate_triangles == 3);
+    CHECK(loaded.report.duplicate_triangles == 3);
+}
+
+TEST_CASE("a thin triangle is kept, one within rounding is not")
+{
+    CHECK(load("v 0 0 0\nv 1 0 0\nv 0.5 0.00001 0\nf 1 2 3\n").mesh.triangles.size() == 1);
+    CHECK(message("v 0 0 0\nv 1 0 0\nv 0.5 0.0000001 0\nf 1 2 3\n") == "FILE: no triangles left, all 1 are degenerate");
+    CHECK(load("v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n").mesh.triangles.size() == 1); // small is not thin
+}
+
+TEST_CASE("computed normals do not depend on how a flat face is cut")
+{
+    // A cube's corner: three faces, one of them cut in two at the corner.
+    const Loaded loaded =
+        load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 0\nv 1 0 1\nv 0 1 1\n"
+             "f 1 2 5\nf 1 5 3\nf 1 4 2\nf 4 6 2\nf 1 3 4\nf 3 7 4\n"); // xy has two triangles at 1, the others one
+    const glm::vec3 normal = loaded.mesh.normals[0];
+    CHECK(std::abs(normal.x) == tests::close_to(1. / std::sqrt(3.), 8e-8));
+    CHECK(std::abs(normal.y) == tests::close_to(std::abs(normal.x), 8e-8));
+    CHECK(std::abs(normal.z) == tests::close_to(std::abs(normal.x), 8e-8));
+}
+
+TEST_CASE("computed normals of a sphere are close to radial")
+{
+    // save_obj writes no normals; the seam's vertices see one side only, and the poles' a single triangle.
+    const TestFolder folder;
+    const uint32_t rings = 48;
+    REQUIRE(voile::engine::save_obj(folder / "a.obj", voile::engine::make_sphere({0, 0, 0}, 1.f, rings)));
+    voile::engine::MeshReport report;
+    const auto sphere = voile::engine::load_obj(folder / "a.obj", &report);
+    REQUIRE(sphere);
+    CHECK(report.normals_computed);
+    CHECK(report.degenerate_triangles == 0);
+    // A triangle's normal is off by half its size at most, which is pi / 48 across.
+    for (size_t i = 0; i < sphere.value().positions.size(); ++i)
+    {
+        const glm::vec3 p = sphere.value().positions[i];
+        const bool at_seam = p.x > 0 && std::abs(p.z) < 1e-3f;
+        const bool at_pole = std::abs(p.y) > 0.9999f;
+        REQUIRE(glm::dot(sphere.value().normals[i], p) > (at_seam || at_pole ? 0.998f : 0.99999f));
+    }
+}
+
+TEST_CASE("an error names the file, the line and the reason")
+{
+    CHECK(message(k_triangle + "v 1 2\nf 1 2 3\n") == "FILE:4: vertex has 2 coordinates, needs 3");
+    CHECK(message("v\n") == "FILE:1: vertex has 0 coordinates, needs 3");
+    CHECK(message("v 1 2 3 4 5\n") == "FILE:1: vertex has 5 numbers, needs 3, 4 with a weight or 6 with a color");
+    CHECK(message("v 1 2 3 4 5 6 7 8\n") == "FILE:1: vertex has 8 coordinates, needs 3");
+    CHECK(message("v 1 2 x\n") == "FILE:1: 'x' is not a number");
+    CHECK(message("v 1 2 3,5\n") == "FILE:1: '3,5' is not a number");
+    CHECK(message("v 1 2 +-3\n") == "FILE:1: '+-3' is not a number");
+    CHECK(message("v 1 2 0x3\n") == "FILE:1: '0x3' is not a number");
+    CHECK(message("v 1 2 1e\n") == "FILE:1: '1e' is not a number");
+    CHECK(message("\n\nv 1 2 nan\n") == "FILE:3: coordinate is not finite");
+    CHECK(message("v 1 -inf 2\n") == "FILE:1: coordinate is not finite");
+    CHECK(message("v 1 1e999 2\n") == "FILE:1: coordinate is not finite");
+    CHECK(message("v 1 1e39 2\n") == "FILE:1: coordinate is not finite"); // no float
+    CHECK(message("vt\n") == "FILE:1: texture coordinate has 0 coordinates, needs 1 to 3");
+    CHECK(message("vt 0 0 0 0\n") == "FILE:1: texture coordinate has 4 coordinates, needs 1 to 3");
+    CHECK(message("vn 1 0\n") == "FILE:1: normal has 2 coordinates, needs 3");
+    CHECK(message("v 1 \\\n2 \\\n3\nv 1 a\n") == "FILE:4: vertex has 2 coordinates, needs 3");
+    CHECK(message(k_triangle + "f 1 2\n") == "FILE:4: face has 2 corners, needs 3");
+    CHECK(message(k_triangle + "f 1 2 4\n") == "FILE:4: face refers to position 4 of 3");
+    CHECK(message(k_triangle + "f 0 1 2\n") == "FILE:4: face refers to position 0, indices start at 1");
+    CHECK(message(k_triangle + "f 1 2 -4\n") == "FILE:4: face refers to position -4 after only 3");
+    CHECK(message(k_triangle + "f 1/1 2/1 3/1\n") == "FILE:4: face refers to texture coordinate 1 of 0");
+    CHECK(message(k_triangle + "f 1//1 2//1 3//1\n") == "FILE:4: face refers to normal 1 of 0");
+    const std::string form = "' is not position[/texture coordinate][/normal]";
+    for (const char* corner : {"a", "1/", "1//", "1/2/3/4", "1.5", "/1", "99999999999999999999", "1 2 3/x"})
+    {
+        CAPTURE(corner);
+        CHECK(message(k_triangle + "vt 0 0\nvt 0 0\nvn 0 1 0\nvn 0 1 0\nvn 0 1 0\nf " + corner + " 2 3\n")
+                  .ends_with(form));
+    }
+    CHECK(message("v " + std::string(100, 'x') + " 0 0\n") ==
+          "FILE:1: '" + std::string(40, 'x') + "...' is not a number");
+    CHECK(message("v \x01 0 0\n") == "FILE:1: '?' is not a number");
+}
+
+TEST_CASE("the first faulty line is the one named")
+{
+    CHECK(message("v 0 0 x\nv 0 y 0\n") == "FILE:1: 'x' is not a number");
+}
+
+TEST_CASE("a number too small for a double is zero")
+{
+    CHECK(load("v 1e-999 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n").mesh.positions[0] == glm::vec3(0));
+}
+
+TEST_CASE("a file that holds no mesh")
+{
+    CHECK(message("") == "FILE: file is empty");
+    CHECK(message(" \r\n\t\n") == "FILE: file is empty");
+    CHECK(message("# nothing\n") == "FILE: no vertices");
+    CHECK(message(k_triangle) == "FILE: no faces");
+    CHECK(message(k_triangle + "f 1 1 2\nf 2 2 2\n") == "FILE: no triangles left, all 2 are degenerate");
+    CHECK(message(std::string("v 0\0 0 0\n", 9)) == "FILE: not a text file, byte 3 is zero");
+}
+
+TEST_CASE("a file cut off in the middle of a line")
+{
+    CHECK(message("v 0 0 0\nv 0 0 1\nv 1 0") == "FILE:3: vertex has 2 coordinates, needs 3");
+    CHECK(message(k_triangle + "f 1 2") == "FILE:4: face has 2 corners, needs 3");
+    CHECK(message(k_triangle + "f 1 2 3\nv 1 0 -") == "FILE:5: '-' is not a number");
+}
+
+TEST_CASE("a file that cannot be read is named with the system's reason")
+{
+    const TestFolder folder;
+    const std::string missing = (folder / "gone.obj").string();
+    CHECK(voile::engine::load_obj(missing).error().message == missing + ": cannot read: No such file or directory");
+    std::filesystem::create_directory(folder / "folder.obj");
+    const std::string directory = (folder / "folder.obj").string();
+    CHECK(voile::engine::load_obj(directory).error().message == directory + ": cannot read: Is a directory");
+}
+
+TEST_CASE("a mesh comes back from OBJ with every float and index as it was")
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-10.f, 10.f);
+    voile::engine::Mesh mesh;
+    for (uint32_t i = 0; i < 3000; i += 3)
+    {
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.positions.emplace_back(any(random), any(random) * 1e-3f, any(random));
+        mesh.triangles.emplace_back(i + 2, i, i + 1);
+    }
+    const TestFolder folder;
+    REQUIRE(voile::engine::save_obj(folder / "a.obj", mesh));
+    const auto loaded = voile::engine::load_obj(folder / "a.obj");
+    REQUIRE(loaded);
+    CHECK(loaded.value().positions == mesh.positions);
+    CHECK(loaded.value().triangles == mesh.triangles);
+}
+
+TEST_CASE("a mesh that makes no sense is not saved")
+{
+    const TestFolder folder;
+    const std::string path = (folder / "a.obj").string();
+    voile::engine::Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 3}};
+    CHECK(voile::engine::save_obj(path, mesh).error().message == path + ": triangle 0 refers to position 3 of 3");
+    mesh.triangles = {{0, 1, 2}};
+    mesh.positions[1].y = std::numeric_limits<float>::quiet_NaN();
+    CHECK(voile::engine::save_obj(path, mesh).error().message == path + ": position 1 is not finite");
+    CHECK(folder.is_empty());
+}
+
+TEST_CASE("a mesh that cannot be written leaves nothing behind")
+{
+    const TestFolder folder;
+    const voile::engine::Mesh mesh = voile::engine::make_ground(1.f);
+    const std::string nowhere = (folder / "gone/a.obj").string();
+    CHECK(voile::engine::save_obj(nowhere, mesh).error().message ==
+          nowhere + ": cannot be written: there is no folder " + (folder / "gone").string());
+    CHECK(folder.is_empty());
+
+    const std::string below_file = folder.write("file", "").string() + "/a.obj";
+    CHECK(voile::engine::save_obj(below_file, mesh).error().message ==
+          below_file + ": cannot be written: there is no folder " + (folder / "file").string());
+    std::filesystem::remove(folder / "file");
+
+    std::filesystem::create_directory(folder / "a.obj"); // in the way
+    const std::string taken = (folder / "a.obj").string();
+    CHECK(voile::engine::save_obj(taken, mesh).error().message == taken + ": cannot be written: it is a folder");
+    std::filesystem::remove(folder / "a.obj");
+    CHECK(folder.is_empty());
+}
+
+TEST_CASE("saving replaces the file and leaves nothing else")
+{
+    const TestFolder folder;
+    const std::string path = folder.write("a.obj", "old").string();
+    REQUIRE(voile::engine::save_obj(path, voile::engine::make_ground(1.f)));
+    CHECK(voile::engine::load_obj(path).ok());
+    std::filesystem::remove(path);
+    CHECK(folder.is_empty());
+}
+
+// VOILE_TEST_MESHES names a folder of OBJ files from elsewhere; without it there is nothing to test.
+TEST_CASE("meshes found in the wild load")
+{
+    const char* meshes = std::getenv("VOILE_TEST_MESHES");
+    if (meshes == nullptr)
+        return;
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(meshes))
+    {
+        if (entry.path().extension() != ".obj")
+            continue;
+        ++count;
+        CAPTURE(entry.path().string());
+        voile::engine::MeshReport report;
+        const auto mesh = voile::engine::load_obj(entry.path(), &report);
+        REQUIRE_MESSAGE(mesh, mesh.error().message);
+        MESSAGE(entry.path().filename().string(), ": ", mesh.value().positions.size(), " vertices, ",
+                mesh.value().triangles.size(), " triangles, ", report.polygons_triangulated, " polygons, ",
+                report.degenerate_triangles, " degenerate, ", report.duplicate_triangles, " duplicate");
+        CHECK(mesh.value().triangles.size() > 100);
+        for (const glm::vec3& normal : mesh.value().normals)
+            REQUIRE(glm::length(normal) == tests::close_to(1.f, 1e-5));
+        for (const glm::uvec3& t : mesh.value().triangles)
+            REQUIRE(std::max({t.x, t.y, t.z}) < mesh.value().positions.size());
+    }
+    CHECK(count > 0);
+}

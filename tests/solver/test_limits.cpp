@@ -1,0 +1,151 @@
+// Limits of devices: each is obeyed or refused with a line. What the test device does not limit is asked of a device
+// that is made up.
+#include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+
+#include "solver/kernels.hpp"
+
+#include <string>
+
+namespace
+{
+
+using tests::ClothHarness;
+using tests::reason;
+
+// The least that Vulkan asks of a device.
+VkPhysicalDeviceLimits least_limits()
+{
+    VkPhysicalDeviceLimits limits{};
+    limits.maxPushConstantsSize = 128;
+    limits.maxComputeSharedMemorySize = 16384;
+    limits.maxComputeWorkGroupInvocations = 128;
+    limits.maxComputeWorkGroupSize[0] = 128;
+    limits.maxComputeWorkGroupCount[0] = 65535;
+    limits.maxPerStageDescriptorStorageBuffers = 4;
+    limits.maxDescriptorSetStorageBuffers = 24;
+    limits.maxPerStageResources = 128;
+    return limits;
+}
+
+// All that the solver asks for, and the rest at the least.
+VkPhysicalDeviceLimits required_limits()
+{
+    VkPhysicalDeviceLimits limits = least_limits();
+    limits.maxPerStageDescriptorStorageBuffers = voile::requirements().storage_buffers;
+    return limits;
+}
+
+} // namespace
+
+TEST_CASE("a device that has what requirements() lists is enough for the default options")
+{
+    CHECK(reason(voile::check_limits(required_limits(), {})) == "accepted");
+    // And it is no more than what is needed.
+    VkPhysicalDeviceLimits limits = required_limits();
+    --limits.maxPerStageDescriptorStorageBuffers;
+    const std::string most = std::to_string(voile::requirements().storage_buffers);
+    CHECK(reason(voile::check_limits(limits, {})) ==
+          "kernel \"cloth contact\" binds " + most + " storage buffers, the device allows " +
+              std::to_string(voile::requirements().storage_buffers - 1) + " per stage");
+}
+
+namespace
+{
+
+PFN_vkGetInstanceProcAddr the_loaders = nullptr;
+int asked = 0;
+
+PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)
+{
+    ++asked;
+    return the_loaders(instance, name);
+}
+
+} // namespace
+
+TEST_CASE("each solver finds its functions by what it was given, whatever one before it was given")
+{
+    voile::gpu::Handles handles = tests::device().context().handles;
+    the_loaders = handles.get_instance_proc_addr;
+    REQUIRE(voile::Solver::create(handles, {}));
+    handles.get_instance_proc_addr = counting;
+    REQUIRE(voile::Solver::create(handles, {}));
+    CHECK(asked > 0);
+    const auto context = voile::gpu::create_context(handles);
+    REQUIRE(context);
+    CHECK((context.value().fn.vkCmdDispatch != nullptr));
+}
+
+TEST_CASE("each limit of a device has its line")
+{
+    const auto refused = [](const auto& lower, const voile::SolverOptions& options = {})
+    {
+        VkPhysicalDeviceLimits limits = required_limits();
+        lower(limits);
+        return reason(voile::check_limits(limits, options));
+    };
+    CHECK(refused([](auto& limits) { limits.maxPerStageDescriptorStorageBuffers = 4; })
+              .ends_with("storage buffers, the device allows 4 per stage"));
+    CHECK(refused([](auto& limits) { limits.maxDescriptorSetStorageBuffers = 8; })
+              .ends_with("storage buffers, the device allows 8 per set"));
+    CHECK(refused([](auto& limits) { limits.maxPerStageResources = 9; })
+              .ends_with("storage buffers, the device allows 9 resources per stage"));
+    CHECK(refused([](auto& limits) { limits.maxPushConstantsSize = 16; })
+              .ends_with("bytes of push constants, the device has 16"));
+    CHECK(
+        refused([](auto&) {}, {.workgroup_size = 256}).ends_with("has a workgroup of 256, the device allows 1 to 128"));
+    // 48 bytes per invocation.
+    CHECK(refused([](auto& limits) { limits.maxComputeSharedMemorySize = 6143; }) ==
+          "kernel \"cloth feature contact\" takes 6144 bytes of shared memory with a workgroup of 128, the device has "
+          "6143");
+    const auto large = [](auto& limits)
+    { limits.maxComputeWorkGroupInvocations = limits.maxComputeWorkGroupSize[0] = 1024; };
+    CHECK(refused(large, {.workgroup_size = 256}) == "accepted");
+    CHECK(refused(large, {.workgroup_size = 512}).find(" bytes of shared memory") != std::string::npos);
+}
+
+TEST_CASE("every workgroup size works without a validation message or is refused with a line")
+{
+    const VkPhysicalDeviceLimits& limits = tests::device().context().limits;
+    for (const uint32_t size : {1u, 512u, 1024u, 2048u})
+    {
+        CAPTURE(size);
+        const tests::GpuFixture fixture; // which fails on a message
+        const voile::SolverOptions options{.workgroup_size = size};
+        const auto solver = voile::Solver::create(tests::device().context().handles, options);
+        CHECK(reason(solver) == reason(voile::check_limits(limits, options)));
+        if (size <= 128)
+            CHECK(solver.ok());
+        if (uint64_t{48} * size > limits.maxComputeSharedMemorySize || size > limits.maxComputeWorkGroupInvocations)
+            CHECK_FALSE(solver.ok());
+    }
+}
+
+TEST_CASE("more workgroups than a dispatch may have are refused when they are added")
+{
+    const uint32_t most = tests::device().context().limits.maxComputeWorkGroupCount[0];
+    if (most > 1'000'000)
+        return; // no sheet of the test's size reaches it
+    ClothHarness harness({.workgroup_size = 1});
+    voile::GridCloth grid = tests::flat_sheet(2, 1, 0);
+    grid.columns = 256;
+    grid.rows = (most + 1) / 256;
+    CHECK(reason(harness.solver.add_cloth(grid)) ==
+          "cloth \"cloth\": with it the solver has 65536 workgroups of 1, the device dispatches at most 65535; a "
+          "larger SolverOptions::workgroup_size needs fewer");
+    CHECK(harness.solver.vertex_count() == 0);
+    --grid.rows;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    CHECK(reason(harness.solver.add_cloth(tests::flat_sheet(16, 1, 0))).find("65536 workgroups") != std::string::npos);
+    // A deforming mesh's vertices take a dispatch of their own.
+    std::vector<glm::vec3> positions(most + 1);
+    positions[1] = {1, 0, 0};
+    positions[2] = {0, 0, 1};
+    const std::vector<glm::uvec3> triangle{{0, 1, 2}};
+    const voile::MeshCollider mesh{.positions = positions, .triangles = triangle, .deforms = true};
+    CHECK(reason(harness.solver.add_collider(mesh)) ==
+          "collider \"mesh\": its vertices need 65536 workgroups of 1, the device dispatches at most 65535; a larger "
+          "SolverOptions::workgroup_size needs fewer");
+    CHECK(harness.solver.vertices(id).vertices == 0); // and nothing is uploaded
+}

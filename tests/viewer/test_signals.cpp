@@ -1,0 +1,145 @@
+// The viewer is asked to end, at any time: nothing unfinished stays, nothing complete is lost.
+#include "viewer/viewer_process.hpp"
+
+#include <doctest/doctest.h>
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using tests::Ending;
+using tests::ViewerProcess;
+
+const std::vector<std::string> k_endless = {"reference", "--headless", "--frames",           "100000000",
+                                            "--size",    "64x36",      "--cloth-resolution", "16"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more)
+{
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+std::vector<fs::path> unfinished(const TestFolder& folder)
+{
+    std::vector<fs::path> result;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+        if (entry.path().extension() == ".part")
+            result.push_back(entry.path());
+    return result;
+}
+
+bool has_ffmpeg()
+{
+    return std::system("ffmpeg -version >/dev/null 2>&1") == 0;
+}
+
+} // namespace
+
+TEST_CASE("a run that a signal ends leaves no unfinished file, and what was complete before")
+{
+    for (const int signal : {SIGHUP, SIGINT, SIGTERM})
+    {
+        CAPTURE(signal);
+        const TestFolder folder;
+        folder.write("c.pc2", "complete");
+        folder.write("f.mp4", "complete");
+        std::vector<std::string> arguments =
+            with(k_endless, {"--export", (folder / "c.pc2").string(), "--out", (folder / "frames").string()});
+        const bool film = has_ffmpeg();
+        if (film)
+            arguments = with(arguments, {"--video", (folder / "f.mp4").string()});
+        ViewerProcess viewer(arguments);
+        // Both files are begun, and frames come.
+        const auto is_running = [&]
+        { return unfinished(folder).size() >= (film ? 2u : 1u) && fs::exists(folder / "frames/frame_0003.png"); };
+        REQUIRE(ViewerProcess::wait_until(is_running));
+        viewer.send(signal);
+        const Ending ending = viewer.wait();
+        CHECK(ending.signal == signal);
+        CHECK(ending.errors.find("viewer: interrupted by SIG") != std::string::npos);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50)); // an encoder that lives on would write
+        CHECK(unfinished(folder).empty());
+        CHECK(folder.read("c.pc2") == "complete");
+        CHECK(folder.read("f.mp4") == "complete");
+    }
+}
+
+TEST_CASE("a limit of the file size is an error like a full disk")
+{
+    const TestFolder folder;
+    folder.write("c.pc2", "complete");
+    const auto limited = []
+    {
+        const rlimit bytes{100'000, 100'000};
+        ::setrlimit(RLIMIT_FSIZE, &bytes);
+    };
+    ViewerProcess viewer(with(k_endless, {"--export", (folder / "c.pc2").string()}), limited);
+    const Ending ending = viewer.wait();
+    CHECK(ending.exit_code == 1);
+    CHECK(ending.errors.find("c.pc2: cannot be written: File too large") != std::string::npos);
+    CHECK(unfinished(folder).empty());
+    CHECK(folder.read("c.pc2") == "complete");
+}
+
+TEST_CASE("a terminal that went away does not end a run")
+{
+    const TestFolder folder;
+    const auto broken = []
+    {
+        int ends[2];
+        if (::pipe(ends) != 0)
+            ::_exit(126);
+        ::close(ends[0]);
+        ::dup2(ends[1], STDERR_FILENO);
+        ::dup2(ends[1], STDOUT_FILENO);
+    };
+    ViewerProcess viewer({"reference", "--headless", "--frames", "20", "--size", "64x36", "--cloth-resolution", "16",
+                          "--stats", (folder / "s.json").string(), "--export", (folder / "c.pc2").string()},
+                         broken);
+    const Ending ending = viewer.wait();
+    CHECK(ending.signal == 0);
+    CHECK(ending.exit_code == 0);
+    CHECK(fs::file_size(folder / "c.pc2") == 32 + 20 * 16 * 16 * 12);
+    CHECK(fs::exists(folder / "s.json"));
+    CHECK(unfinished(folder).empty());
+}
+
+TEST_CASE("a pipe in place of a scene or a mesh keeps no signal waiting, and is refused")
+{
+    const TestFolder folder;
+    const std::string fifo = (folder / "pipe.obj").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{fifo, "--headless"}, {"reference", "--headless", "--collider", fifo}})
+    {
+        ViewerProcess viewer(arguments);
+        const Ending ending = viewer.wait();
+        CHECK(ending.exit_code == 1);
+        CHECK(ending.errors == "viewer: " + fifo + ": cannot read: not a regular file\n");
+    }
+    // Where the viewer does wait for somebody else, signals end it: a pipe as a target has no reader.
+    ViewerProcess viewer({"reference", "--headless", "--frames", "1", "--stats", fifo});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    viewer.send(SIGINT);
+    CHECK(viewer.wait().signal == SIGINT);
+}
+
+TEST_CASE("signals that are ignored stay so, as nohup needs it")
+{
+    const TestFolder folder;
+    ViewerProcess viewer({"reference", "--headless", "--frames", "30", "--size", "64x36", "--cloth-resolution", "16",
+                          "--export", (folder / "c.pc2").string()},
+                         [] { ::signal(SIGHUP, SIG_IGN); });
+    REQUIRE(ViewerProcess::wait_until([&] { return !unfinished(folder).empty(); }));
+    viewer.send(SIGHUP);
+    CHECK(viewer.wait().exit_code == 0);
+    CHECK(fs::exists(folder / "c.pc2"));
+}

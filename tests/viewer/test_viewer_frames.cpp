@@ -1,0 +1,197 @@
+// Meshes that deform in scene files: they carry cloth, are placed and drawn as they are at each frame's end, and what
+// cannot be used is refused.
+#include "viewer/viewer_scenes.hpp"
+
+#include "voile/engine/assets/obj.hpp"
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using tests::check_refused;
+using tests::differing;
+using tests::Run;
+using tests::run_viewer;
+using tests::scene;
+using tests::SceneResult;
+using tests::SceneRuns;
+
+// A square sheet of 1 m, flat at a height of 0.3 m and raised to a dome by `amount`: 0.3 m in its middle, none at its
+// corners.
+voile::engine::Mesh dome(float amount)
+{
+    constexpr uint32_t k_side = 17; // vertices
+    voile::engine::Mesh mesh;
+    for (uint32_t row = 0; row < k_side; ++row)
+        for (uint32_t column = 0; column < k_side; ++column)
+        {
+            const glm::vec2 p = glm::vec2(column, row) / float{k_side - 1} - 0.5f;
+            mesh.positions.emplace_back(p.x, 0.3f + amount * (0.3f - 0.6f * glm::dot(p, p)), p.y);
+        }
+    for (uint32_t row = 0; row + 1 < k_side; ++row)
+        for (uint32_t column = 0; column + 1 < k_side; ++column)
+        {
+            const uint32_t i = row * k_side + column;
+            mesh.triangles.emplace_back(i, i + k_side, i + 1);
+            mesh.triangles.emplace_back(i + 1, i + k_side, i + k_side + 1);
+        }
+    return mesh;
+}
+
+voile::engine::Mesh moved(voile::engine::Mesh mesh, float scale, const glm::vec3& by)
+{
+    for (glm::vec3& p : mesh.positions)
+        p = scale * p + by;
+    return mesh;
+}
+
+void save(const SceneRuns& runs, const std::string& name, const voile::engine::Mesh& mesh)
+{
+    voile::engine::take(voile::engine::save_obj(runs.folder() / name, mesh));
+}
+
+} // namespace
+
+TEST_CASE("a sheet that rises lifts the cloth on it, and the exact checks know where it is")
+{
+    SceneRuns runs;
+    save(runs, "dome_0.obj", dome(0));
+    save(runs, "dome_1.obj", dome(1));
+    // Up in half a second, then at rest. The cloth starts 5 cm above the sheet, below what becomes of its middle.
+    const std::string text = scene(R"({"frames": "dome_%d.obj", "rate": 2, "friction": 0.8})", "", 0.35f);
+    const SceneResult flat = runs.run(scene(R"({"mesh": "dome_0.obj"})", "", 0.35f), 40);
+    const SceneResult lifted = runs.run(text, 40);
+    CHECK(bounds(flat).max.y < 0.32f);
+    CHECK(bounds(lifted).max.y > 0.58f);
+    CHECK(bounds(lifted).min.y > 0.45f);
+    CHECK(lifted.deepest < 1e-5);
+    // The solver's own statistics know it too, and the run is the same to the bit.
+    const SceneResult again = runs.run(text, 40, "--validate");
+    CHECK(again.deepest < 1e-5);
+    CHECK(again.hash == lifted.hash);
+    // Cloth that does not meet the sheet of its layer would be seen: one of no layer falls, and is not held against it.
+    const SceneResult through =
+        runs.run(scene(R"({"frames": "dome_%d.obj", "rate": 2})", R"(, "layers": [])", 0.35f), 30);
+    CHECK(bounds(through).max.y < 0.1f);
+}
+
+TEST_CASE("a transform and a rigid motion place all frames")
+{
+    SceneRuns runs;
+    for (const int i : {0, 1})
+    {
+        const std::string number = std::to_string(i) + ".obj";
+        const voile::engine::Mesh mesh = dome(static_cast<float>(i));
+        save(runs, "dome_" + number, mesh);
+        save(runs, "half_" + number, moved(mesh, 0.5f, glm::vec3(0)));
+        save(runs, "fall_" + number, moved(mesh, 1, glm::vec3(0.05f, -0.1f, 0) * static_cast<float>(i)));
+    }
+    const auto run = [&](const std::string& collider) { return runs.run(scene(collider, "", 0.35f), 15); };
+    const SceneResult plain = run(R"({"frames": "dome_%d.obj", "rate": 2})");
+    CHECK(plain.deepest < 1e-5);
+    CHECK(run(R"({"frames": "half_%d.obj", "rate": 2, "transform": {"scale": 2}})").hash == plain.hash);
+    // Within `motion` too; a mesh of its faces may stand beside it and changes nothing.
+    CHECK(run(R"({"mesh": "half_1.obj", "motion": {"frames": "dome_%d.obj", "rate": 2}})").hash == plain.hash);
+
+    const SceneResult both = run(R"({"frames": "dome_%d.obj", "rate": 2, "motion": {"velocity": [0.1, -0.2, 0]}})");
+    const SceneResult baked = run(R"({"frames": "fall_%d.obj", "rate": 2})");
+    CHECK(both.deepest < 1e-5);
+    CHECK(bounds(both).max.y < bounds(plain).max.y - 0.03f);
+    double apart = 0;
+    for (size_t i = 0; i < both.cloth.positions.size(); ++i)
+        apart = std::max(apart, double{glm::distance(both.cloth.positions[i], baked.cloth.positions[i])});
+    CHECK(apart < 1e-3); // roundings grow from contact to contact
+}
+
+TEST_CASE("a mesh that deforms is drawn, with its normals, as it is at the frame's end")
+{
+    SceneRuns runs;
+    save(runs, "dome_0.obj", dome(0));
+    save(runs, "dome_1.obj", dome(1));
+    save(runs, "end.obj", moved(dome(1), 1, {0.5f, 0, 0}));
+    // The cloth hangs out of the way.
+    const auto picture = [&](const std::string& collider, uint32_t frame, const std::string& options = "")
+    {
+        return runs.picture(
+            scene(collider + R"(, {"plane": {"y": 0}})", R"(, "pins": ["edge:top", "edge:bottom"])", 1.2f), frame,
+            options);
+    };
+    for (const uint32_t frame : {20u, 21u}) // of both frames in flight
+    {
+        CAPTURE(frame);
+        save(runs, "there.obj", dome(static_cast<float>(frame + 1) / 30));
+        const voile::engine::Picture now = picture(R"({"frames": "dome_%d.obj", "rate": 2})", frame, "--validate");
+        CHECK(differing(now, picture(R"({"mesh": "there.obj"})", frame), 3) < 20); // so that shading counts
+        CHECK(differing(now, picture(R"({"mesh": "dome_0.obj"})", frame)) > 300);
+    }
+    // At rest since frame 9, and moved 0.5 m.
+    for (const uint32_t frame : {39u, 40u})
+    {
+        CAPTURE(frame);
+        const std::string velocity = std::to_string(30. / (frame + 1));
+        const voile::engine::Picture rest =
+            picture(R"({"frames": "dome_%d.obj", "rate": 6, "motion": {"velocity": [)" + velocity + ", 0, 0]}}", frame);
+        CHECK(differing(rest, picture(R"({"mesh": "end.obj"})", frame)) < 60); // the shadow map covers more
+    }
+}
+
+TEST_CASE("--debug, --export and --collider know meshes that deform")
+{
+    SceneRuns runs;
+    save(runs, "dome_0.obj", dome(0));
+    save(runs, "dome_1.obj", dome(1));
+    save(runs, "plate.obj", dome(0));
+    const std::string text = scene(R"({"frames": "dome_%d.obj", "rate": 4})", "", 0.35f);
+    const fs::path file = runs.folder().write("d.json", text);
+    const std::string base = file.string() + " --headless --size 64x36 --frames 12 --validate --verify ";
+    const Run boxes = run_viewer(base + "--debug boxes --debug contacts --debug normals");
+    CAPTURE(boxes.errors);
+    CHECK(boxes.exit_code == 0);
+    CHECK(boxes.errors.find("note: collider \"dome_%d\" deforms: its boxes are on the GPU alone") != std::string::npos);
+    CHECK(boxes.output.find("verified: 0 penetrating vertices") != std::string::npos);
+
+    const Run cache = run_viewer(base + "--export " + (runs.folder() / "c.pc2").string());
+    CHECK(cache.exit_code == 0);
+    CHECK(fs::file_size(runs.folder() / "c.pc2") == 32 + 12 * 12 * 12 * 12);
+    // In its place a mesh that keeps its shape: no note.
+    const Run replaced = run_viewer(base + "--debug boxes --collider " + (runs.folder() / "plate.obj").string());
+    CHECK(replaced.exit_code == 0);
+    CHECK(replaced.errors.find("note:") == std::string::npos);
+}
+
+TEST_CASE("the jelly scene runs at a coarse resolution, and its cloth stays outside")
+{
+    const Run run = run_viewer("jelly --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("verified: 0 penetrating vertices") != std::string::npos);
+}
+
+TEST_CASE("a sequence that cannot be used is named with the scene's line and the file")
+{
+    const TestFolder folder;
+    const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\n";
+    const std::string faces = "f 1 3 2\nf 1 4 3\n";
+    const auto refused = [&](const std::string& collider, const std::vector<std::string>& parts)
+    {
+        const fs::path file = folder.write("s.json", scene(collider));
+        check_refused(run_viewer(file.string() + " --headless --frames 1 --size 64x36"), parts);
+    };
+    const std::string frames = R"({"frames": "w%d.obj", "rate": 30})";
+    refused(R"({"frames": "walk.obj"})", {"s.json:3: colliders[0].frames", "walk.obj", "%d"});
+    refused(frames, {"s.json:3: colliders[0].frames: ", "w%d.obj: there is no frame 0 and no frame 1"});
+    folder.write("w0.obj", quad + faces);
+    folder.write("w2.obj", quad + faces);
+    refused(frames, {"s.json:3: colliders[0].frames: ", "w1.obj is missing, but w2.obj is there"});
+    folder.write("w1.obj", quad + "v 2 0 0\n" + faces);
+    refused(frames, {"s.json:3: colliders[0].frames: ", "w1.obj: has 5 vertices, but the first has 4 (w0.obj)"});
+    folder.write("w1.obj", quad + "f 1 3 2\nf 1 4 2\n");
+    refused(frames, {"s.json:3: colliders[0].frames: ", "w1.obj: joins vertices 0 3 1", "the first joins 0 3 2"});
+    folder.write("w1.obj", quad + "f 1 3 2\nf 1 4 9\n");
+    refused(R"({"plane": {"y": 0}}, )" + frames, {"s.json:3: colliders[1].frames: ", "w1.obj:6"});
+    folder.write("w1.obj", quad + faces);
+    folder.write("rest.obj", quad + "v 2 0 0\n" + faces);
+    refused(R"({"mesh": "rest.obj", "frames": "w%d.obj"})",
+            {"s.json:3: colliders[0].frames: ", "rest.obj: has 5 vertices, but the first has 4 (w0.obj)"});
+    refused(R"({"mesh": "gone.obj", "frames": "w%d.obj"})", {"s.json:3: colliders[0].mesh: ", "gone.obj"});
+}

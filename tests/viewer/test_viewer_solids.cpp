@@ -1,0 +1,187 @@
+// Solids of scene files in a run: where their transforms put them, how they move, which cloth they meet, and that the
+// picture and the exact checks know it.
+#include "support/close_to.hpp"
+#include "viewer/viewer_scenes.hpp"
+
+#include "voile/engine/assets/obj.hpp"
+#include "voile/engine/assets/shapes.hpp"
+
+#include <array>
+
+namespace
+{
+
+using tests::check_refused;
+using tests::differing;
+using tests::Run;
+using tests::run_viewer;
+using tests::scene;
+using tests::SceneResult;
+using tests::SceneRuns;
+
+} // namespace
+
+TEST_CASE("a transform scales and places every shape")
+{
+    SceneRuns runs;
+    // The same solid written in two ways, in numbers that floats hold exactly.
+    const std::array<std::array<const char*, 2>, 4> pairs{{
+        {R"({"sphere": {"center": [0, 0.25, 0], "radius": 0.25}})",
+         R"({"sphere": {"center": [0, 0, 0], "radius": 0.125}, "transform": {"scale": 2, "translate": [0, 0.25, 0]}})"},
+        {R"({"capsule": {"from": [-0.25, 0.25, 0], "to": [0.25, 0.25, 0], "radius": 0.25}})",
+         R"({"capsule": {"from": [-0.5, 0, 0], "to": [0.5, 0, 0], "radius": 0.5},
+             "transform": {"scale": 0.5, "translate": [0, 0.25, 0]}})"},
+        {R"({"box": {"min": [-0.25, 0, -0.25], "max": [0.25, 0.5, 0.25]}})",
+         R"({"box": {"min": [-0.5, 0, -0.5], "max": [0.5, 1, 0.5]}, "transform": {"scale": 0.5}})"},
+        {R"({"plane": {"y": 0.5}})",
+         R"({"plane": {"y": 0.125}, "transform": {"scale": 2, "translate": [3, 0.25, 1]}})"},
+    }};
+    for (const auto& pair : pairs)
+    {
+        CAPTURE(pair[0]);
+        const SceneResult first = runs.run(scene(pair[0]), 30);
+        CHECK(first.hash == runs.run(scene(pair[1]), 30).hash);
+        CHECK(first.deepest < 1e-5);
+        CHECK(bounds(first).max.y > 0.45f); // it lies on it
+    }
+    // A tilted plane lets cloth slide down along its slope, a turned box carries it on its edge.
+    const SceneResult slope = runs.run(
+        scene(R"({"plane": {"y": 0}, "friction": 0, "transform": {"rotate": [0, 0, -30], "translate": [0, 0.2, 0]}})"),
+        60);
+    CHECK(bounds(slope).min.x > 0.2f);
+    CHECK(slope.deepest < 1e-5);
+    const SceneResult edge = runs.run(scene(R"({"box": {"min": [-0.2, -0.2, -0.5], "max": [0.2, 0.2, 0.5]},
+                                           "transform": {"rotate": [0, 0, 45], "translate": [0, 0.25, 0]}})"),
+                                      30);
+    CHECK(bounds(edge).max.y == tests::close_to(0.25 + 0.2 * std::sqrt(2), 0.02));
+    CHECK(edge.deepest < 1e-5);
+}
+
+TEST_CASE("solids move, and the exact checks hold cloth against where they are")
+{
+    SceneRuns runs;
+    const std::string lift = R"("motion": {"velocity": [0, -0.45, 0], "spin": [0, 20, 0]}})";
+    for (const std::string shape :
+         {R"({"plane": {"y": 0.5}, )", R"({"box": {"min": [-1, 0, -1], "max": [1, 0.5, 1]}, )",
+          R"({"capsule": {"from": [-0.3, 0.25, 0], "to": [0.3, 0.25, 0], "radius": 0.25}, )",
+          R"({"sphere": {"center": [0, 0.25, 0], "radius": 0.25}, )", R"({"mesh": "ball.obj", )"})
+    {
+        CAPTURE(shape);
+        voile::engine::take(
+            voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
+        const SceneResult result = runs.run(scene(shape + lift), 40);
+        // It has sunk 0.3 m: at the place of time 0 nearly all of the cloth would be inside.
+        CHECK(bounds(result).max.y == tests::close_to(0.202, 0.03)); // the fabric's thickness above; measured: 0.2037
+        CHECK(result.deepest < 1e-5);
+        if (shape.find("mesh") != std::string::npos)
+            CHECK(runs.run(scene(shape + lift), 40, "").deepest < 1e-5);
+    }
+    check_refused(
+        run_viewer(
+            runs.folder().write("s.json", scene(R"({"plane": {"y": 0}, "motion": {"spin": [0, 10800, 0]}})")).string() +
+            " --headless --frames 1"),
+        {"s.json:3: ", "half a turn per frame"});
+}
+
+TEST_CASE("a solid is drawn where it is at the frame's end")
+{
+    SceneRuns runs;
+    // The cloth hangs out of the way. After 31 frames at 1.2 m/s the ball has gone 0.62 m.
+    const auto with = [](const std::string& ball)
+    { return scene(ball, R"(, "pins": ["edge:top", "edge:bottom"])", 1.2f); };
+    const auto moved = runs.picture(
+        with(R"({"sphere": {"center": [-0.3, 0.3, 0], "radius": 0.2}, "motion": {"velocity": [1.2, 0, 0]}})"), 30);
+    const auto there = runs.picture(with(R"({"sphere": {"center": [0.32, 0.3, 0], "radius": 0.2}})"), 30);
+    const auto start = runs.picture(with(R"({"sphere": {"center": [-0.3, 0.3, 0], "radius": 0.2}})"), 30);
+    CHECK(differing(moved, start) > 500);
+    CHECK(differing(moved, there) < 60);
+    // A turn about a pivot aside, of a capsule: half a turn in 30 frames and one.
+    const auto turned = runs.picture(with(R"({"capsule": {"from": [-0.5, 0.1, 0], "to": [-0.5, 0.5, 0], "radius": 0.1},
+                 "motion": {"spin": [0, 0, 348.3871], "pivot": [0, 0.5, 0]}})"),
+                                     30);
+    const auto opposite =
+        runs.picture(with(R"({"capsule": {"from": [0.5, 0.9, 0], "to": [0.5, 0.5, 0], "radius": 0.1}})"), 30);
+    CHECK(differing(turned, opposite) < 60);
+}
+
+TEST_CASE("cloth meets the solids of its layers alone, and a mesh pushes to the side that it is told")
+{
+    SceneRuns runs;
+    const std::string two = R"({"plane": {"y": 0.5}, "layers": [1]}, {"plane": {"y": 0}, "layers": [2, 7]})";
+    CHECK(bounds(runs.run(scene(two, R"(, "layers": [1, 2])"), 40)).min.y > 0.5f);
+    const SceneResult lower = runs.run(scene(two, R"(, "layers": [7])"), 55);
+    CHECK(bounds(lower).max.y < 0.01f);
+    CHECK(lower.deepest < 1e-5); // the plane above is not the cloth's
+    CHECK(bounds(runs.run(scene(two, R"(, "layers": [])"), 55)).min.y < -0.1f);
+
+    voile::engine::take(
+        voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({0, 0.6f, 0}, 0.5f, 16)));
+    const SceneResult inside = runs.run(scene(R"({"mesh": "ball.obj", "sides": "two"})"), 60);
+    CHECK(bounds(inside).min.y > 0.1f);
+    CHECK(bounds(inside).min.y < 0.15f);
+    CHECK(inside.deepest < 1e-5);
+    // One that pushes outwards does not keep it: it comes out at the top.
+    CHECK(bounds(runs.run(scene(R"({"mesh": "ball.obj"})"), 60)).min.y > 0.6f);
+}
+
+TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
+{
+    SceneRuns runs;
+    voile::engine::take(
+        voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
+    voile::engine::take(
+        voile::engine::save_obj(runs.folder() / "box.obj", voile::engine::make_box({-3, 0, -3}, {3, 6, 3})));
+    const std::string text =
+        scene(R"({"mesh": "ball.obj", "motion": {"velocity": [0, -0.45, 0]}, "layers": [4]})", R"(, "layers": [4])");
+    const SceneResult result = runs.run(text, 40, "--verify --collider " + (runs.folder() / "box.obj").string());
+    CHECK(bounds(result).max.y == tests::close_to(0.202, 0.05)); // measured: 0.2067
+    CHECK(result.deepest < 1e-5);
+}
+
+TEST_CASE("--debug shows boxes that move with their mesh, contacts where cloth touches, and normals")
+{
+    SceneRuns runs;
+    voile::engine::take(
+        voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({-0.3f, 0.3f, 0}, 0.2f, 16)));
+    const auto is_like = [](const voile::engine::Picture& picture, size_t pixel, const glm::ivec3& color)
+    {
+        const uint8_t* p = &picture.rgba[4 * pixel];
+        return std::abs(p[0] - color.r) + std::abs(p[1] - color.g) + std::abs(p[2] - color.b) < 60;
+    };
+    // The pixels of a color: how many, and the mean of their columns.
+    const auto find = [&](const voile::engine::Picture& picture, const glm::ivec3& color)
+    {
+        glm::vec2 found(0);
+        for (size_t i = 0; i < picture.rgba.size() / 4; ++i)
+            if (is_like(picture, i, color))
+                found += glm::vec2(1, i % picture.width);
+        return glm::vec2(found.x, found.y / std::max(found.x, 1.f));
+    };
+    const glm::ivec3 boxes(38, 137, 243);
+    const glm::ivec3 contacts(255, 225, 38);
+    const glm::ivec3 normals(89, 231, 137);
+    const std::string ball = R"({"mesh": "ball.obj", "motion": {"velocity": [1.2, 0, 0]}}, {"plane": {"y": 0}})";
+    const std::string text = scene(ball, R"(, "velocity": [0, -4, 0])", 0.9f);
+
+    const voile::engine::Picture bare = runs.picture(text, 18);
+    CHECK(find(bare, boxes).x < 5);
+    CHECK(find(bare, contacts).x < 5);
+    CHECK(find(bare, normals).x < 5);
+    const voile::engine::Picture start = runs.picture(text, 1, "--debug boxes:0 --debug contacts");
+    const voile::engine::Picture later = runs.picture(text, 18, "--debug boxes:0 --debug contacts --validate");
+    CHECK(find(start, boxes).x > 100);
+    CHECK(find(start, contacts).x == 0); // it has not fallen far enough
+    CHECK(find(later, contacts).x > 8);
+    // 17 frames at 1.2 m/s are 0.34 m: at 4.1 m and 40 degrees, 61 pixels a meter or a little more.
+    CHECK(find(later, boxes).y - find(start, boxes).y == tests::close_to(0.34 * 62, 0.15));
+    CHECK(find(runs.picture(text, 18, "--debug boxes:5"), boxes).x > find(later, boxes).x);
+    CHECK(find(runs.picture(text, 1, "--debug normals --validate"), normals).x > 30);
+}
+
+TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay outside")
+{
+    const Run run = run_viewer("moving --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("verified: 0 penetrating vertices") != std::string::npos);
+}
