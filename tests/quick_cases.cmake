@@ -92,6 +92,7 @@ quick(test_physics
 quick(test_recovery
     "a small cloth comes out of the inside of a ball of 20,736 triangles"
     "inside is told right at edges, at corners and in slivers")
+quick(test_model)
 quick(test_refit)
 quick(test_renderer)
 quick(test_scene_meshes)

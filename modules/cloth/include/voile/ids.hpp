@@ -1,6 +1,7 @@
-// Ids: what a solver gives for what was added to it. A default-constructed id names nothing. An id that names nothing
-// gives an error, or an empty answer where a function returns no Result (solver.hpp). An id belongs to the solver that
-// gave it; another solver cannot tell it from its own.
+// Ids of the cloths, colliders and anchors of a solver. A default-constructed id names nothing, and neither does the id
+// of something that was removed: its index is used again, with another generation. Functions answer such an id with an
+// error, or with an empty value if they return no Result (solver.hpp). An id is valid for the solver that returned it;
+// other solvers cannot recognize it as foreign.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,7 @@ constexpr uint32_t k_no_index = UINT32_MAX;
 struct ClothId
 {
     uint32_t index = k_no_index;
+    uint32_t generation = 0; // raised each time that the index is given again
 
     friend bool operator==(const ClothId&, const ClothId&) = default;
 };
@@ -20,6 +22,7 @@ struct ClothId
 struct ColliderId
 {
     uint32_t index = k_no_index;
+    uint32_t generation = 0; // raised each time that the index is given again
 
     friend bool operator==(const ColliderId&, const ColliderId&) = default;
 };
@@ -28,6 +31,7 @@ struct ColliderId
 struct AnchorId
 {
     uint32_t index = k_no_index;
+    uint32_t generation = 0; // raised each time that the index is given again
 
     friend bool operator==(const AnchorId&, const AnchorId&) = default;
 };
