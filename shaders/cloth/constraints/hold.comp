@@ -23,6 +23,7 @@ layout(set = 0, binding = 6, std430) buffer Residuals { uvec2 residuals[]; };
 layout(push_constant, std430) uniform Push { HoldPush push; };
 
 #include "shared/fine_position.glsl"
+#include "integration/integrator.glsl"
 
 // Puts a vertex that is `outside` m beyond a bound back along n, and takes the velocity that leads it out. False: it is not.
 bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
@@ -58,8 +59,8 @@ void main()
     const float w = position.w;
     const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * place_velocity;
     const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (hold.damping + h * stiffness));
-    const bool verlet = (cloths[hold.cloth].flags & VOILE_CLOTH_VERLET) != 0;
-    shift += (verlet ? h : 0.5 * h) * (spring_velocity - v);
+    const bool verlet = is_verlet(cloths[hold.cloth].flags);
+    shift += drift_time(verlet, h) * (spring_velocity - v);
     v = spring_velocity;
 
     const vec3 offset = to_vertex + shift;

@@ -32,8 +32,8 @@ layout(set = 0, binding = 17, std430) readonly buffer MembraneCorners { Membrane
 
 layout(push_constant, std430) uniform Push { StagePush push; }; // without air
 
-bool VERLET; // whether the patch's cloth uses it
 #include "forces/forces.glsl"
+#include "integration/integrator.glsl"
 
 shared LimitWork sums[gl_WorkGroupSize.x];
 
@@ -48,7 +48,9 @@ struct Conservative
 Conservative conservative_forces(PatchVertex self, FinePosition x, float mass)
 {
     const uint cloth = self.cloth;
-    const float stiffness = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
+    const bool verlet = is_verlet(cloths[cloth].flags);
+    const float stiffness =
+        stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
     const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
     return Conservative(g.energy, g.force, g.bending + mass * push.gravity);
 }
@@ -87,7 +89,6 @@ LimitWork work_of(PatchVertex self)
 void main()
 {
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
-    VERLET = (cloths[self.cloth].flags & VOILE_CLOTH_VERLET) != 0;
     const uint thread = gl_LocalInvocationID.x;
     sums[thread] = work_of(self);
     barrier();

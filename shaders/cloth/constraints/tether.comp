@@ -25,6 +25,8 @@ layout(set = 0, binding = 6, std430) readonly buffer StatePositions { vec4 state
 
 layout(push_constant, std430) uniform Push { HoldPush push; };
 
+#include "integration/integrator.glsl"
+
 // m: the tether's length, or more where another one's pin is too far away, or the vertex was.
 float length_of(TetherRecord tether, uint t, vec3 pin)
 {
@@ -70,6 +72,6 @@ void main()
     residuals[tether.vertex] = uvec2(0);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
     velocities[tether.vertex] = vec4(v, push.step > 0 ? uint(before.w) | VOILE_VERTEX_TAUT : before.w);
-    if ((cloths[tether.cloth].flags & VOILE_CLOTH_VERLET) != 0)
+    if (is_verlet(cloths[tether.cloth].flags))
         predicted[tether.vertex].xyz += v - before.xyz;
 }

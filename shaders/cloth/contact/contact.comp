@@ -75,6 +75,7 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 #include "contact/contact_candidates.glsl"
 #include "shared/fine_position.glsl"
 #include "contact/friction.glsl"
+#include "integration/integrator.glsl"
 
 struct Motion
 {
@@ -172,7 +173,8 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, floa
     }
     const vec3 change = (slip_speed(speed, normal_impulse, static_friction, kinetic_friction) / speed - 1) * v_t;
     motion.v += change;
-    motion.displacement += drift(motion.cloth) * change;
+    // The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
+    motion.displacement += drift_time(is_verlet(cloths[motion.cloth].flags), push.step) * change;
 }
 
 // What contact knows of the vertex.
@@ -317,7 +319,7 @@ void commit(uint i, Motion motion, uint flags)
     const vec4 position = vec4(to.x, proposed_positions[i].w);
     const vec4 velocity = vec4(motion.v, flags);
     const vec4 change = vec4(motion.v - proposed_velocities[i].xyz, 0);
-    const bool verlet = is_verlet(motion.cloth);
+    const bool verlet = is_verlet(cloths[motion.cloth].flags);
     if (push.in_place == 0)
     {
         positions[i] = position;
@@ -340,7 +342,7 @@ void take_over(uint i, uint cloth, vec4 proposed)
     positions[i] = proposed;
     residuals[i] = proposed_residuals[i];
     velocities[i] = proposed_velocities[i];
-    if (is_verlet(cloth))
+    if (is_verlet(cloths[cloth].flags))
         predicted[i] = proposed_predicted[i];
 }
 

@@ -46,6 +46,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
 #include "contact/friction.glsl"
+#include "integration/integrator.glsl"
 #include "colliders/near_colliders.glsl"
 #include "shared/mesh.glsl"
 #include "contact/feature_pieces.glsl"
@@ -131,7 +132,7 @@ void write_correction()
 {
     const uint i = self.vertex.index;
     corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, 0);
-    if (is_verlet(self.vertex.cloth))
+    if (is_verlet(cloths[self.vertex.cloth].flags))
         predicted[i] += vec4(response.change, 0);
 }
 

@@ -151,7 +151,7 @@ void add_friction()
     const float fraction = holding_fraction(pressed, speed);
     const float most = k_slow * push.step;
     const float slow = clamp(2 - max(speed, pressed) / most, 0, 1);
-    const float time = drift(self.vertex.cloth);
+    const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), push.step);
     vec3 slid = fraction * time * v_t;
     if (fraction == 1) // to the bit
         slid = tangential(displacement(self.earlier, self.place) - surface, n);

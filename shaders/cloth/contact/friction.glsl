@@ -1,13 +1,6 @@
-// Coulomb friction between a fabric and a collider. The including kernel declares cloths[] and push.step.
+// Coulomb friction between a fabric and a collider.
 #ifndef VOILE_FRICTION_GLSL
 #define VOILE_FRICTION_GLSL
-
-bool is_verlet(uint cloth) { return (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0; }
-
-// s: a change of the velocity moves the vertex by as much times that change within the substep. Forces act throughout RK4's
-// substep; Verlet kicks first, and drifts with what the kick has left. (Asked where it is needed: kept through the queries,
-// it cost 5 us on an H200.)
-float drift(uint cloth) { return is_verlet(cloth) ? push.step : 0.5 * push.step; }
 
 // A pair's coefficient is the geometric mean of both sides' (Box2D's rule); a collider without one takes the fabric's.
 float pair_friction(float fabric, float collider, uint flags)

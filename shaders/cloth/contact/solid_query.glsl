@@ -7,6 +7,7 @@
 #define VOILE_SOLID_QUERY_GLSL
 
 #include "contact/triangle.glsl"
+#include "shared/constants.glsl"
 
 struct Corners
 {
@@ -210,7 +211,7 @@ float generalized_winding(uint c, ColliderRecord collider, vec3 origin)
         const Corners t = corners_of(collider.first_triangle + i);
         sum += half_solid_angle(t.a - origin, t.b - origin, t.c - origin);
     }
-    return sum / 6.28318531;
+    return sum / k_two_pi;
 }
 
 #endif

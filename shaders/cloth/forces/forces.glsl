@@ -2,7 +2,7 @@
 // order never changes).
 //
 // The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[],
-// mesh_springs[], mesh_corners[], membrane_corners[] and `push` (StagePush), and the constant VERLET (see stability.glsl).
+// mesh_springs[], mesh_corners[], membrane_corners[] and `push` (StagePush).
 #ifndef VOILE_FORCES_GLSL
 #define VOILE_FORCES_GLSL
 
@@ -47,7 +47,7 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     const float stretch = excess * (1 / (length_squared * inverse_length + rest_length));
     const float rate = dot(relative_velocity, direction);
     float viscosity = 0;
-    if (VERLET)
+    if (g.viscosity.is_on)
     {
         // Without branches: of the vertices that are computed together, some nearly always have a fast spring.
         const float per_length = push.step / max(rest_length, 1e-9); // 0 where there is no such spring
@@ -293,16 +293,16 @@ Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity vis
 }
 
 // The acceleration of a vertex, m/s^2.
-vec3 acceleration(PatchVertex self, FinePosition x, float inverse_mass, vec3 v)
+vec3 acceleration(bool verlet, PatchVertex self, FinePosition x, float inverse_mass, vec3 v)
 {
     const uint cloth = self.cloth;
-    const StabilityScales scales = stability_scales(cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    const StabilityScales scales = stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
     Viscosity viscosity = k_no_viscosity;
-    if (VERLET)
+    if (verlet)
         viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, push.step);
     const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
-    const float air = air_scale(inverse_mass * g.air_rate, push.step);
+    const float air = air_scale(verlet, inverse_mass * g.air_rate, push.step);
     return push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
 }
 

@@ -32,7 +32,7 @@ void add_direction(inout FabricMatrix stress, inout float energy, Gather g, Spri
     const float stretch = sqrt(squared);
     const float stretch_rate = along(rate, d) / squared; // 1/s, of |F d| over itself
     float tension = spring.stiffness * squared_excess / (squared + stretch) + spring.damping * stretch_rate;
-    if (VERLET)
+    if (g.viscosity.is_on)
     {
         // As in add_spring, for a rest length of 1. Here what goes along suffices; what acts across would add spin.
         const float change = abs(stretch_rate) * stretch * push.step;

@@ -7,14 +7,14 @@
 #ifndef VOILE_WIND_GLSL
 #define VOILE_WIND_GLSL
 
+#include "shared/constants.glsl"
+
 // Wave vectors in units of the longest wave's; the unit directions that the air swings in, across them; and amplitudes
 // whose root mean square is 1 together.
 const vec3 k_gust_waves[4] = vec3[](VOILE_GUST_WAVES);
 const vec3 k_gust_directions[4] = vec3[](vec3(0.5883, 0.1961, -0.7845), vec3(0.5699, 0.8206, -0.0420),
                                          vec3(0.6441, -0.0067, 0.7649), vec3(0.9487, 0.3162, 0));
 const float k_gust_amplitudes[4] = float[](0.9372, 0.7439, 0.5904, 0.4686);
-
-const float k_two_pi = 6.28318531;
 
 // The upper 12 bits of a float's 24, so that products of two such are exact.
 float upper_half(float a)

@@ -32,7 +32,6 @@ layout(set = 0, binding = 16, std430) readonly buffer MembraneCorners { Membrane
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-const bool VERLET = false;
 #include "forces/forces.glsl"
 
 FinePosition base_position(uint i)
@@ -57,7 +56,7 @@ void main()
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
     const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
-    const vec3 a = inverse_mass > 0 ? acceleration(self, here, inverse_mass, stage_v) : vec3(0);
+    const vec3 a = inverse_mass > 0 ? acceleration(false, self, here, inverse_mass, stage_v) : vec3(0);
 
     // Stage 1's state is the base state: one read serves both.
     const FinePosition x = push.stage == 1 ? here : base_position(i);

@@ -29,7 +29,6 @@ layout(set = 0, binding = 13, std430) readonly buffer MembraneCorners { Membrane
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
-const bool VERLET = true;
 #include "forces/forces.glsl"
 
 void main()
@@ -40,7 +39,7 @@ void main()
     const uint i = self.index;
     const vec4 stage_x = stage_positions[i];
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
-    const vec3 a = stage_x.w > 0 ? acceleration(self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
+    const vec3 a = stage_x.w > 0 ? acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
     // What touches a collider or hangs on a taut tether leaves the step with the velocity that this gave it: half a kick more
     // would drive it into the surface. The next step's first kick has that half in it.
@@ -53,6 +52,6 @@ void main()
     next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(v, ends ? touches : 0);
     const StabilityScales scales =
-        stability_scales(cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
+        stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
     next_predicted[i] = vec4(v + verlet_prediction(scales) * push.step * a, 0);
 }

@@ -7,6 +7,8 @@
 #ifndef VOILE_FINE_POSITION_GLSL
 #define VOILE_FINE_POSITION_GLSL
 
+#include "shared/residual.h"
+
 struct FinePosition
 {
     vec3 x;        // m
@@ -17,14 +19,6 @@ struct FinePosition
 // are bit operations and sums, no conversions, which take four times as long.
 const float k_residual_offset = 8421376; // 2^23 + 2^15: the float whose low 16 bits are the fraction 0
 
-// m: the 32768th part of half the distance from the largest coordinate to the next float.
-float residual_step(vec3 x)
-{
-    const float largest = max(max(abs(x.x), abs(x.y)), abs(x.z));
-    const uint exponent = floatBitsToUint(largest) & 0x7f800000u;
-    return uintBitsToFloat(max(exponent, 40u << 23) - (39u << 23));
-}
-
 vec3 unpack_residual(uvec2 bits)
 {
     const uvec3 fraction = uvec3(bits.x & 0xffffu, bits.x >> 16, bits.y & 0xffffu);
@@ -33,10 +27,10 @@ vec3 unpack_residual(uvec2 bits)
 
 uvec2 pack_residual(FinePosition p)
 {
-    const uint unit = floatBitsToUint(residual_step(p.x));
+    const uint unit = residual_unit(p.x);
     const float a_unit = uintBitsToFloat((254u << 23) - unit); // 1 / unit, a power of two as well
     const uvec3 fraction = floatBitsToUint(min(p.residual * a_unit, 32767) + k_residual_offset) & 0xffffu;
-    return uvec2(fraction.x | fraction.y << 16, fraction.z | unit);
+    return pack_fraction(fraction, unit);
 }
 
 // The position moved by a displacement, m.

@@ -2,8 +2,9 @@
 #ifndef VOILE_GRID_GLSL
 #define VOILE_GRID_GLSL
 
-const ivec2 k_spring_offsets[VOILE_SPRING_CLASSES] =
-    ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0), ivec2(0, 2), ivec2(2, 2), ivec2(2, -2));
+#include "shared/grid_springs.h"
+
+const ivec2 k_spring_offsets[VOILE_SPRING_CLASSES] = ivec2[](VOILE_SPRING_OFFSETS);
 
 bool in_grid(ivec2 p, uint columns, uint rows)
 {

@@ -5,6 +5,9 @@
 
 #include "model/stability.hpp"
 
+#include "shared/grid_springs.h"
+#include "shared/residual.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,13 +21,8 @@ namespace voile
 namespace
 {
 
-struct GridOffset
-{
-    int column;
-    int row;
-};
-constexpr GridOffset k_offsets[VOILE_SPRING_CLASSES] = {{1, 0}, {0, 1}, {1, 1}, {1, -1},
-                                                        {2, 0}, {0, 2}, {2, 2}, {2, -2}};
+using glm::ivec2;
+constexpr ivec2 k_spring_offsets[VOILE_SPRING_CLASSES] = {VOILE_SPRING_OFFSETS};
 
 // Of the fastest mode and of the fastest decay.
 struct Rates
@@ -63,12 +61,12 @@ Rates wave_rates(const shared::ClothRecord& record, const glm::vec2& spacing, co
     double yy = 0;
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
     {
-        const GridOffset& o = k_offsets[c];
-        const double factor = 2 - 2 * std::real(column[static_cast<size_t>(o.column)] *
-                                                (o.row < 0 ? std::conj(row[static_cast<size_t>(-o.row)])
-                                                           : row[static_cast<size_t>(o.row)]));
+        const ivec2& o = k_spring_offsets[c];
+        const double factor = 2 - 2 * std::real(column[static_cast<size_t>(o.x)] *
+                                                (o.y < 0 ? std::conj(row[static_cast<size_t>(-o.y)])
+                                                         : row[static_cast<size_t>(o.y)]));
         const double stiffness = factor * static_cast<double>(record.springs[c].stiffness);
-        const glm::dvec2 d = glm::normalize(glm::dvec2(o.column, o.row) * glm::dvec2(spacing));
+        const glm::dvec2 d = glm::normalize(glm::dvec2(o) * glm::dvec2(spacing));
         xx += stiffness * d.x * d.x;
         xy += stiffness * d.x * d.y;
         yy += stiffness * d.y * d.y;
@@ -305,11 +303,10 @@ namespace
 glm::uvec2 residual_of(const glm::dvec3& place)
 {
     const glm::vec3 x = rounded(place);
-    const float largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    const float step = std::ldexp(1.0F, std::max(std::ilogb(largest), -87) - 39);
-    const glm::dvec3 steps = glm::min(glm::round((place - glm::dvec3(x)) / double{step}), 32767.0);
-    const glm::uvec3 fraction(steps + 32768.0);
-    return {fraction.x | fraction.y << 16, fraction.z | std::bit_cast<uint32_t>(step)};
+    const uint32_t unit = shared::residual_unit(x);
+    const glm::dvec3 units = (place - glm::dvec3(x)) / double{std::bit_cast<float>(unit)};
+    const glm::dvec3 fraction = glm::min(glm::round(units), 32767.0) + 32768.0;
+    return shared::pack_fraction(glm::uvec3(fraction), unit);
 }
 
 // What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex

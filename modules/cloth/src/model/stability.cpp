@@ -12,10 +12,6 @@ namespace voile
 namespace
 {
 
-// As in stability.glsl.
-constexpr double k_rk4_reach = 2.6;
-constexpr double k_margin = 0.95;
-
 bool uses_verlet(const shared::ClothRecord& record)
 {
     return (record.flags & VOILE_CLOTH_VERLET) != 0;
@@ -23,39 +19,34 @@ bool uses_verlet(const shared::ClothRecord& record)
 
 } // namespace
 
-StabilityScales stability_scales(const shared::ClothRecord& record, double substep)
+shared::StabilityScales stability_scales(const shared::ClothRecord& record, double substep)
 {
     const auto omega_squared = static_cast<double>(record.omega_squared);
     const auto decay = static_cast<double>(record.decay);
-    if (uses_verlet(record))
-    {
-        const double load = 0.25 * omega_squared * substep * substep + 0.5 * decay * substep;
-        const double scale = std::min(1.0, k_margin * k_margin / std::max(load, 1e-30));
-        return {scale, scale, scale * load};
-    }
-    const double reach = k_margin * k_rk4_reach / substep;
-    const double stiffness = std::min(1.0, reach * reach / std::max(omega_squared, 1e-30));
-    const double damping = std::min(1.0, reach / std::max(decay, 1e-30));
-    const double load = std::max(std::sqrt(stiffness * omega_squared), damping * decay) * substep / k_rk4_reach;
-    return {stiffness, damping, load};
+    const bool verlet = uses_verlet(record);
+    shared::StabilityScales scales = shared::stability_scales(verlet, omega_squared, decay, substep);
+    if (!verlet)
+        scales.load = std::max(std::sqrt(scales.stiffness * omega_squared), scales.damping * decay) * substep /
+                      VOILE_RK4_REACH;
+    return scales;
 }
 
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
 {
     const double omega = std::sqrt(static_cast<double>(record.omega_squared));
     const auto decay = static_cast<double>(record.decay);
-    double longest = 0; // substep, s, times (omega or decay)
+    double longest = 0; // the longest substep, s, times `fastest`
     double fastest = 0; // 1/s
     if (uses_verlet(record))
     {
         // (omega h / 2)^2 + decay h / 2 = margin^2, solved for 1 / h.
         const double half = 0.25 * decay;
-        longest = k_margin * k_margin;
+        longest = VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN;
         fastest = half + std::sqrt(half * half + 0.25 * omega * omega * longest);
     }
     else
     {
-        longest = k_margin * k_rk4_reach;
+        longest = VOILE_STABILITY_MARGIN * VOILE_RK4_REACH;
         fastest = std::max(omega, decay);
     }
     const double substeps = std::ceil(duration * fastest / longest * (1 - 1e-6)); // a whole number stays one in float

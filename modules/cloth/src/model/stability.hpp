@@ -4,20 +4,16 @@
 #include "voile/descriptions.hpp"
 
 #include "shared/cloth_layout.h"
+#include "shared/stability.h"
 
 namespace voile
 {
 
-// What a step bears of a cloth's stiffness and damping; see shaders/cloth/stability.glsl, which has the same formulas.
-struct StabilityScales
-{
-    double stiffness = 1;
-    double damping = 1;
-    double load = 0; // what is left of both takes up so much of what the step bears, 0..1
-};
-StabilityScales stability_scales(const shared::ClothRecord& record, double substep);
+// The factors that the kernels apply to a cloth's stiffness and damping in a substep (s). `load` under RK4, too: the
+// fraction of the stability region along an axis.
+shared::StabilityScales stability_scales(const shared::ClothRecord& record, double substep);
 
-// The fewest substeps of a step of `duration` seconds that bear all of the stiffness and damping.
+// The smallest number of substeps of a step of `duration` seconds that keeps all stiffness and damping. At least 1.
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration);
 
 // Of the symmetric matrix (xx, xy; xy, yy).

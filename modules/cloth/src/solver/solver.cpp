@@ -203,7 +203,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     const shared::ClothRecord& record = state_->model.records[cloth.index];
     result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
-    const StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
+    const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
     result.stiffness_share = static_cast<float>(scales.stiffness);
     result.damping_share = static_cast<float>(scales.damping);
     result.load = static_cast<float>(scales.load);

@@ -1,0 +1,70 @@
+// How much of a cloth's stiffness and damping an explicit substep can take. Float in GLSL, double in C++.
+#ifndef VOILE_STABILITY_H
+#define VOILE_STABILITY_H
+
+#include "../../shared_types.h"
+
+// The radius of RK4's stability region in the left half plane. It reaches 2.83 along the imaginary axis and 2.78 along the
+// negative real axis, and is nowhere closer to the origin than this.
+#define VOILE_RK4_REACH 2.6
+// The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
+#define VOILE_STABILITY_MARGIN 0.95
+
+VOILE_SHARED_BEGIN(voile)
+
+// The load of a mode under velocity Verlet: the fraction of the stability region that it uses, from its frequency^2 (1/s^2)
+// and its decay rate (1/s). A substep of h seconds is stable up to a load of 1.
+//
+// The damping force sees a predicted velocity, v[n-1/2] + p h a[n-1]. With W = (omega h)^2 and D = decay h the characteristic
+// polynomial is
+//   z^3 + (W + (1 + p) D - 2) z^2 + (1 - (1 + 2 p) D) z + p D.
+// Its roots lie in the unit circle up to W / 4 + (1/2 + p) D = 1. Second order needs p = 1/2 in the limit of short
+// substeps. The longest substep needs p = 0. p = (1 - L) / 2 with L = W / 4 + D / 2 gives both, and the bound is L = 1.
+VOILE_INLINE real verlet_load(real omega_squared, real decay, real h)
+{
+    return 0.25 * omega_squared * h * h + 0.5 * decay * h;
+}
+
+// Factors of a cloth's stiffness and damping in a substep. One pair for the whole cloth: forces stay equal and opposite, and
+// the softened cloth has an energy of its own.
+struct StabilityScales
+{
+    real stiffness; // 0..1
+    real damping;   // 0..1
+    real load;      // 0..1, under Verlet: the load of what is left of both
+};
+
+VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real h)
+{
+    const real load = verlet_load(omega_squared, decay, h) / (VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN);
+    const real scale = min(1.0, 1.0 / max(load, 1e-30));
+    StabilityScales scales;
+    scales.stiffness = scale;
+    scales.damping = scale;
+    scales.load = verlet_load(scale * omega_squared, scale * decay, h);
+    return scales;
+}
+
+VOILE_INLINE StabilityScales rk4_scales(real omega_squared, real decay, real h)
+{
+    const real reach = VOILE_STABILITY_MARGIN * VOILE_RK4_REACH / h;
+    StabilityScales scales;
+    scales.stiffness = min(1.0, reach * reach / max(omega_squared, 1e-30));
+    scales.damping = min(1.0, reach / max(decay, 1e-30));
+    scales.load = 0;
+    return scales;
+}
+
+VOILE_INLINE StabilityScales stability_scales(bool verlet, real omega_squared, real decay, real h)
+{
+    if (verlet)
+        return verlet_scales(omega_squared, decay, h);
+    return rk4_scales(omega_squared, decay, h);
+}
+
+// The p of verlet_load.
+VOILE_INLINE real verlet_prediction(StabilityScales scales) { return 0.5 * (1 - scales.load); }
+
+VOILE_SHARED_END
+
+#endif
