@@ -1,36 +1,35 @@
-// Traversal of a bounding volume hierarchy with a box as the query.
+// Traversal of a bounding volume hierarchy with a box.
 //
 // The including kernel declares `bvh_nodes[]` and defines before the include
 //   void take_leaf(uint first, uint count)
-// which is called for every leaf that the query reaches, with its triangles, and boxes_overlap; or else VOILE_REACHED as the
-// name of a function of (box_min, box_max, node_min, node_max) that tells whether the query reaches a node's box: of less than
-// the box, or of what is near it.
+// which is called for the triangles of every leaf that the traversal enters. It enters nodes whose box overlaps the query's.
+// VOILE_ENTERS may name another test, a function of (box_min, box_max, node_min, node_max).
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
 
-#ifndef VOILE_REACHED
-#define VOILE_REACHED boxes_overlap
+#ifndef VOILE_ENTERS
+#define VOILE_ENTERS boxes_overlap
 #endif
 
-// Leaves that the traversal has found and not yet handed on. Neighboring threads find theirs at different steps; taking
-// them together keeps what is done with them out of the loop over nodes.
-#define VOILE_BVH_WAITING_LEAVES 8
+// Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them together
+// keeps the triangle tests out of the loop over nodes.
+const uint k_bvh_waiting_leaves = 8;
 
 void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
 {
     uint stack[VOILE_BVH_MAX_DEPTH];
     uint entries = 0;
-    uint leaves[VOILE_BVH_WAITING_LEAVES];
+    uint leaves[k_bvh_waiting_leaves];
     uint waiting = 0;
     uint node = 0;
     bool done = false;
     while (!done)
     {
-        while (waiting + 2 <= VOILE_BVH_WAITING_LEAVES)
+        while (waiting + 2 <= k_bvh_waiting_leaves)
         {
             const BvhNode n = bvh_nodes[first_node + node];
-            const bool left = VOILE_REACHED(box_min, box_max, n.left_min, n.left_max);
-            const bool right = VOILE_REACHED(box_min, box_max, n.right_min, n.right_max);
+            const bool left = VOILE_ENTERS(box_min, box_max, n.left_min, n.left_max);
+            const bool right = VOILE_ENTERS(box_min, box_max, n.right_min, n.right_max);
             const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
             const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
             if (left && left_leaf)

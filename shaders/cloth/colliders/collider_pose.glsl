@@ -1,8 +1,8 @@
-// Where a collider is at a time of the step. Its own space is the world as it was when the collider was added, seen from its
-// origin, so that neither shape nor hierarchy changes when it moves: queries go there and answers come back.
+// The pose of a collider within the step. A collider's own space is the world at the time when it was added, relative to its
+// origin. Neither shape nor hierarchy changes when it moves: queries are transformed into that space and results back.
 //
-// The including kernel declares colliders[], collider_motions[] and a constant COLLIDERS_MOVE: 0 where none moves, and what
-// serves moving ones is left out.
+// The including kernel declares colliders[], collider_motions[] and a constant COLLIDERS_MOVE. 0: no collider moves, and the
+// code for moving ones is left out.
 #ifndef VOILE_COLLIDER_POSE_GLSL
 #define VOILE_COLLIDER_POSE_GLSL
 
@@ -14,29 +14,29 @@ bool is_deforming(uint flags) { return COLLIDERS_MOVE != 0 && (flags & VOILE_COL
 struct Pose
 {
     vec4 rotation; // unit quaternion, world from the collider's space
-    vec3 place;    // m, of the origin, from ColliderMotion::origin
+    vec3 position; // m, of the origin, from ColliderMotion::origin
 };
 
 vec3 rotate(vec4 q, vec3 v) { return v + 2 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 vec3 rotate_back(vec4 q, vec3 v) { return rotate(vec4(-q.xyz, q.w), v); }
 
-// `progress` of the step, 0 to 1. The origin goes straight; the turning is that of the chord between both quaternions.
+// `progress`: of the step, 0..1. The origin moves along a straight line, the rotation along the chord of both quaternions.
 Pose pose_at(uint collider, float progress)
 {
     const ColliderMotion motion = collider_motions[collider];
     Pose pose;
-    // Not by mix(), whose rounding would shake what stands still.
+    // mix() would round differently from step to step and shake a collider at rest.
     pose.rotation = normalize(motion.rotation_from + progress * (motion.rotation_to - motion.rotation_from));
-    pose.place = motion.place_from + progress * (motion.place_to - motion.place_from);
+    pose.position = motion.place_from + progress * (motion.place_to - motion.place_from);
     return pose;
 }
 
-// What a pose changes by from one progress of the step to another. Differences of two poses have the rounding of both: it would
-// shake cloth on a collider that moves evenly by more than its weight.
+// The change of a pose from one progress of the step to another. A difference of two poses would have the rounding of both, and
+// would shake cloth on a collider that moves evenly by more than its weight.
 struct PoseChange
 {
     vec4 rotation;
-    vec3 place; // m
+    vec3 position; // m
 };
 
 PoseChange pose_change(uint collider, float from, float to)
@@ -51,31 +51,31 @@ PoseChange pose_change(uint collider, float from, float to)
     const float shortened = part * (1 - from - to) * dot(turn, turn) / (length_from + length_to); // length_from - length_to
     PoseChange change;
     change.rotation = (part * turn + shortened / length_from * chord_from) / length_to;
-    change.place = part * (motion.place_to - motion.place_from);
+    change.position = part * (motion.place_to - motion.place_from);
     return change;
 }
 
-// m, world: by how much a point of the collider's space moves as the pose changes.
+// m, world: the displacement of a point of the collider's space as the pose changes.
 vec3 displacement(Pose pose, PoseChange change, vec3 point)
 {
     const vec4 d = change.rotation;
     const vec4 turned = pose.rotation + d;
-    return change.place + 2 * (cross(d.xyz, cross(turned.xyz, point) + turned.w * point) +
+    return change.position + 2 * (cross(d.xyz, cross(turned.xyz, point) + turned.w * point) +
                                cross(pose.rotation.xyz, cross(d.xyz, point) + d.w * point));
 }
 
-// m, of a position from the collider's origin as the step starts, rounded: floats are fine there.
+// m: a position relative to the collider's origin at the start of the step. Float is precise enough there.
 vec3 from_origin(uint c, uint flags, FinePosition p)
 {
     precise const vec3 offset = p.x - (is_moved(flags) ? collider_motions[c].origin : colliders[c].origin) + p.residual;
     return offset;
 }
 
-// Between what is told from there and the collider's space.
-vec3 to_collider(Pose pose, vec3 p) { return rotate_back(pose.rotation, p - pose.place); }
-vec3 to_world(Pose pose, vec3 p) { return rotate(pose.rotation, p) + pose.place; }
+// Between positions relative to ColliderMotion::origin and the collider's space.
+vec3 to_collider(Pose pose, vec3 p) { return rotate_back(pose.rotation, p - pose.position); }
+vec3 to_world(Pose pose, vec3 p) { return rotate(pose.rotation, p) + pose.position; }
 
-// Where a position is in the collider's space.
+// A position in the collider's space.
 vec3 into_collider(uint c, uint flags, FinePosition p, float progress)
 {
     const vec3 offset = from_origin(c, flags, p);

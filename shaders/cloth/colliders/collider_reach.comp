@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which colliders each patch of cloth can reach before the next such look, one bit per collider. One workgroup per patch.
+// Lists the colliders near each patch of cloth until the next such pass, one bit per collider. One workgroup per patch.
 //
-// The patch's box has room for twice its vertices' speed, or that of what may hit them; the bits cover all that touches the box.
-// A collider stands for the box around all that it sweeps until the end of the step.
-// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of what deforms, feature sets.
+// The patch's box has room for twice the speed of its vertices, and at least for `sudden`. A bit is set if the box of all that
+// the collider sweeps until the end of the step overlaps the patch's box.
+// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of deforming meshes, feature sets.
 // Writes: near colliders.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -29,12 +29,12 @@ layout(push_constant, std430) uniform Push { ColliderReachPush push; };
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
 
-// Contact looks this much farther than the thickness, in thicknesses: for lists of candidates, and for roundings.
-#define VOILE_NEAR_ROOM 2.0
-// Roundings of coordinates, as a fraction.
-#define VOILE_NEAR_ROUNDING 2e-6
-// What a rotation by the chord between two quaternions is faster than an even one, at most.
-#define VOILE_CHORD_RATE 1.3
+// In thicknesses: room for the lists of candidates and for rounding beyond the thickness.
+const float k_near_room = 2.0;
+// Relative rounding of coordinates.
+const float k_near_rounding = 2e-6;
+// The largest rate of a rotation along the chord of two quaternions over an even rotation.
+const float k_chord_rate = 1.3;
 
 struct Box
 {
@@ -50,7 +50,7 @@ Box grown(Box box, float margin) { return Box(box.min - margin, box.max + margin
 Box shifted(Box box, vec3 displacement) { return Box(box.min + displacement, box.max + displacement); }
 Box joined(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
-// Where the patch's vertices can be until the next look.
+// The positions that the patch's vertices can have until the next pass.
 Box box_of_patch(PatchVertex self)
 {
     const uint thread = gl_LocalInvocationID.x;
@@ -59,7 +59,7 @@ Box box_of_patch(PatchVertex self)
     {
         const vec3 x = positions[self.index].xyz;
         const float speed = max(2 * length(velocities[self.index].xyz), push.sudden);
-        boxes[thread] = grown(Box(x, x), speed * push.time + VOILE_NEAR_ROOM * cloths[self.cloth].thickness);
+        boxes[thread] = grown(Box(x, x), speed * push.time + k_near_room * cloths[self.cloth].thickness);
     }
     barrier();
     for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
@@ -71,7 +71,7 @@ Box box_of_patch(PatchVertex self)
     return boxes[0];
 }
 
-// Of a collider that is no plane, in its own space.
+// Of any collider but a plane, in its own space.
 Box local_box(ColliderRecord collider)
 {
     if (collider.kind == VOILE_COLLIDER_SPHERE)
@@ -86,15 +86,15 @@ Box local_box(ColliderRecord collider)
     return Box(root.min, root.max);
 }
 
-// m: by how much more than its radius what turns can come near to something `distance` away within a substep, as contact sees
-// the path of a vertex straight in the collider's space.
-float turning_reach(ColliderMotion motion, float distance)
+// m: contact sees the path of a vertex within a substep as straight in the collider's space. A rotating collider can come closer
+// than its radius says to a vertex `distance` away by this.
+float turning_margin(ColliderMotion motion, float distance)
 {
     const float angle = 2 * acos(clamp(dot(motion.rotation_from, motion.rotation_to), 0, 1));
-    return VOILE_CHORD_RATE * angle * push.progress_per_substep * distance;
+    return k_chord_rate * angle * push.progress_per_substep * distance;
 }
 
-// Whether the collider, until the end of the step, touches the box.
+// Whether the collider may touch the box until the end of the step.
 bool touches(uint c, ColliderRecord collider, Box box)
 {
     if (collider.kind == VOILE_COLLIDER_PLANE)
@@ -109,16 +109,16 @@ bool touches(uint c, ColliderRecord collider, Box box)
         const Box sweep = Box(min(motion.place_from, motion.place_to), max(motion.place_from, motion.place_to));
         around = grown(shifted(sweep, motion.origin), radius);
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
-        around = grown(around, turning_reach(motion, length(farthest)));
+        around = grown(around, turning_margin(motion, length(farthest)));
     }
     return all(lessThanEqual(around.min, box.max)) && all(lessThanEqual(box.min, around.max));
 }
 
-// Nothing that is not finite is far away.
+// A box that is not finite overlaps every collider.
 uint bits_of(uint word, uint cloth, Box box)
 {
     const float farthest = length(max(abs(box.min), abs(box.max)));
-    const float reach = 1.01 * cloths[cloth].thickness + VOILE_NEAR_ROUNDING * farthest;
+    const float margin = 1.01 * cloths[cloth].thickness + k_near_rounding * farthest;
     uint bits = 0;
     const uint end = min(32, push.colliders - 32 * word);
     for (uint bit = 0; bit < end; ++bit)
@@ -129,7 +129,7 @@ uint bits_of(uint word, uint cloth, Box box)
             continue;
         const bool has_features = push.features != 0 && feature_sets[c].features > 0;
         const float loose = has_features ? VOILE_MOST_STRETCH * feature_sets[c].edge : 0;
-        bits |= touches(c, collider, grown(box, reach + loose)) ? 1u << bit : 0;
+        bits |= touches(c, collider, grown(box, margin + loose)) ? 1u << bit : 0;
     }
     return bits;
 }

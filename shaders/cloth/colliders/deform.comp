@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The vertices of a deforming mesh collider, from what the host gave, into the collider's space. One thread a vertex.
-// A vertex that is not finite, or beyond the range of positions, stays where it is.
+// Transforms the vertices that the host gives for a deforming mesh into the collider's space. One thread per vertex.
+// A vertex that is not finite, or outside of the range of positions, keeps its position.
 // Reads: input. Writes: deforming positions.
 #include "shared/cloth_layout.h"
 

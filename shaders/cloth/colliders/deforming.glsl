@@ -18,8 +18,8 @@ struct MovingTriangle
     Triangle end;
 };
 
-// The triangle in a slot. Vertices go straight from `first.x + corner` to `first.y + corner` in the step; `progress`: of it, at
-// the start and at the end of the substep.
+// The triangle in a slot. In the step, vertices move along straight lines from `first.x + corner` to `first.y + corner`.
+// `progress`: of the step, at the start and at the end of the substep.
 MovingTriangle moving_triangle(uint slot, uvec2 first, vec2 progress)
 {
     const uvec3 corners = padded_leaves[slot].corners;
@@ -54,14 +54,14 @@ vec3 from_coordinates(Triangle t, vec3 coordinates)
     return t.a + coordinates.x * e1 + coordinates.y * e2 + coordinates.z * inversesqrt(max(dot(n, n), 1e-30)) * n;
 }
 
-// Where a point comes to that goes along with the triangle: same barycentric coordinates, same height, same side.
+// The point carried along by the triangle: same barycentric coordinates, same height, same side.
 vec3 carried(MovingTriangle moving, vec3 p)
 {
     return from_coordinates(moving.end, triangle_coordinates(moving.start, p));
 }
 
-// By how much the triangle moves at a point of its end.
-vec3 way_of(MovingTriangle moving, vec3 p)
+// m: the displacement of the triangle at a point of its end position.
+vec3 triangle_displacement(MovingTriangle moving, vec3 p)
 {
     const vec2 bc = triangle_coordinates(moving.end, p).xy;
     const vec3 weights = vec3(1 - bc.x - bc.y, bc);

@@ -1,10 +1,10 @@
-// The colliders that a vertex can reach, in their order: those in the list of its patch (collider_reach.comp), or all.
+// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (collider_reach.comp), or all.
 //
-// A list holds for what stays in the patch's box: whoever leaves that walks over all colliders, so that none is ever missed. Both
-// ways give the same results to the bit, as a collider that is not reached changes nothing.
+// A list holds inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed. The results
+// are equal to the bit, because a collider that is not near changes nothing.
 //
-// The including kernel declares near_colliders[], push.colliders and push.near_stride. Where it defines VOILE_NEAR_LISTS as
-// false there are no lists.
+// The including kernel declares near_colliders[], push.colliders and push.near_stride. VOILE_NEAR_LISTS may be defined as
+// false: there are no lists.
 #ifndef VOILE_NEAR_COLLIDERS_GLSL
 #define VOILE_NEAR_COLLIDERS_GLSL
 
@@ -12,15 +12,15 @@
 #define VOILE_NEAR_LISTS true
 #endif
 
-#define VOILE_ALL_COLLIDERS 0xffffffffu
+const uint k_all_colliders = 0xffffffffu;
 
 struct ColliderWalk
 {
     uint patch_index;
-    uint first; // word of the patch's bits, or VOILE_ALL_COLLIDERS
+    uint first; // first word of the patch's bits, or k_all_colliders
     uint next;  // word of the bits; without lists: the next collider
     uint end;
-    uint bits;  // of the word before `next`, those to come
+    uint bits;  // the rest of the word before `next`
 };
 
 vec3 near_corner(uint word)
@@ -29,7 +29,7 @@ vec3 near_corner(uint word)
                 uintBitsToFloat(near_colliders[word + 2]));
 }
 
-// Whether the list of a patch holds for what is in the box.
+// Whether the list of a patch holds in the box.
 bool has_near_list(uint patch_index, vec3 box_min, vec3 box_max)
 {
     if (!VOILE_NEAR_LISTS || push.near_stride == 0)
@@ -41,15 +41,18 @@ bool has_near_list(uint patch_index, vec3 box_min, vec3 box_max)
 
 uint collider_bits(uint first, uint word)
 {
-    if (first != VOILE_ALL_COLLIDERS)
+    if (first != k_all_colliders)
         return near_colliders[first + word];
     const uint left = push.colliders - 32 * word;
     return left < 32 ? (1u << left) - 1 : 0xffffffffu;
 }
 
-ColliderWalk walk_all(uint patch_index) { return ColliderWalk(patch_index, VOILE_ALL_COLLIDERS, 0, (push.colliders + 31) / 32, 0); }
+ColliderWalk walk_all(uint patch_index)
+{
+    return ColliderWalk(patch_index, k_all_colliders, 0, (push.colliders + 31) / 32, 0);
+}
 
-// Over what something in the box can reach.
+// Over the colliders that may touch the box.
 ColliderWalk walk_colliders(uint patch_index, vec3 box_min, vec3 box_max)
 {
     if (!has_near_list(patch_index, box_min, box_max))
@@ -78,13 +81,13 @@ bool next_collider(inout ColliderWalk walk, out uint c)
     return true;
 }
 
-// After collider c has moved the vertex to x: goes on over all that follow, if it is out of the list's box.
-void keep_walking(inout ColliderWalk walk, uint c, vec3 x)
+// After collider c has moved the vertex to x: continues over all following colliders if x is outside of the list's box.
+void continue_walk(inout ColliderWalk walk, uint c, vec3 x)
 {
-    if (walk.first == VOILE_ALL_COLLIDERS || has_near_list(walk.patch_index, x, x))
+    if (walk.first == k_all_colliders || has_near_list(walk.patch_index, x, x))
         return;
-    walk = ColliderWalk(walk.patch_index, VOILE_ALL_COLLIDERS, c / 32 + 1, (push.colliders + 31) / 32,
-                        collider_bits(VOILE_ALL_COLLIDERS, c / 32) & ~((2u << (c % 32)) - 1));
+    walk = ColliderWalk(walk.patch_index, k_all_colliders, c / 32 + 1, (push.colliders + 31) / 32,
+                        collider_bits(k_all_colliders, c / 32) & ~((2u << (c % 32)) - 1));
 }
 
 #endif

@@ -1,41 +1,41 @@
-// Traversal of a padded tree (padded_layout.h) with a box as the query.
+// Traversal of an implicit complete BVH (padded_layout.h) with a box.
 //
 // The including kernel declares `padded_boxes[]` and defines boxes_overlap and, before the include,
 //   void take_leaf(uint first, uint count)
-// which is called with a count of 1 for every leaf that the box reaches, once a triangle. VOILE_REACHED: as in bvh.glsl.
+// which is called with a count of 1 for every leaf that the traversal enters, once per triangle. VOILE_ENTERS: as in bvh.glsl.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 
-#ifndef VOILE_REACHED
-#define VOILE_REACHED boxes_overlap
+#ifndef VOILE_ENTERS
+#define VOILE_ENTERS boxes_overlap
 #endif
 
-// Leaves that the traversal has found and not yet handed on, as in bvh.glsl.
-#define VOILE_PADDED_WAITING_LEAVES 8
+// As in bvh.glsl.
+const uint k_padded_waiting_leaves = 8;
 
 bool padded_box_overlaps(uint box, vec3 box_min, vec3 box_max)
 {
     const PaddedBox b = padded_boxes[box];
-    return VOILE_REACHED(box_min, box_max, b.min, b.max);
+    return VOILE_ENTERS(box_min, box_max, b.min, b.max);
 }
 
-// A box's ancestors are its index modulo their levels' widths. So the stack is one word: bit d says that of the way's box
-// on level d, the second child waits.
+// The ancestors of a box are its index modulo the widths of their levels, so the stack is one word: bit d is set if the second
+// child of the current ancestor on level d is still to visit.
 void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min, vec3 box_max)
 {
     const uint last = 1u << findMSB(2 * triangles - 1); // width of the level of leaves
-    uint leaves[VOILE_PADDED_WAITING_LEAVES];
+    uint leaves[k_padded_waiting_leaves];
     uint waiting = 0;
     uint second = 0;
     uint width = 1; // of the level
     uint box = 0;   // on it
-    const bool reached = padded_box_overlaps(first_box, box_min, box_max);
-    bool done = !reached || last == 1;
-    if (reached && last == 1) // one triangle: the root is its leaf
+    const bool entered = padded_box_overlaps(first_box, box_min, box_max);
+    bool done = !entered || last == 1;
+    if (entered && last == 1) // one triangle: the root is its leaf
         leaves[waiting++] = 0;
     do
     {
-        while (!done && waiting + 2 <= VOILE_PADDED_WAITING_LEAVES)
+        while (!done && waiting + 2 <= k_padded_waiting_leaves)
         {
             const uint child = first_box + 2 * width - 1 + box;
             bool left = padded_box_overlaps(child, box_min, box_max);
@@ -44,7 +44,7 @@ void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min,
             {
                 if (left)
                     leaves[waiting++] = box;
-                if (right && box + width < triangles) // a slot past them repeats its sibling
+                if (right && box + width < triangles) // a slot past the triangles repeats its sibling
                     leaves[waiting++] = box + width;
                 left = right = false;
             }

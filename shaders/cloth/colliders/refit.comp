@@ -1,14 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Refit of a padded tree: computes the boxes of one level and folds them several levels up. The first dispatch takes the
-// last level's boxes from the vertices, the others take theirs from the dispatch before; the last one ends at the root.
+// Refit of an implicit complete BVH: computes the boxes of one level and folds them several levels up. The first dispatch
+// computes the boxes of the last level from the vertices. Each following dispatch starts where the one before ended. The last
+// one ends at the root.
 //
-// A subtree with its root `root` on a level of m boxes has the boxes root, root + m, root + 2 m, ... of any level below: its
-// k-th box on the next but j level is root + k m for k < 2^j, and folds boxes k and k + 2^j of the level under it. A
-// workgroup takes a run of neighboring roots, so that what it reads and writes are runs of neighboring boxes. A thread
-// computes one half of a box, its minimum or its maximum, so that each store of neighboring threads fills a run of memory.
-// Threads fold in registers as far as the boxes they hold go, then in shared memory.
+// A subtree whose root is box `root` on a level of m boxes consists of the boxes root, root + m, root + 2 m, ... of the levels
+// below: j levels down its k-th box is root + k m for k < 2^j, and folds boxes k and k + 2^j of the next level. A workgroup
+// takes neighboring roots, so that it reads and writes runs of neighboring boxes. A thread computes one half of a box, its
+// minimum or its maximum, so that stores of neighboring threads fill a run of memory. Threads fold the boxes that they hold in
+// registers, then in shared memory.
 // Reads: leaves and positions, or boxes of the bottom level. Writes: boxes, those of the bottom level only from leaves.
 #include "shared/padded_layout.h"
 
@@ -36,16 +37,16 @@ uint row;    // its boxes of the bottom level are the subtree's row-th, (row + R
 
 vec3 fold(vec3 a, vec3 b) { return upper ? max(a, b) : min(a, b); }
 
-// What changes nothing when it is folded.
-vec3 nothing() { return vec3(upper ? uintBitsToFloat(0xff800000u) : uintBitsToFloat(0x7f800000u)); }
+// The neutral element of fold.
+vec3 neutral() { return vec3(upper ? uintBitsToFloat(0xff800000u) : uintBitsToFloat(0x7f800000u)); }
 
-// Where the subtree's k-th box stands on the level on which it has `width` boxes.
-uint place(uint k, uint width) { return 2 * (push.first_box + roots * (width + k) - 1 + root) + uint(upper); }
+// The index of the subtree's k-th box on the level on which it has `width` boxes.
+uint half_index(uint k, uint width) { return 2 * (push.first_box + roots * (width + k) - 1 + root) + uint(upper); }
 
 void store(uint k, uint width, vec3 value)
 {
     if (root < roots)
-        box_halves[place(k, width)] = vec4(value, 0);
+        box_halves[half_index(k, width)] = vec4(value, 0);
 }
 
 vec3 leaf_half(uint slot)
@@ -58,15 +59,15 @@ vec3 leaf_half(uint slot)
     return fold(start, end);
 }
 
-// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold: there is nothing in
-// what its subtrees lack, and folding it leaves the others as they are.
+// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it lacks are
+// neutral.
 vec3 bottom_half(uint k)
 {
     const uint width = 1u << push.levels;
     if (root >= roots || k >= width)
-        return nothing();
+        return neutral();
     if (FROM_LEAVES == 0)
-        return box_halves[place(k, width)].xyz;
+        return box_halves[half_index(k, width)].xyz;
     const vec3 value = leaf_half(root + k * roots);
     store(k, width, value);
     return value;

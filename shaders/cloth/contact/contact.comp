@@ -1,14 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Contact of all cloths with all colliders: detection and response, one thread a vertex.
+// Contact of all cloths with all colliders: detection and response. One thread per vertex.
 //
-// Reads the state that integration proposes and the state before the substep, writes the substep's result: what it changes of
-// the proposed state, or all of it into the state before. The vertex ends on the offset surface, its approaching velocity is
-// removed, and Coulomb friction acts on the rest: it sticks while the tangential impulse stays within mu_s times the normal
-// one, else it slides with mu_k times it.
-// Reads: cloths, patches, mesh lists, colliders and their motions, hierarchies, proposed state and what features change of it,
-// own previous state, residuals of both, the way out of what the vertex is inside of, the colliders near a patch.
-// Writes: the one or the other state (velocity.w: 1 = touches), predicted velocities, candidates.
+// Each vertex moves from the state before the substep to the state that integration proposes. It ends on the offset surface
+// of what it touches. Its approaching velocity is removed. Coulomb friction acts on the rest: the vertex sticks while the
+// tangential impulse is at most mu_s times the normal impulse, else it slides with mu_k times that impulse.
+// Reads: cloths, patches, mesh lists, colliders and their motions, hierarchies, proposed state, feature corrections, own
+// previous state, residuals of both states, depenetrations, near colliders.
+// Writes: the proposed state or the state before (velocity.w: VOILE_VERTEX_TOUCHES), predicted velocities, candidates.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/feature_layout.h"
@@ -52,14 +51,14 @@ layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
-// m: what lies nearer together than this, near x of a collider's space, is the same to a few roundings of a coordinate.
+// m: distances below this are a few roundings of a coordinate near x, in a collider's space.
 float rounding(vec3 x)
 {
     return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
 }
 
-// m: a vertex that is nearer to the offset surface than this rests on it. Rounding moves both, more so where triangles are
-// long; of a plane it counts along its normal.
+// m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a plane
+// only rounding along its normal counts.
 float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 {
     return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
@@ -77,6 +76,14 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
 
+// Inside a collider the velocity that forces give a vertex decays in this time, s,
+const float k_inside_time = 0.01;
+// and stays below this speed, m/s: neighbors whose exits differ hold each other together.
+const float k_inside_speed = 0.6;
+// It cancels at most this fraction of the exit velocity, so that no vertex is held inside.
+const float k_inside_back = 0.5;
+
+// The vertex within the substep.
 struct Motion
 {
     FinePosition from; // before the substep
@@ -85,7 +92,7 @@ struct Motion
     uint cloth;
 };
 
-// As a float tells it.
+// Rounded to float.
 vec3 position_of(Motion motion) { return motion.from.x + motion.displacement; }
 
 // What contact needs of the vertex's cloth.
@@ -94,23 +101,23 @@ struct ClothContact
     float thickness; // m
     float static_friction;
     float kinetic_friction;
-    vec3 normal; // at the vertex, for VOILE_METHOD_NORMAL_RAY
+    vec3 normal; // at the vertex, for k_method_normal_ray
 };
 
-// The substep as collider c sees it: the way of the vertex in the collider's space.
-struct Passage
+// The motion of a vertex in a collider's space.
+struct RelativeMotion
 {
     bool moves;
-    Pose end;   // where it moves
+    Pose end;   // of a collider that moves
     Pose start;
     PoseChange change; // from start to end
     vec3 from;
     vec3 to;
 };
 
-Passage passage_of(uint c, uint flags, Motion motion)
+RelativeMotion relative_motion(uint c, uint flags, Motion motion)
 {
-    Passage result;
+    RelativeMotion result;
     result.moves = is_moved(flags);
     result.from = from_origin(c, flags, motion.from);
     precise const vec3 to = result.from + motion.displacement;
@@ -126,34 +133,36 @@ Passage passage_of(uint c, uint flags, Motion motion)
     return result;
 }
 
-// By how much the surface moves in the substep, m, at a place of its end in the collider's space. `way`: by deforming.
-vec3 surface_way(Passage passage, vec3 place, vec3 way)
+// m, world: the displacement of the surface within the substep, at a point of the collider's space at the substep's end.
+// `deformation`: m, the part that is due to the mesh's own vertices.
+vec3 surface_displacement(RelativeMotion relative, vec3 point, vec3 deformation)
 {
-    if (!passage.moves)
-        return way;
-    return displacement(passage.start, passage.change, place) + rotate(passage.start.rotation, way);
+    if (!relative.moves)
+        return deformation;
+    return displacement(relative.start, relative.change, point) + rotate(relative.start.rotation, deformation);
 }
 
-vec3 world_direction(Passage passage, vec3 direction)
+vec3 world_direction(RelativeMotion relative, vec3 direction)
 {
-    return passage.moves ? rotate(passage.end.rotation, direction) : direction;
+    return relative.moves ? rotate(relative.end.rotation, direction) : direction;
 }
 
-// m: by how much a contact moves the vertex. What has come nearer than the thickness goes back at once. What was too near
-// before comes away slowly, and what was inside no faster than that: neighbors that part faster would load the springs.
+// m: the correction along the contact's direction. What came closer than the thickness in this substep is put back at once.
+// What was too close before is lifted slowly, and what was inside no faster than that: neighbors that part faster would load
+// the springs.
 float lift_of(Contact contact, float thickness)
 {
     const float lift = min(thickness, contact.start + VOILE_RECOVERY_SPEED * push.step) - contact.gap;
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
-// `n`: world, unit, away from the surface; `lift`: m along it; `way`: m, of the surface in this substep.
-// `slop`: m, see contact_slop.
-void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, float static_friction,
+// `n`: world, unit, away from the surface; `lift`: m along it; `surface`: m, its displacement in this substep; `slop`: m, see
+// contact_slop.
+void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, float static_friction,
              float kinetic_friction)
 {
     motion.displacement += lift * n;
-    const vec3 relative = motion.v - way / push.step;
+    const vec3 relative = motion.v - surface / push.step;
     const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
     const float normal_impulse = -approach; // per unit of mass, m/s
@@ -164,10 +173,10 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, floa
     const float speed = length(v_t);
     if (speed <= static_friction * normal_impulse)
     {
-        // Sticks: what it slid within the substep is taken back too, or a held vertex would creep by a h^2 / 2 a substep.
-        // To the bit: roundings that add up would stretch stiff cloth until it slips.
-        const float height = dot(motion.displacement - way, n);
-        motion.displacement = way + (abs(height) > slop ? height : 0) * n;
+        // Sticks. The sliding within this substep is undone, too, or a held vertex would creep by a h^2 / 2 per substep. It is
+        // undone to the bit: roundings that add up would stretch stiff cloth until it slips.
+        const float height = dot(motion.displacement - surface, n);
+        motion.displacement = surface + (abs(height) > slop ? height : 0) * n;
         motion.v -= v_t;
         return;
     }
@@ -177,74 +186,68 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 way, float slop, floa
     motion.displacement += drift_time(is_verlet(cloths[motion.cloth].flags), push.step) * change;
 }
 
-// What contact knows of the vertex.
-struct Meeting
+// The contacts of a vertex in this substep.
+struct ContactState
 {
     bool touches;
-    bool stays_out; // what has moved it leads through no surface
+    bool path_is_clear; // the corrected path crosses no surface
 };
 
-// Inside a collider the velocity that forces give a vertex decays in this time, s, and stays below this speed, m/s: neighbors
-// whose ways out differ hold each other together. Of the velocity at which it goes out they take back this fraction at most, so
-// that none is held inside.
-#define VOILE_INSIDE_TIME 0.01
-#define VOILE_INSIDE_SPEED 0.6
-#define VOILE_INSIDE_BACK 0.5
-
-// A vertex inside a collider goes along with that, and out of it at a given speed. It gets no velocity from that.
-void leave(inout Motion motion, Depenetration depenetration)
+// Moves a vertex that is inside a collider with that collider and towards its exit. The exit adds no velocity.
+void depenetrate(inout Motion motion, Depenetration depenetration)
 {
     const uint c = depenetration.solid - 1;
-    const Passage passage = passage_of(c, colliders[c].flags, motion);
-    // A collider that jumps would throw what it leaves behind.
-    vec3 surface = surface_way(passage, passage.from, vec3(0)) / push.step;
+    const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
+    // Bounded, or a collider that jumps would throw the vertex.
+    vec3 surface = surface_displacement(relative, relative.from, vec3(0)) / push.step;
     surface *= min(1, VOILE_RECOVERY_SPEED / max(length(surface), 1e-30));
     vec3 own = motion.v - surface;
-    own *= min(max(1 - push.step / VOILE_INSIDE_TIME, 0), VOILE_INSIDE_SPEED / max(length(own), 1e-30));
+    own *= min(max(1 - push.step / k_inside_time, 0), k_inside_speed / max(length(own), 1e-30));
     const float speed = length(depenetration.velocity);
-    const vec3 out_of_it = depenetration.velocity / max(speed, 1e-30);
-    own -= min(dot(own, out_of_it) + VOILE_INSIDE_BACK * speed, 0) * out_of_it;
+    const vec3 outwards = depenetration.velocity / max(speed, 1e-30);
+    own -= min(dot(own, outwards) + k_inside_back * speed, 0) * outwards;
     motion.v = surface + own;
     motion.displacement = push.step * (motion.v + depenetration.velocity);
 }
 
-// Where the way of the vertex leads through a surface after all.
-void keep_out(inout Motion motion, Passage passage, Contact contact)
+// Puts a vertex whose corrected path crosses a surface back to its start, carried by that surface.
+void stop_at_start(inout Motion motion, RelativeMotion relative, Contact contact)
 {
-    const vec3 way = surface_way(passage, passage.from + contact.way, contact.way);
-    const vec3 n = world_direction(passage, contact.direction);
-    motion.displacement = way;
-    motion.v -= min(dot(motion.v - way / push.step, n), 0) * n;
+    const vec3 surface = surface_displacement(relative, relative.from + contact.deformation, contact.deformation);
+    const vec3 n = world_direction(relative, contact.direction);
+    motion.displacement = surface;
+    motion.v -= min(dot(motion.v - surface / push.step, n), 0) * n;
 }
 
-// `last`: in the round that looks for what the way leads through.
-void meet(inout Motion motion, uint c, bool last, ClothContact cloth, inout Meeting meeting)
+// `path_only`: only what the path crosses counts, in the second round.
+void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, inout ContactState state)
 {
     const ColliderRecord collider = colliders[c];
-    const Passage passage = passage_of(c, collider.flags, motion);
-    const vec3 normal = passage.moves ? rotate_back(passage.end.rotation, cloth.normal) : cloth.normal;
-    // A vertex that rests lies on the offset surface within rounding, and touches it on either side of that.
-    const float slop = contact_slop(collider, passage.from, cloth.thickness);
-    const float reach = last ? 0 : cloth.thickness + slop;
-    const Contact contact = find_contact(c, collider, last ? VOILE_METHOD_PATH_ALONE : METHOD, passage.from, passage.to,
-                                         normal, reach);
+    const RelativeMotion relative = relative_motion(c, collider.flags, motion);
+    const vec3 normal = relative.moves ? rotate_back(relative.end.rotation, cloth.normal) : cloth.normal;
+    // A vertex at rest lies on the offset surface within rounding. It touches on either side.
+    const float slop = contact_slop(collider, relative.from, cloth.thickness);
+    const float radius = path_only ? 0 : cloth.thickness + slop;
+    const Contact contact = find_contact(c, collider, path_only ? k_method_path_only : METHOD, relative.from,
+                                         relative.to, normal, radius);
     if (!contact.found)
         return;
-    if (last)
+    if (path_only)
     {
-        keep_out(motion, passage, contact);
-        meeting.stays_out = true;
+        stop_at_start(motion, relative, contact);
+        state.path_is_clear = true;
         return;
     }
-    // Nothing is nearer than this contact: what moves the vertex by less than its gap leads through no surface.
-    const float farthest = cloth.thickness - contact.gap + distance(passage.from, passage.to);
-    meeting.stays_out = !meeting.touches && farthest < contact.gap;
-    meeting.touches = true;
-    const vec3 n = world_direction(passage, contact.direction);
-    const vec3 way = surface_way(passage, passage.to - contact.gap * contact.direction, contact.way);
+    // Nothing is closer than this contact. A displacement shorter than the gap cannot cross a surface.
+    const float longest = cloth.thickness - contact.gap + distance(relative.from, relative.to);
+    state.path_is_clear = !state.touches && longest < contact.gap;
+    state.touches = true;
+    const vec3 n = world_direction(relative, contact.direction);
+    const vec3 surface =
+        surface_displacement(relative, relative.to - contact.gap * contact.direction, contact.deformation);
     if (contact.start < 0)
-        motion.v -= dot(motion.v - way / push.step, n) * n; // it comes out without a velocity of its own
-    respond(motion, n, lift_of(contact, cloth.thickness), way, slop,
+        motion.v -= dot(motion.v - surface / push.step, n) * n; // it leaves the inside without a velocity of its own
+    respond(motion, n, lift_of(contact, cloth.thickness), surface, slop,
             pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
             pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
@@ -255,38 +258,38 @@ ColliderWalk walk_path(Motion motion)
     return walk_colliders(gl_WorkGroupID.x, min(motion.from.x, to), max(motion.from.x, to));
 }
 
-// Responses to several surfaces, or to one in a narrow gap, can push a vertex through another surface. So there is a second
-// round: where the way from its last place leads through one, the vertex stays at that last place, as the surface carries it,
-// so that it is never on the wrong side. One loop for both rounds: their queries are most of this kernel.
-// `leaves`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would hold what the
-// other releases.
-Meeting meet_all(inout Motion motion, ClothContact cloth, bool leaves)
+// Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second round
+// checks the corrected path. Where it crosses a surface, the vertex stays at its start, so that it is never on the wrong side.
+// Both rounds share one loop because their queries are most of this kernel.
+// `leaves_solid`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would hold what
+// the other releases.
+ContactState resolve_contacts(inout Motion motion, ClothContact cloth, bool leaves_solid)
 {
-    Meeting meeting = Meeting(false, false);
-    bool last = false;
+    ContactState state = ContactState(false, false);
+    bool path_only = false;
     ColliderWalk walk = walk_path(motion);
     while (true)
     {
         uint c;
         if (!next_collider(walk, c))
         {
-            if (last || !meeting.touches || meeting.stays_out)
+            if (path_only || !state.touches || state.path_is_clear)
                 break;
-            last = true;
+            path_only = true;
             walk = walk_path(motion);
             continue;
         }
-        if (leaves && is_solid(colliders[c]))
+        if (leaves_solid && is_solid(colliders[c]))
             continue;
-        meet(motion, c, last, cloth, meeting);
-        if (meeting.touches)
-            keep_walking(walk, c, position_of(motion));
+        resolve_contact(motion, c, path_only, cloth, state);
+        if (state.touches)
+            continue_walk(walk, c, position_of(motion));
     }
-    return meeting;
+    return state;
 }
 
-// What integration proposes, corrected by features where they have met the vertex in this substep; `flags` of the velocity.
-Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
+// The motion that integration proposes, with the correction of features if this substep has one. `flags`: VOILE_VERTEX_...
+Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
 {
     const vec4 velocity = proposed_velocities[i];
     Motion motion;
@@ -304,7 +307,7 @@ Motion propose(uint i, uint cloth, vec3 proposed, out uint flags)
     return motion;
 }
 
-// How the vertex comes out of what it is inside of. All load this only where any is inside.
+// Loaded only in steps in which any vertex is inside a collider.
 Depenetration depenetration_of(uint i)
 {
     if (push.recovers == 0 || recovery_sizes[push.recovery] == 0)
@@ -312,8 +315,8 @@ Depenetration depenetration_of(uint i)
     return depenetrations[i];
 }
 
-// `flags` of the velocity, VOILE_VERTEX_...
-void commit(uint i, Motion motion, uint flags)
+// `flags`: VOILE_VERTEX_...
+void write_motion(uint i, Motion motion, uint flags)
 {
     const FinePosition to = moved(motion.from, motion.displacement);
     const vec4 position = vec4(to.x, proposed_positions[i].w);
@@ -336,8 +339,8 @@ void commit(uint i, Motion motion, uint flags)
         proposed_predicted[i] += change;
 }
 
-// What contact leaves alone is the same to the bit in either place.
-void take_over(uint i, uint cloth, vec4 proposed)
+// For a vertex without contact. The bits are those that the other state holds.
+void copy_proposed(uint i, uint cloth, vec4 proposed)
 {
     positions[i] = proposed;
     residuals[i] = proposed_residuals[i];
@@ -355,7 +358,7 @@ void main()
     const uint cloth = self.cloth;
     const vec4 proposed = proposed_positions[i];
     uint flags;
-    Motion motion = propose(i, cloth, proposed.xyz, flags);
+    Motion motion = proposed_motion(i, cloth, proposed.xyz, flags);
     bool changed = flags != 0;
     if (proposed.w > 0)
     {
@@ -365,22 +368,22 @@ void main()
         contact.thickness = cloths[cloth].thickness;
         contact.static_friction = cloths[cloth].static_friction;
         contact.kinetic_friction = cloths[cloth].kinetic_friction;
-        contact.normal = METHOD == VOILE_METHOD_NORMAL_RAY ? vertex_normal(self) : vec3(0);
+        contact.normal = METHOD == k_method_normal_ray ? vertex_normal(self) : vec3(0);
         const Depenetration depenetration = depenetration_of(i);
         if (depenetration.solid != 0)
         {
-            leave(motion, depenetration);
+            depenetrate(motion, depenetration);
             changed = true;
         }
-        find_candidates(i, motion.from, motion.displacement, motion.v, contact.thickness);
-        if (meet_all(motion, contact, depenetration.solid != 0).touches)
+        update_candidates(i, motion.from, motion.displacement, motion.v, contact.thickness);
+        if (resolve_contacts(motion, contact, depenetration.solid != 0).touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;
         }
     }
     if (changed)
-        commit(i, motion, flags);
+        write_motion(i, motion, flags);
     else if (push.in_place == 0)
-        take_over(i, cloth, proposed);
+        copy_proposed(i, cloth, proposed);
 }

@@ -1,10 +1,9 @@
-// Where a vertex touches a collider.
+// The contact of a vertex with a collider, in the collider's space.
 //
-// All of this is in the collider's space. The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`,
-// `padded_leaves[]` and `deforming_positions[]`, a constant COLLIDERS_CONVEX (0 where the only colliders with a formula are
-// planes), and defines
+// The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]` and
+// `deforming_positions[]`, a constant COLLIDERS_CONVEX (0: planes are the only colliders with a formula), and defines
 //   void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
-// after the include, which calls visit_triangle for all triangles of collider c that the box can reach.
+// after the include. It calls visit_triangle for all triangles of collider c that overlap the box.
 #ifndef VOILE_CONTACT_QUERY_GLSL
 #define VOILE_CONTACT_QUERY_GLSL
 
@@ -12,15 +11,16 @@
 #include "colliders/deforming.glsl"
 #include "contact/triangle.glsl"
 
-// How the narrow phase finds the surface within the thickness.
-#define VOILE_METHOD_NORMAL_RAY 0    // a ray along the vertex normal and one along its opposite, the nearest hit
-#define VOILE_METHOD_NEAREST_POINT 1 // the nearest point of the mesh
-#define VOILE_METHOD_PATH_ALONE 2    // nothing but what the path crosses
+// How the narrow phase finds the surface within the thickness. The first two are those of ContactMethod.
+const int k_method_normal_ray = 0;    // the nearest hit of two rays, along the vertex normal and its opposite
+const int k_method_nearest_point = 1; // the nearest point of the mesh
+const int k_method_path_only = 2;     // only what the path crosses
 
-// Offsets from the nearest point that are shorter than this share of the thickness are too short for a direction.
-#define VOILE_SHORT_OFFSET 0.01
-// What lies behind an open mesh with one side has its nearest point straight before it: |cosine| to the face's normal.
-#define VOILE_BEHIND 0.99
+// Offsets from the nearest point shorter than this fraction of the thickness have no precise direction.
+const float k_short_offset = 0.01;
+// |cosine| between the offset and the face normal. Behind an open one-sided mesh the nearest point lies straight ahead, within
+// this bound; beside the mesh it does not.
+const float k_behind = 0.99;
 
 struct Contact
 {
@@ -28,43 +28,43 @@ struct Contact
     vec3 direction; // unit, from the surface to the side on which the vertex belongs
     float gap;      // m, distance of the vertex from the surface along `direction`; negative under the surface
     float start;    // m, the same at the start of the substep
-    vec3 way;       // m, by which the surface deforms there in the substep
+    vec3 deformation; // m, displacement of the surface there within the substep, by its own vertices
 };
 
-// Of the substep as shares of the step: where deforming meshes are at its start and at its end.
+// Progress of the step, 0..1, at the substep's start and end: where deforming meshes are.
 vec2 query_progress = vec2(1);
-// Of the vertex's cloth. It is asked where boxes are: on some drivers a branch of its own around the queries costs them half
-// of their speed (bench/NOTES.md).
+// Of the vertex's cloth. Tested together with boxes: on some drivers a branch around the queries halves their speed
+// (bench/NOTES.md).
 uint query_layers = 0;
 
-// A vertex that moves from `from` to `to` within the substep, and what its traversal has found so far.
+// The query of a vertex that moves from `from` to `to` within the substep, and its result so far.
 struct MeshQuery
 {
     int method;
     vec3 from;
     vec3 to;
-    vec3 normal;     // of the cloth at the vertex, for VOILE_METHOD_NORMAL_RAY
+    vec3 normal;     // of the cloth at the vertex, for k_method_normal_ray
     float thickness; // m
     bool one_sided;
     bool closed;
     bool deforms;
     uvec2 first_corner; // of a mesh that deforms: its first vertex at the start and at the end of the step
 
-    uint visited;    // the triangle that is being looked at
+    uint current;    // the triangle being tested
     uint triangle;   // the nearest
     float distance;  // m to the nearest surface found; starts at the thickness
-    float alignment; // |cosine| between the offset from `point` and the face normal: breaks ties at shared edges
+    float alignment; // |cosine| between the offset from `point` and the face normal; breaks ties at shared edges
     vec3 point;      // on that surface
     vec3 face;       // unit normal of its triangle
     float height;    // m, of `to` above the triangle's plane
     uint crossing_triangle;
-    float crossing;  // smallest parameter of from -> to at which the motion crosses a triangle; 2 = none
-    vec3 crossing_face; // to the side that the motion comes from
+    float crossing;  // smallest parameter of from -> to at which the path crosses a triangle; 2: none
+    vec3 crossing_face; // towards the side that the path comes from
     vec3 crossing_point;
 };
 MeshQuery query;
 
-// m: distances within a few roundings count as equal.
+// m: distances that differ by less are equal within rounding.
 float query_tie() { return 1e-5 * query.thickness; }
 
 void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
@@ -73,31 +73,31 @@ void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
     const vec3 offset = query.to - point;
     const float distance = length(offset);
     const float alignment = abs(dot(offset, face)) / max(distance, 1e-12);
-    // Triangles that share the nearest edge or vertex lie equally far; the one that faces the vertex most tells the side
+    // Triangles that share the nearest edge or vertex are equally far. The one that faces the vertex most decides the side
     // (Ericson 2004, 12.3).
     const bool nearer = distance < query.distance - query_tie();
     const bool better_facing = distance < query.distance + query_tie() && alignment > query.alignment;
     if (nearer || better_facing)
     {
-        query.triangle = query.visited;
+        query.triangle = query.current;
         query.distance = distance;
         query.alignment = alignment;
         query.point = point;
         query.face = face;
-        query.height = dot(query.to - a, face); // more precise than by the point, which is put together from corners
+        query.height = dot(query.to - a, face); // more precise than from `point`, a sum over the corners
     }
 }
 
 void visit_normal_ray(vec3 a, vec3 b, vec3 c, vec3 face)
 {
-    const vec3 reach = query.thickness * query.normal;
-    const float t = segment_triangle(query.to - reach, 2 * reach, a, b, c);
+    const vec3 ray = query.thickness * query.normal;
+    const float t = segment_triangle(query.to - ray, 2 * ray, a, b, c);
     const float distance = abs(2 * t - 1) * query.thickness;
     if (t <= 1 && distance < query.distance)
     {
-        query.triangle = query.visited;
+        query.triangle = query.current;
         query.distance = distance;
-        query.point = query.to + (2 * t - 1) * reach;
+        query.point = query.to + (2 * t - 1) * ray;
         query.face = face;
     }
 }
@@ -118,10 +118,10 @@ void visit_triangle(uint index)
         triangle = Triangle(stored.a, stored.b, stored.c);
     }
     const vec3 normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
-    const vec3 face = normal / max(length(normal), 1e-30); // 0 of a collapsed one
-    query.visited = index;
+    const vec3 face = normal / max(length(normal), 1e-30); // 0 for a collapsed triangle
+    query.current = index;
     const float t = segment_triangle(from, query.to - from, triangle.a, triangle.b, triangle.c);
-    // Leaving a solid through its surface is no fault.
+    // Leaving a solid is no crossing.
     if (t < query.crossing && !(query.one_sided && dot(query.to - from, face) >= 0))
     {
         query.crossing = t;
@@ -129,9 +129,9 @@ void visit_triangle(uint index)
         query.crossing_face = dot(from - query.to, face) >= 0 ? face : -face;
         query.crossing_point = from + t * (query.to - from);
     }
-    if (query.method == VOILE_METHOD_NORMAL_RAY)
+    if (query.method == k_method_normal_ray)
         visit_normal_ray(triangle.a, triangle.b, triangle.c, face);
-    else if (query.method == VOILE_METHOD_NEAREST_POINT)
+    else if (query.method == k_method_nearest_point)
         visit_nearest(triangle.a, triangle.b, triangle.c, face);
 }
 
@@ -142,29 +142,29 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 
 void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max);
 
-bool meets(ColliderRecord collider) { return (collider.layers & query_layers) != 0; }
+bool shares_layer(ColliderRecord collider) { return (collider.layers & query_layers) != 0; }
 
-// Whether a box may reach something of a mesh that the cloth meets.
-bool reaches(ColliderRecord collider, vec3 box_min, vec3 box_max)
+// Whether a box overlaps the box of a mesh on a layer of the cloth.
+bool overlaps_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
 {
     if (!is_deforming(collider.flags))
-        return meets(collider) && boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
+        return shares_layer(collider) && boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
     const PaddedBox root = padded_boxes[collider.first_node];
-    return meets(collider) && boxes_overlap(box_min, box_max, root.min, root.max);
+    return shares_layer(collider) && boxes_overlap(box_min, box_max, root.min, root.max);
 }
 
-// By how much the surface deforms in the substep at a point of a triangle.
-vec3 deformation_way(uint triangle, vec3 point)
+// m: the displacement within the substep of a triangle's point, by the mesh's own vertices.
+vec3 deformation_at(uint triangle, vec3 point)
 {
     if (!query.deforms)
         return vec3(0);
-    return way_of(moving_triangle(triangle, query.first_corner, query_progress), point);
+    return triangle_displacement(moving_triangle(triangle, query.first_corner, query_progress), point);
 }
 
-// The gap that a contact had at the start of the substep, by its plane.
+// m: the gap from the contact's plane at the start of the substep.
 float start_gap(Contact contact)
 {
-    return contact.gap - dot(query.to - query.from - contact.way, contact.direction);
+    return contact.gap - dot(query.to - query.from - contact.deformation, contact.direction);
 }
 
 Contact crossing_contact()
@@ -173,8 +173,8 @@ Contact crossing_contact()
     contact.found = true;
     contact.direction = query.crossing_face;
     contact.gap = dot(query.to - query.crossing_point, contact.direction);
-    contact.way = deformation_way(query.crossing_triangle, query.crossing_point);
-    contact.start = max(start_gap(contact), 0); // it came from the right side
+    contact.deformation = deformation_at(query.crossing_triangle, query.crossing_point);
+    contact.start = max(start_gap(contact), 0); // the path begins on the right side
     return contact;
 }
 
@@ -184,20 +184,20 @@ Contact nearest_contact()
     contact.found = query.distance < query.thickness;
     if (!contact.found)
         return contact;
-    contact.way = deformation_way(query.triangle, query.point);
+    contact.deformation = deformation_at(query.triangle, query.point);
     const vec3 offset = query.to - query.point;
     const bool inside = query.one_sided && dot(offset, query.face) < 0;
-    // Behind an open mesh, but nearest to its border: beside it.
-    if (inside && !query.closed && query.alignment < VOILE_BEHIND)
+    // Behind an open mesh and nearest to its border: the vertex is beside the mesh.
+    if (inside && !query.closed && query.alignment < k_behind)
         contact.found = false;
-    // Near the surface the offset is too short to have a precise direction; the face has one. So it has for a ray's hit,
-    // whose offset follows the cloth, and inside the triangle, where rounding of large coordinates would tilt the offset.
-    const bool short_offset = query.distance < VOILE_SHORT_OFFSET * query.thickness;
+    // The face gives the direction where the offset has no precise one: near the surface; for a hit of a ray, whose offset
+    // follows the cloth; and above the triangle's inside, where rounding of large coordinates would tilt the offset.
+    const bool short_offset = query.distance < k_short_offset * query.thickness;
     const vec3 beside = offset - dot(offset, query.face) * query.face;
-    const bool inside_face = query.method == VOILE_METHOD_NEAREST_POINT && length(beside) < rounding(query.to);
-    if (short_offset || inside_face || query.method == VOILE_METHOD_NORMAL_RAY)
+    const bool inside_face = query.method == k_method_nearest_point && length(beside) < rounding(query.to);
+    if (short_offset || inside_face || query.method == k_method_normal_ray)
     {
-        const vec3 side = query.method == VOILE_METHOD_NORMAL_RAY ? query.from - query.point : offset;
+        const vec3 side = query.method == k_method_normal_ray ? query.from - query.point : offset;
         const bool flip = !query.one_sided && dot(side, query.face) < 0;
         contact.direction = flip ? -query.face : query.face;
         contact.gap = inside_face ? (flip ? -query.height : query.height) : dot(offset, contact.direction);
@@ -207,7 +207,7 @@ Contact nearest_contact()
         contact.direction = (inside ? -1 : 1) * offset / query.distance;
         contact.gap = inside ? -query.distance : query.distance;
     }
-    // What is outside now and was under this plane came round an edge.
+    // A vertex that is outside now and was under this plane came around an edge.
     contact.start = contact.gap < 0 ? start_gap(contact) : max(start_gap(contact), 0);
     return contact;
 }
@@ -225,7 +225,7 @@ void begin_query(uint c, ColliderRecord collider, int method, vec3 from, vec3 to
     if (query.deforms)
         query.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
     query.distance = thickness;
-    query.alignment = 2; // nothing ties with "nothing found"
+    query.alignment = 2; // no triangle ties with the initial distance
     query.crossing = 2;
 }
 
@@ -240,7 +240,7 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
 {
     const vec3 box_min = min(to - thickness, from);
     const vec3 box_max = max(to + thickness, from);
-    if (!reaches(collider, box_min, box_max))
+    if (!overlaps_mesh(collider, box_min, box_max))
         return no_contact();
     begin_query(c, collider, method, from, to, normal, thickness);
     visit_mesh(c, collider, box_min, box_max);
@@ -249,32 +249,31 @@ Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec
     return nearest_contact();
 }
 
-// `start`: m, how far the vertex was from the surface at the start of the substep.
+// `start`: m, distance of the vertex from the surface at the start of the substep.
 Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float start, float thickness)
 {
-    return Contact(surface.distance < thickness && meets(collider), surface.direction, surface.distance, start, vec3(0));
+    return Contact(surface.distance < thickness && shares_layer(collider), surface.direction, surface.distance, start, vec3(0));
 }
 
-// Where a path that starts outside enters a solid: the plane on which it does. A path shorter than the distances of its ends
-// from the solid does not.
+// The plane at which a path that starts outside enters a solid. A path shorter than the sum of its ends' distances from the
+// solid does not enter it.
 Contact convex_crossing(ColliderRecord collider, vec3 from, vec3 to, float start, float end)
 {
     if (start <= 0 || start + end >= distance(from, to))
         return no_contact();
     const Entry entry = convex_entry(collider, from, to);
     const float gap = (1 - entry.time) * dot(to - from, entry.direction);
-    return Contact(entry.time <= 1 && meets(collider), entry.direction, gap, start, vec3(0));
+    return Contact(entry.time <= 1 && shares_layer(collider), entry.direction, gap, start, vec3(0));
 }
 
-// The nearest surface, or, where the path enters the solid and would come out of another side of it, the plane on which it
-// entered.
+// The nearest surface. If the path enters the solid and the nearest surface is on another side: the plane of the entry.
 Contact convex_contact(ColliderRecord collider, int method, vec3 from, vec3 to, float thickness)
 {
     const ConvexSurface end = convex_surface(collider, to);
     const float start = convex_surface(collider, from).distance;
     const Contact crossing = convex_crossing(collider, from, to, start, end.distance);
     const bool same_side = end.distance < thickness && dot(end.direction, crossing.direction) > 0.5;
-    if (method == VOILE_METHOD_PATH_ALONE || (crossing.found && !same_side))
+    if (method == k_method_path_only || (crossing.found && !same_side))
         return crossing;
     return surface_contact(collider, end, start, thickness);
 }
@@ -284,15 +283,15 @@ Contact plane_contact(ColliderRecord collider, vec3 from, vec3 to, float thickne
     return surface_contact(collider, plane_surface(collider, to), plane_surface(collider, from).distance, thickness);
 }
 
-// What a vertex that goes from `from` to `to` touches of collider c. VOILE_METHOD_PATH_ALONE: the side through which the path
-// enters a solid or crosses a mesh; the thickness is 0 then.
+// The contact of a vertex that moves from `from` to `to`. k_method_path_only: where the path enters a solid or crosses a
+// mesh; the thickness is 0 then.
 Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
     if (collider.kind == VOILE_COLLIDER_MESH)
         return mesh_contact(c, collider, method, from, to, normal, thickness);
     if (COLLIDERS_CONVEX != 0 && collider.kind != VOILE_COLLIDER_PLANE)
         return convex_contact(collider, method, from, to, thickness);
-    if (method == VOILE_METHOD_PATH_ALONE)
+    if (method == k_method_path_only)
         return no_contact();
     return plane_contact(collider, from, to, thickness);
 }

@@ -1,4 +1,4 @@
-// Colliders with a formula: half space, sphere, capsule, box, each in its own space, the last three around its origin.
+// Colliders with a formula: half space, sphere, capsule and box, in their own space. All but the half space are centered.
 #ifndef VOILE_CONVEX_GLSL
 #define VOILE_CONVEX_GLSL
 
@@ -7,7 +7,7 @@ bool is_convex(ColliderRecord collider)
     return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE;
 }
 
-// What recovery brings vertices out of. Contact alone brings them up out of a plane: there is one way only.
+// Whether depenetration brings vertices out of the collider. A plane has one exit: contact alone suffices.
 bool is_solid(ColliderRecord collider)
 {
     const uint closed = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
@@ -27,7 +27,7 @@ ConvexSurface rounded_surface(vec3 offset, float radius)
     return ConvexSurface(distance - radius, distance > 1e-9 ? offset / distance : vec3(0, 1, 0));
 }
 
-// `end`: of the capsule's axis, whose other one is opposite.
+// `end`: of the capsule's axis. The other end is opposite.
 ConvexSurface capsule_surface(vec3 end, float radius, vec3 p)
 {
     const float t = clamp(dot(p, end) / max(dot(end, end), 1e-30), -1, 1);
@@ -54,7 +54,7 @@ ConvexSurface plane_surface(ColliderRecord collider, vec3 p)
     return ConvexSurface(dot(collider.shape.xyz, p) - collider.shape.w, collider.shape.xyz);
 }
 
-// Of the kinds that have another side.
+// Of a sphere, a capsule or a box.
 ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
 {
     if (collider.kind == VOILE_COLLIDER_SPHERE)
@@ -64,18 +64,18 @@ ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
     return box_surface(collider.shape.xyz, p);
 }
 
-// Where a straight path first meets a solid.
+// Where a straight path first enters a solid.
 struct Entry
 {
-    float time;     // 0..1 of the path; 2: nowhere
+    float time;     // 0..1, along the path; 2: nowhere
     vec3 direction; // unit, outwards
 };
 
 const Entry k_no_entry = Entry(2, vec3(0));
 
-// When a point that is at `offset` from the middle and goes by `span` meets a sphere or, with both across its axis, a cylinder;
-// 0 from inside, 2 never. By the nearest point of the line: the usual discriminant is a difference of large numbers where a fast
-// path meets a small sphere.
+// The time at which a path from `offset` by `span` enters a sphere, or, with both vectors projected across its axis, a cylinder.
+// 0: it starts inside; 2: never. Uses the nearest point of the line, because the usual discriminant is a difference of large
+// numbers where a fast path meets a small sphere.
 float rounded_entry(vec3 offset, vec3 span, float radius)
 {
     if (dot(offset, offset) <= radius * radius)
@@ -87,7 +87,7 @@ float rounded_entry(vec3 offset, vec3 span, float radius)
     return nearest > 0 && chord2 > 0 ? max(nearest - sqrt(chord2 / length2), 0) : 2;
 }
 
-// Of paths that start outside.
+// For paths that start outside.
 Entry sphere_entry(vec3 offset, vec3 span, float radius)
 {
     const float time = rounded_entry(offset, span, radius);
@@ -103,7 +103,7 @@ Entry capsule_entry(vec3 end, float radius, vec3 offset, vec3 span)
     const float time = rounded_entry(across, span_across, radius);
     if (time > 1)
         return k_no_entry;
-    // Nobody enters past an end but through that end's half sphere.
+    // Past an end the path can only enter through that end's half sphere.
     const float along = dot(offset + time * span, axis);
     if (abs(along) > size)
         return sphere_entry(along > 0 ? offset - end : offset + end, span, radius);
@@ -136,7 +136,7 @@ Entry box_entry(vec3 half_size, vec3 offset, vec3 span)
     return enters >= 0 && enters <= leaves ? Entry(enters, direction) : k_no_entry;
 }
 
-// m: how far a line goes from `offset` in a unit direction until it is out of a sphere around the middle for good.
+// m: the distance from `offset` in a unit direction to the last point of a centered sphere.
 float sphere_exit(vec3 offset, vec3 direction, float radius)
 {
     const float nearest = -dot(offset, direction);
@@ -162,11 +162,11 @@ float capsule_exit(vec3 end, float radius, vec3 offset, vec3 direction)
 float box_exit(vec3 half_size, vec3 offset, vec3 direction)
 {
     const vec3 side = vec3(direction.x < 0 ? -1 : 1, direction.y < 0 ? -1 : 1, direction.z < 0 ? -1 : 1);
-    const vec3 ways = (half_size - side * offset) / max(abs(direction), vec3(1e-30));
-    return min(ways.x, min(ways.y, ways.z));
+    const vec3 exits = (half_size - side * offset) / max(abs(direction), vec3(1e-30));
+    return min(exits.x, min(exits.y, exits.z));
 }
 
-// m: how far it is from inside a solid to its surface in a unit direction.
+// m: the distance from inside a solid to its surface in a unit direction.
 float convex_exit(ColliderRecord collider, vec3 from, vec3 direction)
 {
     if (collider.kind == VOILE_COLLIDER_SPHERE)
@@ -176,7 +176,7 @@ float convex_exit(ColliderRecord collider, vec3 from, vec3 direction)
     return box_exit(collider.shape.xyz, from, direction);
 }
 
-// Of the kinds that have another side, for paths that start outside.
+// Of a sphere, a capsule or a box, for paths that start outside.
 Entry convex_entry(ColliderRecord collider, vec3 from, vec3 to)
 {
     if (collider.kind == VOILE_COLLIDER_SPHERE)

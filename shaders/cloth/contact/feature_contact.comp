@@ -68,7 +68,7 @@ void take_leaf(uint first, uint count)
         visit_feature(features[f]);
 }
 
-#define VOILE_REACHED is_near
+#define VOILE_ENTERS is_near
 #include "colliders/bvh.glsl"
 
 // The sum of the directions in which the cloth's vertices are brought out, in the collider's space; 0 if none is inside it.

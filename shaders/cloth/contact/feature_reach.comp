@@ -46,7 +46,7 @@ bool first_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
     return !is_near && boxes_overlap(a_min, a_max, b_min, b_max);
 }
 
-#define VOILE_REACHED first_overlap
+#define VOILE_ENTERS first_overlap
 #include "colliders/bvh.glsl"
 
 // `margin`: m, how far the vertex can go.

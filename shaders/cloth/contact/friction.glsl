@@ -2,19 +2,19 @@
 #ifndef VOILE_FRICTION_GLSL
 #define VOILE_FRICTION_GLSL
 
-// A pair's coefficient is the geometric mean of both sides' (Box2D's rule); a collider without one takes the fabric's.
+// The coefficient of a pair is the geometric mean of both (as in Box2D). A collider without one takes the fabric's.
 float pair_friction(float fabric, float collider, uint flags)
 {
     return (flags & VOILE_COLLIDER_FRICTION) != 0 ? sqrt(fabric * collider) : fabric;
 }
 
-// m/s: the coefficient falls from the static to the kinetic one while the slip speed rises to this (Stribeck 1902).
+// m/s: while the slip speed rises to this, the coefficient falls from static to kinetic (Stribeck 1902).
 const float k_slip_range = 1e-3;
 
-// m/s: what friction leaves of the tangential speed of a vertex that slips. `normal_impulse`: per unit of mass, m/s. With a
-// jump from static to kinetic friction, the least slip that a substep knows would load stiff springs by more than a vertex
-// weighs, and one vertex that gives way by a nanometer would take the whole cloth along. Impulses so large that the range is
-// crossed within the substep meet kinetic friction at once.
+// m/s: the tangential speed that friction leaves a vertex that slips. `normal_impulse`: per unit of mass, m/s. If friction jumped
+// from static to kinetic, the smallest slip within a substep would load stiff springs by more than the weight of a vertex,
+// and one vertex that slips by a nanometer would take the whole cloth along. Impulses that cross the range within the substep
+// meet kinetic friction at once.
 float slip_speed(float speed, float normal_impulse, float static_friction, float kinetic_friction)
 {
     const float kinetic = max(speed - kinetic_friction * normal_impulse, 0);

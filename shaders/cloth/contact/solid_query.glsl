@@ -1,6 +1,6 @@
-// Whether a point lies inside a mesh, how deep, where lines through it leave the mesh, and what a segment crosses.
+// Queries of a mesh as a solid: inside or outside, depth, the exits of a line, the crossing of a segment.
 //
-// All of this is in the collider's space, at the step's start, or at its end if `solid_at_end`. The including kernel declares
+// They are in the collider's space, at the step's start, or at its end if `solid_at_end`. The including kernel declares
 // `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]`, `deforming_positions[]` and includes
 // collider_pose.glsl before.
 #ifndef VOILE_SOLID_QUERY_GLSL
@@ -18,9 +18,9 @@ struct Corners
 
 bool solid_at_end = false;
 
-#define VOILE_SOLID_LINE 0    // along an axis, in both directions
-#define VOILE_SOLID_SEGMENT 1
-#define VOILE_SOLID_NEAREST 2 // the nearest surface
+const int k_solid_line = 0; // along an axis, in both directions
+const int k_solid_segment = 1;
+const int k_solid_nearest = 2; // the nearest surface
 
 struct SolidQuery
 {
@@ -30,12 +30,12 @@ struct SolidQuery
     vec3 origin;
 
     int axis;      // of the line
-    int winding;   // how often the mesh winds around the origin
-    float ends[2]; // m, the farthest places at which the line meets the mesh, before and behind the origin
+    int winding;   // winding number of the mesh around the origin
+    float ends[2]; // m, distances to the last crossings of the line, ahead of and behind the origin
 
     vec3 span;      // m, of the segment from the origin
     bool outwards;  // only crossings from inside count
-    float crossing; // the first, as a share of the span; 2: none
+    float crossing; // the first, as a fraction of the span; 2: none
     vec3 normal;    // there, unit, outwards
 
     float distance; // m, to the nearest surface so far
@@ -54,8 +54,8 @@ Corners corners_of(uint index)
                    deforming_positions[corners.z].xyz);
 }
 
-// How the edge from a to b counts for the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards. To the bit
-// the opposite of the edge from b to a: whatever rounding does, both triangles of an edge agree on it.
+// The winding of the edge from a to b around the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards. Equal to
+// the bit to minus that of the edge from b to a: both triangles of an edge agree, whatever rounding does.
 int edge_winding(vec2 a, vec2 b)
 {
     precise const float left = a.x * b.y;
@@ -65,8 +65,8 @@ int edge_winding(vec2 a, vec2 b)
     return a.y > 0 && b.y <= 0 && left < right ? -1 : 0;
 }
 
-// The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). Summed over what a
-// closed mesh has on one side of the origin it is the mesh's winding number, also where the line meets edges and vertices.
+// The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). The sum over the
+// triangles on one side of the origin is the winding number of a closed mesh, also if the line meets edges and vertices.
 void visit_line(Corners t, vec3 normal)
 {
     const int x = (solid.axis + 1) % 3;
@@ -105,9 +105,9 @@ void take_leaf(uint first, uint count)
     {
         const Corners t = corners_of(i);
         const vec3 normal = cross(t.b - t.a, t.c - t.a);
-        if (solid.kind == VOILE_SOLID_LINE)
+        if (solid.kind == k_solid_line)
             visit_line(t, normal);
-        else if (solid.kind == VOILE_SOLID_SEGMENT)
+        else if (solid.kind == k_solid_segment)
             visit_segment(t, normal);
         else
             solid.distance = min(solid.distance, distance(solid.origin, nearest_on_triangle(solid.origin, t.a, t.b, t.c)));
@@ -119,14 +119,14 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
     return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
 }
 
-bool solid_reaches(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
+bool solid_enters(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
 {
-    if (solid.kind == VOILE_SOLID_NEAREST)
+    if (solid.kind == k_solid_nearest)
         return distance(solid.origin, clamp(solid.origin, node_min, node_max)) <= solid.distance;
     return boxes_overlap(box_min, box_max, node_min, node_max);
 }
 
-#define VOILE_REACHED solid_reaches
+#define VOILE_ENTERS solid_enters
 #include "colliders/bvh.glsl"
 #include "colliders/padded.glsl"
 
@@ -147,11 +147,11 @@ void visit(ColliderRecord collider, vec3 box_min, vec3 box_max)
         visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
 }
 
-// How often the mesh winds around a point; `solid.ends` are where the line along the axis meets it last. A box has exactly
-// the extent of what is in it: a line along an axis misses none that it should meet.
+// The winding number of the mesh around a point. `solid.ends` are the last crossings of the line along the axis. Boxes of the
+// hierarchy are exact, so a box without width finds all triangles that the line meets.
 int line_winding(uint c, ColliderRecord collider, vec3 origin, int axis)
 {
-    begin_solid_query(c, collider, VOILE_SOLID_LINE, origin);
+    begin_solid_query(c, collider, k_solid_line, origin);
     solid.axis = axis;
     solid.winding = 0;
     solid.ends[0] = solid.ends[1] = 0;
@@ -163,10 +163,10 @@ int line_winding(uint c, ColliderRecord collider, vec3 origin, int axis)
     return solid.winding;
 }
 
-// Whether the way from one place to another crosses the mesh; outwards: from inside. The first crossing is in `solid`.
+// Whether the segment crosses the mesh; `outwards`: from inside. The first crossing is in `solid`.
 bool crosses(uint c, ColliderRecord collider, vec3 from, vec3 to, bool outwards)
 {
-    begin_solid_query(c, collider, VOILE_SOLID_SEGMENT, from);
+    begin_solid_query(c, collider, k_solid_segment, from);
     solid.span = to - from;
     solid.outwards = outwards;
     solid.crossing = 2;
@@ -182,16 +182,16 @@ bool in_box(ColliderRecord collider, vec3 local)
     return boxes_overlap(local, local, root.min, root.max);
 }
 
-// m: how far it is to the nearest surface; `limit` if it is at least that.
+// m: distance to the nearest surface, at most `limit`.
 float nearest_distance(uint c, ColliderRecord collider, vec3 origin, float limit)
 {
-    begin_solid_query(c, collider, VOILE_SOLID_NEAREST, origin);
+    begin_solid_query(c, collider, k_solid_nearest, origin);
     solid.distance = limit;
     visit(collider, origin - limit, origin + limit);
     return solid.distance;
 }
 
-// Of a triangle seen from the origin, signed by its winding; half of it (Van Oosterom and Strackee 1983).
+// Half of the signed solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
 float half_solid_angle(vec3 a, vec3 b, vec3 c)
 {
     const float la = length(a);
@@ -200,11 +200,11 @@ float half_solid_angle(vec3 a, vec3 b, vec3 c)
     return atan(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-// How much of all directions the mesh fills, seen from a point (Jacobson et al. 2013, "Robust inside-outside segmentation using
-// generalized winding numbers"). Looks at every triangle.
+// The generalized winding number: the fraction of all directions that the mesh fills, seen from a point (Jacobson et al. 2013,
+// "Robust inside-outside segmentation using generalized winding numbers"). Visits every triangle.
 float generalized_winding(uint c, ColliderRecord collider, vec3 origin)
 {
-    begin_solid_query(c, collider, VOILE_SOLID_LINE, origin);
+    begin_solid_query(c, collider, k_solid_line, origin);
     float sum = 0;
     for (uint i = 0; i < collider.triangles; ++i)
     {
