@@ -23,7 +23,7 @@ float ggx_visibility(float n_l, float n_v, float alpha)
     return 0.5 / max(l + v, 1e-5);
 }
 
-// Fibres that stand off the surface: the inverted Gaussian-like distribution of Estevez and Kulla 2017 ("Production
+// Fibers that protrude from the surface: the inverted Gaussian-like distribution of Estevez and Kulla 2017 ("Production
 // friendly microfacet sheen BRDF") with the visibility of Neubelt and Pettineo 2013.
 float sheen_lobe(float n_h, float n_l, float n_v)
 {

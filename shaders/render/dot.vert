@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One dot an instance, as wide in pixels as it is told; none where its flags lack the bits that are asked for.
+// One dot per instance, push.size pixels wide. Hidden if push.mask is set and its flags have none of these bits.
 #include "marks.glsl"
 
 layout(location = 0) in vec4 position;

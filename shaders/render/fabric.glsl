@@ -1,5 +1,5 @@
-// The look of woven cloth: a check of colored yarns, and the threads themselves where they are large enough to be seen.
-// Every pattern is filtered by its footprint in the pixel, so that it fades into its mean instead of shimmering.
+// The look of woven cloth: a check of colored yarns, and the threads themselves if they are large enough to be visible.
+// Every pattern is filtered by its footprint in the pixel, so that it fades into its mean and does not shimmer.
 #ifndef VOILE_FABRIC_GLSL
 #define VOILE_FABRIC_GLSL
 
@@ -13,7 +13,7 @@ float band(float x, float w, float duty)
     return (band_integral(x + 0.5 * w, duty) - band_integral(x - 0.5 * w, duty)) / w;
 }
 
-// How much yarn of the second color shows at p, 0 to 1, and (y) of the light thin stripe.
+// The fractions of yarn of the second color (x) and of the light thin stripe (y) at p, 0..1.
 vec2 check_pattern(vec2 p)
 {
     const vec2 w = fwidth(p);
@@ -28,7 +28,7 @@ struct Weave
     float height; // 0 in the gaps, 1 on top of a thread
 };
 
-// Plain weave: warp and weft pass over each other in turn.
+// Plain weave: warp and weft alternate.
 Weave plain_weave(vec2 threads)
 {
     const vec2 w = fwidth(threads);

@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One line an instance: two triangles, as wide in pixels as it is told.
+// One line per instance: two triangles, push.size pixels wide.
 #include "marks.glsl"
 
 layout(location = 0) in vec4 from;
-layout(location = 1) in vec4 to; // the other end; with a length, the direction to it
+layout(location = 1) in vec4 to; // the other end; with push.reach, the direction to it
 layout(location = 0) out vec2 out_offset;
 
 void main()
@@ -20,8 +20,8 @@ void main()
         a = mix(a, b, (nearest - a.w) / (b.w - a.w));
     else if (b.w < nearest)
         b = mix(b, a, (nearest - b.w) / (a.w - b.w));
-    const vec2 way = (b.xy / b.w - a.xy / a.w) / push.pixel;
-    const vec2 along = dot(way, way) > 0 ? normalize(way) : vec2(1, 0);
+    const vec2 delta = (b.xy / b.w - a.xy / a.w) / push.pixel;
+    const vec2 along = dot(delta, delta) > 0 ? normalize(delta) : vec2(1, 0);
     const float side = (0x2a >> gl_VertexIndex & 1) != 0 ? 0.5 : -0.5;
     gl_Position = (0x34 >> gl_VertexIndex & 1) != 0 ? b : a;
     gl_Position.xy += side * push.size * vec2(-along.y, along.x) * push.pixel * gl_Position.w;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One color; round where there is an offset from the middle.
+// One color. Round if there is an offset from the center.
 #include "marks.glsl"
 
 layout(location = 0) in vec2 offset;

@@ -1,4 +1,4 @@
-// What lines and dots share: their push constants, and where a point lies in the picture.
+// Common to lines and dots: push constants, and the projection of a point.
 #ifndef VOILE_MARKS_GLSL
 #define VOILE_MARKS_GLSL
 
@@ -6,7 +6,7 @@
 
 layout(push_constant, std430) uniform Push { MarkPush push; };
 
-// A little nearer to the camera on the same line of sight: marks that lie on a surface show.
+// Slightly closer to the camera along the line of sight, so that marks on a surface are visible.
 vec4 project_mark(vec3 position)
 {
     const vec3 world = (push.world_from_model * vec4(position, 1)).xyz;

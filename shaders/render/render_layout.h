@@ -1,4 +1,4 @@
-// What the renderer's shaders are told about a frame and a draw. One definition for GLSL and C++.
+// Uniforms of a frame and push constants of a draw. One definition for GLSL and C++.
 #ifndef VOILE_RENDER_LAYOUT_H
 #define VOILE_RENDER_LAYOUT_H
 

@@ -1,4 +1,4 @@
-// How much of the sun reaches a point: 1 in the open, 0 in full shadow.
+// The visible fraction of the sun at a point: 1 in the open, 0 in full shadow.
 #ifndef VOILE_SHADOW_GLSL
 #define VOILE_SHADOW_GLSL
 
@@ -8,7 +8,8 @@
 // the golden angle (Vogel 1979).
 float sun_visibility(vec3 world, vec3 normal_to_sun)
 {
-    // Moved off the surface by a little more than the filter's reach on a tilted plane, so that it does not shade itself.
+    // Offset from the surface by a little more than the filter's radius on a tilted plane, so that it does not shade
+    // itself.
     const vec3 lifted = world + (2.5 * frame.shadow_texel) * normal_to_sun;
     const vec4 clip = frame.shadow_from_world * vec4(lifted, 1);
     if (any(greaterThan(abs(clip.xy), vec2(1))) || clip.z >= 1)

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Depth of a drawable as the sun sees it.
+// Depth of a drawable seen from the sun.
 #include "frame.glsl"
 
 layout(push_constant, std430) uniform Push { DrawPush push; };

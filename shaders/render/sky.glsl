@@ -1,4 +1,4 @@
-// A clear sky by rule: its color in a direction, and the light that it sheds on a surface.
+// A clear sky by formulas: its color in a direction, and its light on a surface.
 #ifndef VOILE_SKY_GLSL
 #define VOILE_SKY_GLSL
 
@@ -15,14 +15,14 @@ vec3 sky_radiance(vec3 direction, vec3 to_sun)
     return gradient + glow;
 }
 
-// Irradiance over pi, from the sky above and light that the ground throws back.
+// Irradiance over pi, from the sky above and from light that the ground reflects.
 vec3 sky_diffuse(vec3 normal)
 {
     const float up = 0.5 + 0.5 * normal.y;
     return mix(k_ground_bounce, mix(k_horizon, k_zenith, 0.6), up * up);
 }
 
-// What a rough mirror sees: the sky blurred towards its diffuse light, the ground below the horizon.
+// The reflection in a rough mirror: the sky blurred towards its diffuse light, the ground below the horizon.
 vec3 sky_specular(vec3 reflected, float roughness, vec3 to_sun)
 {
     const vec3 sharp = mix(k_ground_bounce, sky_radiance(reflected, to_sun), smoothstep(-0.3, 0.2, reflected.y));

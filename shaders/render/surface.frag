@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Shades a surface: sun with shadow, sky, and what is particular to fabric and ground. Writes tone-mapped color.
+// Shades a surface: sun with shadow, sky, and the patterns of fabric and ground. Writes tone-mapped color.
 #include "brdf.glsl"
 #include "fabric.glsl"
 #include "frame.glsl"
@@ -21,7 +21,7 @@ struct Shading
     float roughness;
     float metallic;
     float sheen;
-    float translucency; // share of the sun's light that comes through from the other side
+    float translucency; // fraction of the sun's light transmitted from the other side
 };
 
 // The normal tilted along the directions in which the texture coordinates grow (Mikkelsen 2010, without tangents).
@@ -50,7 +50,7 @@ void apply_fabric(inout Shading s)
     s.translucency = 0.10;
 }
 
-// Joints between slabs of a size that suits the scene.
+// Joints between slabs, whose size follows the scene's.
 void apply_ground(inout Shading s)
 {
     const float slab = exp2(floor(log2(max(frame.focus_radius, 1e-3) * 0.4)));

@@ -1,4 +1,4 @@
-// Scene radiance to display values; applied to every sample, so that bright edges are antialiased as they are seen.
+// Scene radiance to display values. Applied to every sample, so that bright edges are antialiased as displayed.
 #ifndef VOILE_TONE_GLSL
 #define VOILE_TONE_GLSL
 

@@ -2,7 +2,8 @@
 //
 // The including kernel declares `bvh_nodes[]` and defines before the include
 //   void take_leaf(uint first, uint count)
-// which is called for the triangles of every leaf that the traversal enters. It enters nodes whose box overlaps the query's.
+// which is called for the triangles of every leaf that the traversal enters. It enters nodes whose box overlaps the
+// query's.
 // VOILE_ENTERS may name another test, a function of (box_min, box_max, node_min, node_max).
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
@@ -11,8 +12,8 @@
 #define VOILE_ENTERS boxes_overlap
 #endif
 
-// Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them together
-// keeps the triangle tests out of the loop over nodes.
+// Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them
+// together keeps the triangle tests out of the loop over nodes.
 const uint k_bvh_waiting_leaves = 8;
 
 void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)

@@ -1,8 +1,9 @@
-// The pose of a collider within the step. A collider's own space is the world at the time when it was added, relative to its
-// origin. Neither shape nor hierarchy changes when it moves: queries are transformed into that space and results back.
+// The pose of a collider within the step. A collider's own space is the world at the time when it was added, relative
+// to its origin. Neither shape nor hierarchy changes when it moves: queries are transformed into that space and results
+// back.
 //
-// The including kernel declares colliders[], collider_motions[] and a constant COLLIDERS_MOVE. 0: no collider moves, and the
-// code for moving ones is left out.
+// The including kernel declares colliders[], collider_motions[] and a constant COLLIDERS_MOVE. 0: no collider moves,
+// and the code for moving ones is left out.
 #ifndef VOILE_COLLIDER_POSE_GLSL
 #define VOILE_COLLIDER_POSE_GLSL
 
@@ -20,7 +21,8 @@ struct Pose
 vec3 rotate(vec4 q, vec3 v) { return v + 2 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 vec3 rotate_back(vec4 q, vec3 v) { return rotate(vec4(-q.xyz, q.w), v); }
 
-// `progress`: of the step, 0..1. The origin moves along a straight line, the rotation along the chord of both quaternions.
+// `progress`: of the step, 0..1. The origin moves along a straight line, the rotation along the chord of both
+// quaternions.
 Pose pose_at(uint collider, float progress)
 {
     const ColliderMotion motion = collider_motions[collider];
@@ -31,8 +33,8 @@ Pose pose_at(uint collider, float progress)
     return pose;
 }
 
-// The change of a pose from one progress of the step to another. A difference of two poses would have the rounding of both, and
-// would shake cloth on a collider that moves evenly by more than its weight.
+// The change of a pose from one progress of the step to another. A difference of two poses would have the rounding of
+// both, and would shake cloth on a collider that moves evenly by more than its weight.
 struct PoseChange
 {
     vec4 rotation;

@@ -2,9 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Lists the colliders near each patch of cloth until the next such pass, one bit per collider. One workgroup per patch.
 //
-// The patch's box has room for twice the speed of its vertices, and at least for `sudden`. A bit is set if the box of all that
-// the collider sweeps until the end of the step overlaps the patch's box.
-// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of deforming meshes, feature sets.
+// The patch's box has room for twice the speed of its vertices, and at least for `sudden`. A bit is set if the box of
+// all that the collider sweeps until the end of the step overlaps the patch's box.
+// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of deforming meshes, feature
+// sets.
 // Writes: near colliders.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -86,8 +87,8 @@ Box local_box(ColliderRecord collider)
     return Box(root.min, root.max);
 }
 
-// m: contact sees the path of a vertex within a substep as straight in the collider's space. A rotating collider can come closer
-// than its radius says to a vertex `distance` away by this.
+// m: contact sees the path of a vertex within a substep as straight in the collider's space. A rotating collider can
+// come closer than its radius says to a vertex `distance` away by this.
 float turning_margin(ColliderMotion motion, float distance)
 {
     const float angle = 2 * acos(clamp(dot(motion.rotation_from, motion.rotation_to), 0, 1));

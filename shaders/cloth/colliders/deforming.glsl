@@ -18,7 +18,8 @@ struct MovingTriangle
     Triangle end;
 };
 
-// The triangle in a slot. In the step, vertices move along straight lines from `first.x + corner` to `first.y + corner`.
+// The triangle in a slot. In the step, vertices move along straight lines from `first.x + corner` to `first.y +
+// corner`.
 // `progress`: of the step, at the start and at the end of the substep.
 MovingTriangle moving_triangle(uint slot, uvec2 first, vec2 progress)
 {

@@ -1,10 +1,11 @@
-// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (collider_reach.comp), or all.
+// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (collider_reach.comp),
+// or all.
 //
-// A list holds inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed. The results
-// are equal to the bit, because a collider that is not near changes nothing.
+// A list holds inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed. The
+// results are equal to the bit, because a collider that is not near changes nothing.
 //
-// The including kernel declares near_colliders[], push.colliders and push.near_stride. VOILE_NEAR_LISTS may be defined as
-// false: there are no lists.
+// The including kernel declares near_colliders[], push.colliders and push.near_stride. VOILE_NEAR_LISTS may be defined
+// as false: there are no lists.
 #ifndef VOILE_NEAR_COLLIDERS_GLSL
 #define VOILE_NEAR_COLLIDERS_GLSL
 

@@ -2,7 +2,8 @@
 //
 // The including kernel declares `padded_boxes[]` and defines boxes_overlap and, before the include,
 //   void take_leaf(uint first, uint count)
-// which is called with a count of 1 for every leaf that the traversal enters, once per triangle. VOILE_ENTERS: as in bvh.glsl.
+// which is called with a count of 1 for every leaf that the traversal enters, once per triangle. VOILE_ENTERS: as in
+// bvh.glsl.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 
@@ -19,8 +20,8 @@ bool padded_box_overlaps(uint box, vec3 box_min, vec3 box_max)
     return VOILE_ENTERS(box_min, box_max, b.min, b.max);
 }
 
-// The ancestors of a box are its index modulo the widths of their levels, so the stack is one word: bit d is set if the second
-// child of the current ancestor on level d is still to visit.
+// The ancestors of a box are its index modulo the widths of their levels, so the stack is one word: bit d is set if the
+// second child of the current ancestor on level d is still to visit.
 void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min, vec3 box_max)
 {
     const uint last = 1u << findMSB(2 * triangles - 1); // width of the level of leaves

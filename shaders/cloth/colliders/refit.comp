@@ -1,15 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Refit of an implicit complete BVH: computes the boxes of one level and folds them several levels up. The first dispatch
-// computes the boxes of the last level from the vertices. Each following dispatch starts where the one before ended. The last
-// one ends at the root.
+// Refit of an implicit complete BVH: computes the boxes of one level and folds them several levels up. The first
+// dispatch computes the boxes of the last level from the vertices. Each following dispatch starts where the one before
+// ended. The last one ends at the root.
 //
-// A subtree whose root is box `root` on a level of m boxes consists of the boxes root, root + m, root + 2 m, ... of the levels
-// below: j levels down its k-th box is root + k m for k < 2^j, and folds boxes k and k + 2^j of the next level. A workgroup
-// takes neighboring roots, so that it reads and writes runs of neighboring boxes. A thread computes one half of a box, its
-// minimum or its maximum, so that stores of neighboring threads fill a run of memory. Threads fold the boxes that they hold in
-// registers, then in shared memory.
+// A subtree whose root is box `root` on a level of m boxes consists of the boxes root, root + m, root + 2 m, ... of the
+// levels below: j levels down its k-th box is root + k m for k < 2^j, and folds boxes k and k + 2^j of the next level.
+// A workgroup takes neighboring roots, so that it reads and writes runs of neighboring boxes. A thread computes one
+// half of a box, its minimum or its maximum, so that stores of neighboring threads fill a run of memory. Threads fold
+// the boxes that they hold in registers, then in shared memory.
 // Reads: leaves and positions, or boxes of the bottom level. Writes: boxes, those of the bottom level only from leaves.
 #include "shared/padded_layout.h"
 
@@ -59,8 +59,8 @@ vec3 leaf_half(uint slot)
     return fold(start, end);
 }
 
-// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it lacks are
-// neutral.
+// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it
+// lacks are neutral.
 vec3 bottom_half(uint k)
 {
     const uint width = 1u << push.levels;

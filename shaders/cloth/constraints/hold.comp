@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Holds that give: springs, leashes and backstops, once a substep after integration. One thread a hold.
+// Soft attachments: springs, max-distance constraints and backstops, once per substep after integration. One thread per
+// attachment.
 //
-// A spring is taken by backward Euler, v' = v + h w (k (p - x - h (v' - v)) + c (u - v')), with p and u its place and the
-// place's velocity, w the inverse mass. What it adds to the velocity moves the vertex for half of the substep after RK4, in
-// which it acted throughout, and for all of it with Verlet's velocities between positions: a vertex at rest stays there. A
-// leash and a backstop put the vertex back and take the velocity that leads out.
-// Reads: holds, anchors, cloths. Writes: proposed state and residuals, predicted
-// velocities.
+// A spring is integrated by backward Euler, v' = v + h w (k (p - x - h (v' - v)) + c (u - v')), with p and u the
+// position and velocity of its anchor point and w the inverse mass. The change of velocity moves the vertex for the
+// drift time of its integrator, so that a vertex at rest stays at rest. Max-distance constraints and backstops project
+// the position and remove the velocity that leads out.
+// Reads: holds, anchors, cloths. Writes: proposed state and residuals, predicted velocities.
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -25,13 +25,14 @@ layout(push_constant, std430) uniform Push { HoldPush push; };
 #include "shared/fine_position.glsl"
 #include "integration/integrator.glsl"
 
-// Puts a vertex that is `outside` m beyond a bound back along n, and takes the velocity that leads it out. False: it is not.
-bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 place_velocity)
+// Projects a vertex that is `outside` m beyond a bound back along n, and removes the velocity that leads out. False: it
+// is inside.
+bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 point_velocity)
 {
     if (outside <= 0)
         return false;
     shift -= outside * n;
-    v -= max(dot(v - place_velocity, n), 0) * n;
+    v -= max(dot(v - point_velocity, n), 0) * n;
     return true;
 }
 
@@ -46,18 +47,18 @@ void main()
     const AnchorRecord anchor = anchors[hold.anchor];
     const vec3 from = (anchor.from * vec4(hold.place, 1)).xyz;
     const vec3 to = (anchor.to * vec4(hold.place, 1)).xyz;
-    const vec3 place = mix(from, to, push.progress);
+    const vec3 point = mix(from, to, push.progress);
     const float h = push.step;
     const FinePosition here = FinePosition(position.xyz, unpack_residual(residuals[hold.vertex]));
-    const vec3 to_vertex = (position.xyz - place) + here.residual;
+    const vec3 to_vertex = (position.xyz - point) + here.residual;
     vec3 shift = vec3(0); // m, of the vertex
     const vec4 velocity = velocities[hold.vertex];
     vec3 v = velocity.xyz;
 
-    const vec3 place_velocity = (to - from) * push.rate;
+    const vec3 point_velocity = (to - from) * push.rate;
     const float stiffness = hold.stiffness;
     const float w = position.w;
-    const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * place_velocity;
+    const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * point_velocity;
     const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (hold.damping + h * stiffness));
     const bool verlet = is_verlet(cloths[hold.cloth].flags);
     shift += drift_time(verlet, h) * (spring_velocity - v);
@@ -67,16 +68,16 @@ void main()
     const float distance = length(offset);
     bool taut = false;
     if (distance > hold.max_distance)
-        taut = keep_inside(shift, v, offset / distance, distance - hold.max_distance, place_velocity);
+        taut = keep_inside(shift, v, offset / distance, distance - hold.max_distance, point_velocity);
     if ((hold.flags & VOILE_HOLD_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * hold.normal);
-        taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, place_velocity) || taut;
+        taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, point_velocity) || taut;
     }
     const FinePosition next = moved(here, shift);
     positions[hold.vertex].xyz = next.x;
     residuals[hold.vertex] = pack_residual(next);
-    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
+    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
     velocities[hold.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
     if (verlet)
         predicted[hold.vertex].xyz += v - velocity.xyz;

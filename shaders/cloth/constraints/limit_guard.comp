@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Takes the state back towards the one before the strain limit where the limit has raised a cloth's energy. The straight
-// line between both crosses no surface: contact has checked it.
+// Moves the state back towards the state before the strain limit where the limit has raised a cloth's energy. The
+// straight line between both crosses no surface: contact has checked it.
 // Reads: patches, cloths, scales, the state before. Writes: state.
 #include "shared/cloth_layout.h"
 
@@ -27,7 +27,7 @@ void main()
         return;
     const LimitScale scale = scales[self.cloth];
     const uint i = self.index;
-    // What a vertex touched in the last substep decides about Verlet's next kick.
+    // Verlet's next kick depends on the contacts of the last substep.
     velocities[i].w = velocities_before[i].w;
     if (scale.position == 1 && scale.velocity == 1 && scale.shift_rate == 0)
         return;

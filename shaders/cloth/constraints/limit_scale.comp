@@ -1,17 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of what the strain limit has changed each cloth keeps: as much as its energy bears. The sums of a cloth's patches
-// are added up by the workgroup of its first one; the others have nothing to do.
+// Decides how much of the strain limit's changes each cloth keeps. The workgroup of a cloth's first patch adds up the
+// sums of its patches. The other workgroups do nothing.
 //
-// Velocities take what leaves them the least kinetic energy. Positions take what is paid for: by the kinetic energy that
-// goes, by what damping and contact have taken in this step, and by a reserve. The first brings a cloth back that has fallen
-// beyond its limit within the step. The second keeps one from creeping beyond it; it counts as far as the limit undoes the
-// step, or a limit that cannot be kept would shake the cloth with all that damping takes. The reserve is what the limit has
-// taken from the cloth's energy in the last steps: its passes are no exact projection, and give some of it back.
+// Velocities keep the part that leaves the least kinetic energy. Positions keep what is paid for: by the kinetic energy
+// that is removed, by what damping and contact have dissipated in this step, and by a reserve. The kinetic energy
+// brings back a cloth that has fallen beyond its limit within the step. The dissipated energy keeps a cloth from
+// creeping beyond it. It counts only as far as the limit undoes the step, or a limit that cannot be satisfied would
+// shake the cloth with all that damping dissipates. The reserve is the energy that the limit has removed in the last
+// steps: its passes are no exact projection, and return some of it.
 //
-// What a part of the displacements costs follows from the slope at their start and from the cost of all of them, as if springs
-// were linear. They are not: what is kept is measured, taken back further where it costs too much, and measured again. What
-// costs a little too much then is taken back by as much as the estimate says; what costs more is not kept at all.
+// The cost of a part of the displacements is estimated from the slope at their start and from the cost of all of them,
+// as if springs were linear. They are not. So the part that is kept is measured, reduced where it costs too much, and
+// measured again. In the last look a small excess is reduced by the estimate; with a larger one nothing is kept.
 // Reads: patches, work. Writes: one scale per cloth.
 #include "shared/cloth_layout.h"
 
@@ -27,18 +28,18 @@ layout(set = 0, binding = 5, std430) buffer Scales { LimitScale scales[]; };
 layout(push_constant, std430) uniform Push { LimitScalePush push; };
 
 const float k_kept = 0.9; // of the reserve, per step
-// A limit whose displacements are up to so many times the step's own, in the same places, undoes the step.
+// A limit whose displacements are at most this many times the step's own, at the same vertices, undoes the step.
 const float k_undoing = 5;
-const float k_overdraft = 1.001; // of what there is to pay with, that displacements may cost: the reserve owes the rest
-// What costs up to so much more than there is, as measured in the last look, is taken back unmeasured.
+const float k_overdraft = 1.001; // the largest cost over the available energy; the reserve owes the rest
+// A cost in the last look up to this many times the available energy is reduced by the estimate.
 const float k_near = 1.1;
 
 struct Energies
 {
     float lost;  // J, in the step before the limit
-    float slope; // J, of the cost in what is kept of the limit's displacements, at none of them
+    float slope; // J, derivative of the cost by the fraction of the displacements that is kept, at 0
     float cost;  // J, of the displacements as they are now
-    float v_dv;  // what follows is the limit's, see LimitWork
+    float v_dv;  // this and the following: of the limit, see LimitWork
     float dv_dv;
     float v_dx;
     float dx_dx;
@@ -54,13 +55,14 @@ Energies add(Energies a, Energies b)
                     a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
 }
 
-// J, what displacements from one state to the other add. `kept`: how much of those that the work at the first is of.
+// J: the energy that displacements from one state to the other add. `kept`: their fraction of those in the work of the
+// first.
 float stored(LimitWork from, LimitWork to, float kept)
 {
     return to.energy - from.energy - 0.5 * (kept * from.linear_work + to.linear_work);
 }
 
-// `kept`: of the limit's displacements, what they are now.
+// `kept`: the current fraction of the limit's displacements.
 Energies energies_of(uint patch_index, float kept)
 {
     const LimitWork first = step_works_first[patch_index];
@@ -71,10 +73,11 @@ Energies energies_of(uint patch_index, float kept)
                     before.v_dv, before.dv_dv, before.v_dx, before.dx_dx, before.dv_dx, before.undone);
 }
 
-// Where a x + 1/2 b x^2 is least between 0 and `most`.
+// The x between 0 and `most` for which a x + 1/2 b x^2 is least.
 float least(float a, float b, float most) { return b > 0 ? clamp(-a / b, 0, most) : 0; }
 
-// What to keep of displacements that cost `slope` at their start and `cost` in all, so that it costs no more than `available`.
+// The fraction of displacements that costs no more than `available`, from the slope of the cost at 0 and the cost of
+// all.
 float affordable(float slope, float cost, float available)
 {
     if (cost <= available)
@@ -85,7 +88,7 @@ float affordable(float slope, float cost, float available)
 
 LimitScale scale_of(float reserve, Energies e)
 {
-    // v dv + shift dx with the least kinetic energy, one after the other in turn.
+    // v dv + shift dx with the least kinetic energy, by alternating minimization.
     float v = 1;
     float shift = 0;
     for (int i = 0; i < 8; ++i)
@@ -102,8 +105,8 @@ LimitScale scale_of(float reserve, Energies e)
     return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, saved, lost);
 }
 
-// Of what is kept of the displacements. Velocities are as they shall be.
-LimitScale looked_at(LimitScale s, Energies e)
+// The second and later looks, at the displacements that are kept. Velocities are final.
+LimitScale rescaled(LimitScale s, Energies e)
 {
     const bool last = push.look == VOILE_LIMIT_LOOKS;
     const float available = max(s.saved + s.lost, 0);
@@ -142,5 +145,5 @@ void main()
         barrier();
     }
     if (thread == 0)
-        scales[cloth] = push.look == 0 ? scale_of(scale.saved, sums[0]) : looked_at(scale, sums[0]);
+        scales[cloth] = push.look == 0 ? scale_of(scale.saved, sums[0]) : rescaled(scale, sums[0]);
 }

@@ -1,19 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of the strain limit, after a step's last substep: where a spring is longer than its limit, both ends are moved
-// towards each other, each by its fraction of the masses. All springs at once (Jacobi): what one end gets the other gets in
-// return, so that momentum is kept. The velocity that lengthens a spring at its limit is taken from both ends alike.
+// One pass of the strain limit, after a step's last substep. If a spring is longer than its limit, both ends move
+// towards each other, each by its fraction of the masses. All springs are corrected at once (Jacobi). Corrections of
+// both ends are opposite, so momentum is kept. The velocity that lengthens a spring at its limit is removed from both
+// ends.
 //
-// A spring that is shorter than at rest is made no shorter: it would store energy that nothing pays for. What the passes
-// still cost is limit_work.comp's to measure.
+// A spring shorter than at rest is not shortened: it would store energy that nothing pays for. limit_work.comp measures
+// the energy that the passes still add.
 //
-// A pass over neighbors carries a correction one spring far. On a grid, passes therefore go from coarse to fine: a level
-// moves only the vertices whose row and column are multiples of its spacing, and after it the vertices between take the mean
-// of what their neighbors were moved by (after Müller 2008, "Hierarchical position based dynamics"). A bound for the distance
-// between far vertices follows from those for the springs between them, so that nothing is limited that the limit would not.
-// A coarse vertex has the mass of what moves with it, which keeps the momentum of the whole. A mesh compares the ends of its
-// edges in every pass.
-// A thread moves one vertex. Reads: cloths, patches, mesh lists, state before, the step's state. Writes: state after.
+// A pass over neighbors carries a correction over one spring only. On a grid, passes therefore run from coarse to fine.
+// A level moves only the vertices whose row and column are multiples of its spacing. After it the vertices between take
+// the mean displacement of their neighbors (after Müller 2008, "Hierarchical position based dynamics"). The bound of
+// the distance between far vertices follows from the bounds of the springs between them, so a level limits nothing that
+// the springs would not. A coarse vertex has the mass of all that moves with it, which keeps momentum. A mesh compares
+// the ends of its edges in every pass.
+// One thread per vertex. Reads: cloths, patches, mesh lists, state before, the step's state. Writes: state after.
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -50,8 +51,8 @@ struct Correction
 
 const Correction k_no_correction = Correction(vec3(0), vec3(0), StiffnessSum(vec3(0), vec3(0)));
 
-// The end of a spring, and what of a correction it bears: the other end takes no more, so that momentum is kept. Its inverse
-// mass is 1/kg, or what stands for it on a coarse level.
+// The end of a spring and its relaxation, the fraction of a correction that it takes. Both ends take the smaller one,
+// so that momentum is kept. The inverse mass, 1/kg, is that of all that moves with the vertex on a coarse level.
 struct End
 {
     uint index;
@@ -61,7 +62,7 @@ struct End
     float relaxation;
 };
 
-// Of any vertex: up to eight springs in one line, each of which takes half.
+// Safe for any vertex: up to eight springs in one line, each of which takes half.
 const float k_safe_relaxation = 0.25;
 
 End end_at(uint index, float inverse_mass)
@@ -70,16 +71,16 @@ End end_at(uint index, float inverse_mass)
     return End(index, positions[index].xyz, v.xyz, inverse_mass, push.first == 1 ? k_safe_relaxation : v.w);
 }
 
-// m, at most: what the spring may not be shorter than.
+// m: the least length that the spring may be corrected to.
 float shortest(End self, End other, float rest_length)
 {
     return min(rest_length, distance(step_positions[self.index].xyz, step_positions[other.index].xyz));
 }
 
-// Springs this near below their limit have their lengthening stopped too, or they would swing about it.
+// Springs beyond this fraction of their limit stop lengthening, too, or they would oscillate about it.
 const float k_taut = 0.995;
 
-// Of springs with both ends next to each other `rest_length` is their own; 0: any shorter length is allowed.
+// `rest_length`: m, of a spring between neighbors; 0: any shorter length is allowed.
 void add_limit(inout Correction correction, End self, End other, float longest, float rest_length)
 {
     const vec3 delta = other.x - self.x;
@@ -102,10 +103,10 @@ void add_limit(inout Correction correction, End self, End other, float longest, 
     correction.v += weight * max(dot(other.v - self.v, n), 0) * n;
 }
 
-// What of `relaxation` is borne. All springs at once converge while twice the largest eigenvalue of what a vertex takes is
-// at most 2, as it is in a flat sheet. In crumpled cloth, whose springs fall into one line, it is up to twice that, and
-// corrections would grow from pass to pass.
-float borne(StiffnessSum taken, float relaxation)
+// The relaxation for which the passes converge, at most `relaxation`. Jacobi passes converge while the largest
+// eigenvalue of the sum that a vertex takes is at most 1, as in a flat sheet. In crumpled cloth, whose springs fall
+// into one line, it is up to twice that, and corrections would grow from pass to pass.
+float stable_relaxation(StiffnessSum taken, float relaxation)
 {
     const float squares = dot(taken.diagonal, taken.diagonal) + 2 * dot(taken.mixed, taken.mixed);
     if (relaxation * relaxation * squares <= 1) // the sum of the squared eigenvalues
@@ -113,28 +114,28 @@ float borne(StiffnessSum taken, float relaxation)
     return min(relaxation, 1 / largest_eigenvalue(taken));
 }
 
-// How many lines of a grid move with a coarse line: the sum of the weights (1 - distance / spacing) of the lines around it,
-// and of all lines beyond the last coarse one; lines on the border count as their share of the mass.
-float lines_with(int line, int lines, int spacing, float border_share)
+// The number of lines of a grid that move with a coarse line: the sum of the weights (1 - distance / spacing) of the
+// lines around it, and of all lines beyond the last coarse one. Lines on the border count by their mass.
+float lines_with(int line, int lines, int spacing, float border)
 {
     const int last = (lines - 1) / spacing * spacing;
     const float beside = 0.5 * float(spacing - 1);
     const float before = line == 0 ? 0 : beside;
-    const float after = line < last ? beside : line == lines - 1 ? 0 : float(lines - 2 - last) + border_share;
-    const float self = line == 0 || line == lines - 1 ? border_share : 1;
+    const float after = line < last ? beside : line == lines - 1 ? 0 : float(lines - 2 - last) + border;
+    const float self = line == 0 || line == lines - 1 ? border : 1;
     return before + self + after;
 }
 
-bool on_level(ivec2 place, int spacing) { return all(equal(place % spacing, ivec2(0))); }
+bool on_level(ivec2 column_row, int spacing) { return all(equal(column_row % spacing, ivec2(0))); }
 
-float coarse_inverse_mass(uint cloth, ivec2 place, uint index, int spacing)
+float coarse_inverse_mass(uint cloth, ivec2 column_row, uint index, int spacing)
 {
     const float inverse_mass = positions[index].w;
     if (spacing == 1 || inverse_mass == 0)
         return inverse_mass;
-    const float share = cloths[cloth].border_share;
-    return 1 / (lines_with(place.x, int(cloths[cloth].columns), spacing, share) *
-                lines_with(place.y, int(cloths[cloth].rows), spacing, share));
+    const float border = cloths[cloth].border_share;
+    return 1 / (lines_with(column_row.x, int(cloths[cloth].columns), spacing, border) *
+                lines_with(column_row.y, int(cloths[cloth].rows), spacing, border));
 }
 
 Correction limit_grid(PatchVertex self)
@@ -143,35 +144,35 @@ Correction limit_grid(PatchVertex self)
     Correction correction = k_no_correction;
     const uint columns = cloths[cloth].columns;
     const int spacing = int(push.spacing);
-    const ivec2 place = self.place;
-    if (!on_level(place, spacing))
+    const ivec2 column_row = self.column_row;
+    if (!on_level(column_row, spacing))
         return correction;
-    const End end = end_at(self.index, coarse_inverse_mass(cloth, place, self.index, spacing));
+    const End end = end_at(self.index, coarse_inverse_mass(cloth, column_row, self.index, spacing));
     for (int c = 0; c < 4; ++c) // structural and shear
         for (int side = 0; side < 2; ++side)
         {
             const SpringClass spring = cloths[cloth].springs[c];
             const ivec2 offset = (side == 0 ? 1 : -1) * spacing * k_spring_offsets[c];
-            if (spring.stiffness == 0 || !in_grid(place + offset, columns, cloths[cloth].rows))
+            if (spring.stiffness == 0 || !in_grid(column_row + offset, columns, cloths[cloth].rows))
                 continue;
             const uint other = neighbor(self.index, offset, columns);
-            add_limit(correction, end, end_at(other, coarse_inverse_mass(cloth, place + offset, other, spacing)),
+            add_limit(correction, end, end_at(other, coarse_inverse_mass(cloth, column_row + offset, other, spacing)),
                       (1 + cloths[cloth].strain_limit) * float(spacing) * spring.rest_length,
                       spacing == 1 ? spring.rest_length : 0);
         }
     return correction;
 }
 
-// What a vertex between the lines of the level before takes over from its neighbors on them.
+// The mean displacement and change of velocity of the neighbors on the lines of the level before.
 Correction between(PatchVertex self)
 {
     const uint cloth = self.cloth;
     Correction sum = k_no_correction;
     const int spacing = int(push.spacing);
-    const ivec2 place = self.place;
-    if (!on_level(place, spacing) || on_level(place, 2 * spacing))
+    const ivec2 column_row = self.column_row;
+    if (!on_level(column_row, spacing) || on_level(column_row, 2 * spacing))
         return sum;
-    const ivec2 off = (place / spacing) % 2; // 1 where it lies between
+    const ivec2 off = (column_row / spacing) % 2; // 1 where it lies between
     float count = 0;
     for (int corner = 0; corner < 4; ++corner)
     {
@@ -179,7 +180,7 @@ Correction between(PatchVertex self)
         if (any(greaterThan(side, off)))
             continue; // not between: one neighbor, itself
         const ivec2 offset = spacing * off * (1 - 2 * side);
-        if (!in_grid(place + offset, cloths[cloth].columns, cloths[cloth].rows))
+        if (!in_grid(column_row + offset, cloths[cloth].columns, cloths[cloth].rows))
             continue;
         const uint other = neighbor(self.index, offset, cloths[cloth].columns);
         sum.x += positions[other].xyz - step_positions[other].xyz;
@@ -225,7 +226,7 @@ void main()
     else if (limited)
         correction = grid ? limit_grid(self) : limit_mesh(self, x.w);
     vec3 shift = correction.x;
-    if (limited && push.acceleration != 1) // what this pass overwrites is the result of the last but one
+    if (limited && push.acceleration != 1) // this pass overwrites the result of the last but one
     {
         const vec3 last = next_positions[i].xyz;
         shift = mix(displacement(here, FinePosition(last, unpack_residual(next_residuals[i]))), shift, push.acceleration);
@@ -233,7 +234,7 @@ void main()
     const FinePosition next = moved(here, shift);
     next_positions[i] = vec4(next.x, x.w);
     next_residuals[i] = pack_residual(next);
-    const float w = push.last == 0 ? borne(correction.taken, cloths[self.cloth].strain_relaxation)
-                                   : uint(step_velocities[i].w) & ~VOILE_VERTEX_TOUCHES; // contact follows, and adds that
+    const float w = push.last == 0 ? stable_relaxation(correction.taken, cloths[self.cloth].strain_relaxation)
+                                   : uint(step_velocities[i].w) & ~VOILE_VERTEX_TOUCHES; // contact follows, and sets that
     next_velocities[i] = vec4(velocities[i].xyz + correction.v, w);
 }

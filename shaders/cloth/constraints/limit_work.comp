@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What a step, or the strain limit with the contact pass after it, does to the energy of each cloth: per patch, what springs
-// store in one of the states that the displacements lead between, the work of all conservative forces there along the
-// displacements, and what the kinetic energy follows from.
+// The energy that a step, or the strain limit with its contact pass, adds to each cloth. Per patch: the energy of the
+// springs in one of the two states, the work of all conservative forces in that state along the displacements between
+// the states, and the terms of the kinetic energy.
 //
-// It runs for each of both states. Springs store what their lengths say; of bending and gravity, the mean of the work at one
-// state and at the other is exact.
+// The kernel runs once per state. The energy of springs follows from their lengths. For bending and gravity the mean of
+// the work in both states is exact.
 // Reads: cloths, patches, mesh lists, both states. Writes: one sum per workgroup.
 #include "shared/cloth_layout.h"
 
@@ -37,10 +37,10 @@ layout(push_constant, std430) uniform Push { StagePush push; }; // without air
 
 shared LimitWork sums[gl_WorkGroupSize.x];
 
-// Without damping, with the stiffness that the substeps have.
+// Without damping, with the scaled stiffness of the substeps.
 struct Conservative
 {
-    float energy; // J, the vertex's part of what springs store
+    float energy; // J, the vertex's part of the springs' energy
     vec3 springs; // N
     vec3 linear;  // N, bending and gravity
 };
@@ -71,7 +71,7 @@ LimitWork work_of(PatchVertex self)
     const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
     const vec3 dx = displacement(from, to);
     const float inverse_mass = before[i].w;
-    if (inverse_mass == 0) // What moves it works against its springs.
+    if (inverse_mass == 0) // whatever moves it works against its springs
     {
         const Conservative c = conservative_forces(self, here, 0);
         return LimitWork(c.energy, 0, -dot(c.springs, dx), 0, 0, 0, 0, 0, 0);

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pins, once a step before its first substep: sets each on its place and gives it the velocity that takes it to where it is
-// at the step's end, along a straight line. One thread a pin.
-// Anchors can leap and scale: a pin stays within the range of positions.
+// Pins, once per step before its first substep. Sets each to its position and gives it the velocity that moves it along
+// a straight line to its position at the step's end. One thread per pin. Anchors can jump and scale, so positions are
+// clamped to their range.
 // Reads: holds, anchors. Writes: state.
 #include "shared/cloth_layout.h"
 

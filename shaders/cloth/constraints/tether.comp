@@ -1,15 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Tethers, once per substep after integration: no vertex goes farther from its pins than the length of the cloth between them.
-// One thread per vertex that has any; pins have none, so that no thread reads what another one writes.
+// Tethers, once per substep after integration: no vertex moves farther from its pins than the length of the cloth
+// between them.
+// One thread per vertex with tethers. Pins have none, so no thread reads what another one writes.
 //
-// A vertex that is farther away already goes no farther, and comes back by its springs: pulled back at once, it would load
-// them with more than the cloth has.
+// A vertex that is farther away already moves no farther, and its springs bring it back. Pulled back at once, it would
+// load the springs with more energy than the cloth has.
 //
-// Two pins that are farther apart than the tethers to them together have no position for the vertex. Both tethers then grow
-// in proportion until they meet: the vertex comes to rest, instead of being pulled to whichever comes last.
-// Source: Kim, Chentanez and Müller 2012, "Long range attachments". Reads: tethers, cloths, state. Writes: proposed state,
-// predicted velocities.
+// If two pins are farther apart than both tethers together, no position satisfies both. Both tethers then grow in
+// proportion until they meet, so that the vertex comes to rest and is not pulled to the last one.
+// Source: Kim, Chentanez and Müller 2012, "Long range attachments". Reads: tethers, cloths, state. Writes: proposed
+// state, predicted velocities.
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
@@ -27,7 +28,7 @@ layout(push_constant, std430) uniform Push { HoldPush push; };
 
 #include "integration/integrator.glsl"
 
-// m: the tether's length, or more where another one's pin is too far away, or the vertex was.
+// m: the tether's length, extended if another pin is too far away, or if the vertex was.
 float length_of(TetherRecord tether, uint t, vec3 pin)
 {
     const float before = distance(state_positions[tether.vertex].xyz, state_positions[tether.pins[t]].xyz);
@@ -70,7 +71,7 @@ void main()
         return;
     positions[tether.vertex].xyz = start + shift;
     residuals[tether.vertex] = uvec2(0);
-    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not make up for it.
+    // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
     velocities[tether.vertex] = vec4(v, push.step > 0 ? uint(before.w) | VOILE_VERTEX_TAUT : before.w);
     if (is_verlet(cloths[tether.cloth].flags))
         predicted[tether.vertex].xyz += v - before.xyz;

@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // Contact of all cloths with all colliders: detection and response. One thread per vertex.
 //
-// Each vertex moves from the state before the substep to the state that integration proposes. It ends on the offset surface
-// of what it touches. Its approaching velocity is removed. Coulomb friction acts on the rest: the vertex sticks while the
-// tangential impulse is at most mu_s times the normal impulse, else it slides with mu_k times that impulse.
-// Reads: cloths, patches, mesh lists, colliders and their motions, hierarchies, proposed state, feature corrections, own
-// previous state, residuals of both states, depenetrations, near colliders.
+// Each vertex moves from the state before the substep to the state that integration proposes. It ends on the offset
+// surface of what it touches. Its approaching velocity is removed. Coulomb friction acts on the rest: the vertex sticks
+// while the tangential impulse is at most mu_s times the normal impulse, else it slides with mu_k times that impulse.
+// Reads: cloths, patches, mesh lists, colliders and their motions, hierarchies, proposed state, feature corrections,
+// own previous state, residuals of both states, depenetrations, near colliders.
 // Writes: the proposed state or the state before (velocity.w: VOILE_VERTEX_TOUCHES), predicted velocities, candidates.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -57,8 +57,8 @@ float rounding(vec3 x)
     return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
 }
 
-// m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a plane
-// only rounding along its normal counts.
+// m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
+// plane only rounding along its normal counts.
 float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 {
     return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
@@ -133,7 +133,8 @@ RelativeMotion relative_motion(uint c, uint flags, Motion motion)
     return result;
 }
 
-// m, world: the displacement of the surface within the substep, at a point of the collider's space at the substep's end.
+// m, world: the displacement of the surface within the substep, at a point of the collider's space at the substep's
+// end.
 // `deformation`: m, the part that is due to the mesh's own vertices.
 vec3 surface_displacement(RelativeMotion relative, vec3 point, vec3 deformation)
 {
@@ -147,17 +148,17 @@ vec3 world_direction(RelativeMotion relative, vec3 direction)
     return relative.moves ? rotate(relative.end.rotation, direction) : direction;
 }
 
-// m: the correction along the contact's direction. What came closer than the thickness in this substep is put back at once.
-// What was too close before is lifted slowly, and what was inside no faster than that: neighbors that part faster would load
-// the springs.
+// m: the correction along the contact's direction. What came closer than the thickness in this substep is put back at
+// once. What was too close before is lifted slowly, and what was inside no faster than that: neighbors that part faster
+// would load the springs.
 float lift_of(Contact contact, float thickness)
 {
     const float lift = min(thickness, contact.start + VOILE_RECOVERY_SPEED * push.step) - contact.gap;
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
-// `n`: world, unit, away from the surface; `lift`: m along it; `surface`: m, its displacement in this substep; `slop`: m, see
-// contact_slop.
+// `n`: world, unit, away from the surface; `lift`: m along it; `surface`: m, its displacement in this substep; `slop`:
+// m, see contact_slop.
 void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, float static_friction,
              float kinetic_friction)
 {
@@ -173,8 +174,8 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, 
     const float speed = length(v_t);
     if (speed <= static_friction * normal_impulse)
     {
-        // Sticks. The sliding within this substep is undone, too, or a held vertex would creep by a h^2 / 2 per substep. It is
-        // undone to the bit: roundings that add up would stretch stiff cloth until it slips.
+        // Sticks. The sliding within this substep is undone, too, or a held vertex would creep by a h^2 / 2 per
+        // substep. It is undone to the bit: roundings that add up would stretch stiff cloth until it slips.
         const float height = dot(motion.displacement - surface, n);
         motion.displacement = surface + (abs(height) > slop ? height : 0) * n;
         motion.v -= v_t;
@@ -182,7 +183,8 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, 
     }
     const vec3 change = (slip_speed(speed, normal_impulse, static_friction, kinetic_friction) / speed - 1) * v_t;
     motion.v += change;
-    // The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
+    // The flags are read here and not kept through the queries, which are slower with one more register
+    // (bench/NOTES.md).
     motion.displacement += drift_time(is_verlet(cloths[motion.cloth].flags), push.step) * change;
 }
 
@@ -258,11 +260,11 @@ ColliderWalk walk_path(Motion motion)
     return walk_colliders(gl_WorkGroupID.x, min(motion.from.x, to), max(motion.from.x, to));
 }
 
-// Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second round
-// checks the corrected path. Where it crosses a surface, the vertex stays at its start, so that it is never on the wrong side.
-// Both rounds share one loop because their queries are most of this kernel.
-// `leaves_solid`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would hold what
-// the other releases.
+// Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
+// round checks the corrected path. Where it crosses a surface, the vertex stays at its start, so that it is never on
+// the wrong side. Both rounds share one loop because their queries are most of this kernel.
+// `leaves_solid`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would
+// hold what the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, bool leaves_solid)
 {
     ContactState state = ContactState(false, false);
@@ -288,7 +290,8 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, bool leav
     return state;
 }
 
-// The motion that integration proposes, with the correction of features if this substep has one. `flags`: VOILE_VERTEX_...
+// The motion that integration proposes, with the correction of features if this substep has one. `flags`:
+// VOILE_VERTEX_...
 Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
 {
     const vec4 velocity = proposed_velocities[i];

@@ -1,13 +1,14 @@
 // Lists of the triangles near each vertex, kept from substep to substep.
 //
-// A traversal collects all triangles within a ball around the vertex. The ball is wider than one substep needs by a margin.
-// While the vertex stays within the margin, the next substeps test only these triangles, and skip those whose stored distance
-// is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal. Therefore:
+// A traversal collects all triangles within a ball around the vertex. The ball is wider than one substep needs by a
+// margin. While the vertex stays within the margin, the next substeps test only these triangles, and skip those whose
+// stored distance is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal.
+// Therefore:
 //   - all lists are refreshed together, every VOILE_RENEWAL substeps, if half of their margin is used up;
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
-// The list of a moving collider is relative to the collider's position when the list was made. It holds until the end of that
-// step. So does the list of a deforming mesh, whose boxes cover the whole step.
+// The list of a moving collider is relative to the collider's position when the list was made. It holds until the end
+// of that step. So does the list of a deforming mesh, whose boxes cover the whole step.
 // The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl,
 // collider_pose.glsl and near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
@@ -23,9 +24,9 @@ const float k_margin_growth = 1.5;
 // A margin below this fraction of the ball's radius is not shrunk to shorten the list.
 const float k_lasting_margin = 0.03;
 
-// Words of the list: the head with its length; the largest and the least radius of the ball; then the entries. An entry is a
-// triangle, or a slot of an implicit BVH, with its distance from the ball's center as a level between both radii. Levels are
-// finest near the least radius: where many triangles are near, they decide which of them the ball must hold.
+// Words of the list: the head with its length; the largest and the least radius of the ball; then the entries. An entry
+// is a triangle, or a slot of an implicit BVH, with its distance from the ball's center as a level between both radii.
+// Levels are finest near the least radius: where many triangles are near, they decide which of them the ball must hold.
 const uint k_head_word = 0;
 const uint k_radius_word = 1;
 const uint k_least_word = 2;
@@ -75,8 +76,8 @@ uint level_of(float distance)
     return uint(sqrt(clamp(fraction, 0, 1)) * k_levels);
 }
 
-// Shrinks the ball until the list is short, while a lasting margin is left. A full list shrinks further, until it has room or
-// the levels of its entries differ no more.
+// Shrinks the ball until the list is short, while a lasting margin is left. A full list shrinks further, until it has
+// room or the levels of its entries differ no more.
 void shrink_ball()
 {
     const float least_spare = (candidates.wished - candidates.least) / (k_levels * k_levels);
@@ -101,8 +102,8 @@ void shrink_ball()
     }
 }
 
-// m, from the query center. For a triangle that deforms a lower bound over the whole step: the triangle is never farther from
-// its halfway position than half of its corners' longest displacement.
+// m, from the query center. For a triangle that deforms a lower bound over the whole step: the triangle is never
+// farther from its halfway position than half of its corners' longest displacement.
 float triangle_distance(uint triangle)
 {
     if (COLLIDERS_MOVE == 0 || candidates.kind == 0)
@@ -145,9 +146,9 @@ void take_leaf(uint first, uint count)
     }
 }
 
-// Whether a traversal enters a node's box. To collect: if the box touches the ball, which shrinks meanwhile; never once the list
-// has overflowed. Else: if the box may hold something closer than the nearest so far, or overlaps the vertex's path. Boxes
-// of a deforming mesh cover its motion within the step, so the path alone decides there, too.
+// Whether a traversal enters a node's box. To collect: if the box touches the ball, which shrinks meanwhile; never once
+// the list has overflowed. Else: if the box may hold something closer than the nearest so far, or overlaps the vertex's
+// path. Boxes of a deforming mesh cover its motion within the step, so the path alone decides there, too.
 bool query_enters(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
 {
     if (candidates.collect)
@@ -214,8 +215,8 @@ void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
     }
 }
 
-// Whether the list covers every moving mesh that is near. `carried`: m, raised to the longest displacement that a mesh gives its
-// surface here.
+// Whether the list covers every moving mesh that is near. `carried`: m, raised to the longest displacement that a mesh
+// gives its surface here.
 bool covers_moving(FinePosition from, vec3 displacement, float query_radius, inout float carried)
 {
     if (COLLIDERS_MOVE == 0)
@@ -277,7 +278,8 @@ void collect_triangles()
     candidates.collect = false;
 }
 
-// Makes a new list. `path`: m, the longest distance of this substep's path from the query center; `margin`: m, beyond that;
+// Makes a new list. `path`: m, the longest distance of this substep's path from the query center; `margin`: m, beyond
+// that;
 // `query_radius`: m, of contact around the vertex.
 void refresh_candidates(float path, float margin, float query_radius)
 {

@@ -18,8 +18,8 @@ const int k_method_path_only = 2;     // only what the path crosses
 
 // Offsets from the nearest point shorter than this fraction of the thickness have no precise direction.
 const float k_short_offset = 0.01;
-// |cosine| between the offset and the face normal. Behind an open one-sided mesh the nearest point lies straight ahead, within
-// this bound; beside the mesh it does not.
+// |cosine| between the offset and the face normal. Behind an open one-sided mesh the nearest point lies straight ahead,
+// within this bound; beside the mesh it does not.
 const float k_behind = 0.99;
 
 struct Contact
@@ -73,8 +73,8 @@ void visit_nearest(vec3 a, vec3 b, vec3 c, vec3 face)
     const vec3 offset = query.to - point;
     const float distance = length(offset);
     const float alignment = abs(dot(offset, face)) / max(distance, 1e-12);
-    // Triangles that share the nearest edge or vertex are equally far. The one that faces the vertex most decides the side
-    // (Ericson 2004, 12.3).
+    // Triangles that share the nearest edge or vertex are equally far. The one that faces the vertex most decides the
+    // side (Ericson 2004, 12.3).
     const bool nearer = distance < query.distance - query_tie();
     const bool better_facing = distance < query.distance + query_tie() && alignment > query.alignment;
     if (nearer || better_facing)
@@ -190,8 +190,9 @@ Contact nearest_contact()
     // Behind an open mesh and nearest to its border: the vertex is beside the mesh.
     if (inside && !query.closed && query.alignment < k_behind)
         contact.found = false;
-    // The face gives the direction where the offset has no precise one: near the surface; for a hit of a ray, whose offset
-    // follows the cloth; and above the triangle's inside, where rounding of large coordinates would tilt the offset.
+    // The face gives the direction where the offset has no precise one: near the surface; for a hit of a ray, whose
+    // offset follows the cloth; and above the triangle's inside, where rounding of large coordinates would tilt the
+    // offset.
     const bool short_offset = query.distance < k_short_offset * query.thickness;
     const vec3 beside = offset - dot(offset, query.face) * query.face;
     const bool inside_face = query.method == k_method_nearest_point && length(beside) < rounding(query.to);
@@ -255,8 +256,8 @@ Contact surface_contact(ColliderRecord collider, ConvexSurface surface, float st
     return Contact(surface.distance < thickness && shares_layer(collider), surface.direction, surface.distance, start, vec3(0));
 }
 
-// The plane at which a path that starts outside enters a solid. A path shorter than the sum of its ends' distances from the
-// solid does not enter it.
+// The plane at which a path that starts outside enters a solid. A path shorter than the sum of its ends' distances from
+// the solid does not enter it.
 Contact convex_crossing(ColliderRecord collider, vec3 from, vec3 to, float start, float end)
 {
     if (start <= 0 || start + end >= distance(from, to))
@@ -283,8 +284,8 @@ Contact plane_contact(ColliderRecord collider, vec3 from, vec3 to, float thickne
     return surface_contact(collider, plane_surface(collider, to), plane_surface(collider, from).distance, thickness);
 }
 
-// The contact of a vertex that moves from `from` to `to`. k_method_path_only: where the path enters a solid or crosses a
-// mesh; the thickness is 0 then.
+// The contact of a vertex that moves from `from` to `to`. k_method_path_only: where the path enters a solid or crosses
+// a mesh; the thickness is 0 then.
 Contact find_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
     if (collider.kind == VOILE_COLLIDER_MESH)

@@ -1,4 +1,5 @@
-// Colliders with a formula: half space, sphere, capsule and box, in their own space. All but the half space are centered.
+// Colliders with a formula: half space, sphere, capsule and box, in their own space. All but the half space are
+// centered.
 #ifndef VOILE_CONVEX_GLSL
 #define VOILE_CONVEX_GLSL
 
@@ -73,9 +74,9 @@ struct Entry
 
 const Entry k_no_entry = Entry(2, vec3(0));
 
-// The time at which a path from `offset` by `span` enters a sphere, or, with both vectors projected across its axis, a cylinder.
-// 0: it starts inside; 2: never. Uses the nearest point of the line, because the usual discriminant is a difference of large
-// numbers where a fast path meets a small sphere.
+// The time at which a path from `offset` by `span` enters a sphere, or, with both vectors projected across its axis, a
+// cylinder. 0: it starts inside; 2: never. Uses the nearest point of the line, because the usual discriminant is a
+// difference of large numbers where a fast path meets a small sphere.
 float rounded_entry(vec3 offset, vec3 span, float radius)
 {
     if (dot(offset, offset) <= radius * radius)

@@ -1,19 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Contact of corners and edges of colliders with the triangles and edges of all cloths: what vertices alone miss where a
-// collider stands between them. Each vertex takes its share of what meets the triangles around it; as many threads as a
-// patch has groups look at these, and the first of them adds up.
+// Contact of feature edges and feature vertices of colliders with the triangles and edges of all cloths. The contact of
+// vertices misses colliders between them. Each vertex takes its fraction of the contacts of the triangles around it.
+// Several threads per vertex (gl_NumWorkGroups.y) query these triangles, and the first of them merges the results.
 //
-// A triangle's vertices go along straight lines in the substep. Where it comes nearer than the thickness, or goes through,
-// it is put back at the thickness, shared out by the barycentric coordinates of the place; approaching velocity is removed,
-// and Coulomb friction acts: at the contact where the piece is fast, on the vertex where that is slow. Pieces with a held vertex
-// go where that is held. The vertices' own contact comes after and has the last word.
+// Vertices of a triangle move along straight lines within the substep. A triangle that comes closer than the thickness,
+// or crosses the feature, is put back at the thickness. Its vertices share the correction by the barycentric
+// coordinates of the contact. Approaching velocity is removed. Coulomb friction acts at the contact if the piece is
+// fast, and on the vertex if that is slow. Pieces with a pinned vertex are skipped. The contact of vertices comes after
+// and overrides.
 //
-// Of a cloth that is brought out of a collider (recover.comp), that collider's features hold nothing back: a sheet that it
-// stands through would be stretched across its edges until it snaps free.
-// Reads: the patches that are near (feature_reach.comp), cloths, patches, mesh lists, colliders and their motions, features and
-// their hierarchy, positions before the substep, proposed state, residuals of both, this step's votes of recovery.
-// Writes: corrections of vertices that meet something, which the contact pass adds to the proposed state; predicted velocities.
+// Features of a collider that a cloth is being brought out of (recover.comp) do not hold the cloth back. A sheet that
+// the collider protrudes through would be stretched across its edges until it snaps free.
+// Reads: near patches (feature_reach.comp), cloths, patches, mesh lists, colliders and their motions, features and
+// their hierarchy, positions before the substep, proposed state, residuals of both, this step's depenetration votes.
+// Writes: corrections of vertices in contact, which the contact kernel adds to the proposed state; predicted
+// velocities.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/feature_layout.h"
@@ -50,12 +52,12 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "colliders/near_colliders.glsl"
 #include "shared/mesh.glsl"
 #include "contact/feature_pieces.glsl"
-#include "contact/feature_meeting.glsl"
+#include "contact/feature_response.glsl"
 
-// Of the threads of the group, those of a vertex side by side.
+// Per thread of the workgroup. Threads of one vertex are adjacent.
 shared Response responses[gl_WorkGroupSize.x];
 
-// Whether a box is nearer to another, that of a piece of cloth, than the thickness.
+// Whether a node's box is closer than the thickness to the box of a piece of cloth.
 bool is_near(vec3 piece_min, vec3 piece_max, vec3 node_min, vec3 node_max)
 {
     const vec3 gap = max(max(node_min - piece_max, piece_min - node_max), vec3(0));
@@ -71,8 +73,8 @@ void take_leaf(uint first, uint count)
 #define VOILE_ENTERS is_near
 #include "colliders/bvh.glsl"
 
-// The sum of the directions in which the cloth's vertices are brought out, in the collider's space; 0 if none is inside it.
-vec3 way_out(uint cloth, uint c)
+// The sum of the exit directions of the cloth's vertices, in the collider's space; 0 if none is inside it.
+vec3 exit_direction(uint cloth, uint c)
 {
     const uint word = VOILE_VOTE_WORDS * cloth;
     if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
@@ -81,7 +83,7 @@ vec3 way_out(uint cloth, uint c)
     return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
 }
 
-// The `part`-th of so many `parts` of the pieces around the vertex.
+// Tests every `parts`-th piece around the vertex, from the `part`-th on.
 void visit_collider(uint c, uint part, uint parts)
 {
     const ColliderRecord collider = colliders[c];
@@ -89,15 +91,15 @@ void visit_collider(uint c, uint part, uint parts)
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
     select_collider(c);
-    piece.a = traveller(self.earlier, self.place, self.velocity, self.inverse_mass);
-    // Most vertices are told by their own place alone that they are far from everything.
+    piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
+    // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
     const vec3 low = min(piece.a.from, piece.a.to) - loose;
     const vec3 high = max(piece.a.from, piece.a.to) + loose;
     if (!is_near(low, high, set.box_min, set.box_max))
         return;
     friction = find_friction();
-    leaving = way_out(self.vertex.cloth, c);
+    exits_along = exit_direction(self.vertex.cloth, c);
     const uint count = corner_count();
     for (uint k = part; k < count; k += parts)
     {
@@ -115,14 +117,14 @@ void visit_colliders(uint part, uint parts)
     const uint i = self.vertex.index;
     const uint cloth = self.vertex.cloth;
     self.earlier = earlier_position(i);
-    self.place = proposed_position(i);
+    self.proposed = proposed_position(i);
     self.inverse_mass = proposed_positions[i].w;
     self.velocity = proposed_velocities[i].xyz;
     self.thickness = cloths[cloth].thickness;
     if (self.inverse_mass == 0)
         return;
-    ColliderWalk walk = walk_colliders(near_patches[gl_WorkGroupID.x], min(self.earlier.x, self.place.x),
-                                       max(self.earlier.x, self.place.x));
+    ColliderWalk walk = walk_colliders(near_patches[gl_WorkGroupID.x], min(self.earlier.x, self.proposed.x),
+                                       max(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, part, parts);

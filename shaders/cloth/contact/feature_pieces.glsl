@@ -1,11 +1,12 @@
-// The triangles and edges around a vertex of a cloth, one after the other, and where they go in a substep.
+// The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
-// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[], the
-// residuals of both and proposed_velocities[], and includes patch.glsl, collider_pose.glsl and mesh.glsl before.
+// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
+// the residuals of both and proposed_velocities[], and includes patch.glsl, collider_pose.glsl and mesh.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 
-// The vertices around one, in order: those of a grid's two triangles a cell, cut from (column + 1, row) to (column, row + 1).
+// The neighbors of a grid vertex in order. Cells are cut into two triangles from (column + 1, row) to (column, row +
+// 1).
 const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(0, -1), ivec2(1, -1));
 
 // The vertex of this thread.
@@ -13,14 +14,14 @@ struct Self
 {
     PatchVertex vertex;
     FinePosition earlier; // before the substep
-    FinePosition place;   // proposed
+    FinePosition proposed;
     float inverse_mass;
     vec3 velocity;
     float thickness;
 };
 Self self;
 
-// The collider that is being looked at, in whose space places are.
+// The current collider, whose space positions are in.
 uint collider_index;
 uint collider_flags;
 bool collider_moves;
@@ -41,7 +42,7 @@ void select_collider(uint c)
     }
 }
 
-// By how much the surface moves in the substep where the vertex is, m, world.
+// m, world: the displacement of the surface within the substep at the vertex.
 vec3 surface_displacement()
 {
     if (!collider_moves)
@@ -50,8 +51,8 @@ vec3 surface_displacement()
     return displacement(pose_from, change_of_pose, point);
 }
 
-// A vertex of the cloth: where it was before the substep and where it is, in the collider's space.
-struct Traveller
+// A vertex of the cloth in the collider's space, before the substep and as proposed.
+struct SweptVertex
 {
     vec3 from;
     vec3 to;
@@ -69,10 +70,10 @@ FinePosition proposed_position(uint index)
     return FinePosition(proposed_positions[index].xyz, unpack_residual(proposed_residuals[index]));
 }
 
-Traveller traveller(FinePosition earlier, FinePosition place, vec3 velocity, float inverse_mass)
+SweptVertex swept_vertex(FinePosition earlier, FinePosition proposed, vec3 velocity, float inverse_mass)
 {
-    Traveller result = Traveller(from_origin(collider_index, collider_flags, earlier),
-                                 from_origin(collider_index, collider_flags, place), velocity, inverse_mass);
+    SweptVertex result = SweptVertex(from_origin(collider_index, collider_flags, earlier),
+                                     from_origin(collider_index, collider_flags, proposed), velocity, inverse_mass);
     if (collider_moves)
     {
         result.from = to_collider(pose_from, result.from);
@@ -81,13 +82,13 @@ Traveller traveller(FinePosition earlier, FinePosition place, vec3 velocity, flo
     return result;
 }
 
-Traveller traveller(uint index)
+SweptVertex swept_vertex(uint index)
 {
-    return traveller(earlier_position(index), proposed_position(index), proposed_velocities[index].xyz,
-                     proposed_positions[index].w);
+    return swept_vertex(earlier_position(index), proposed_position(index), proposed_velocities[index].xyz,
+                        proposed_positions[index].w);
 }
 
-// How many triangles there may be around the vertex.
+// The number of triangles that there may be around the vertex.
 uint corner_count()
 {
     return cloths[self.vertex.cloth].columns > 0
@@ -95,7 +96,7 @@ uint corner_count()
                : mesh_vertices[cloths[self.vertex.cloth].first_list + self.vertex.local].corners;
 }
 
-// The other two corners of one of them. False where a grid ends; `b` may be there all the same.
+// The other two corners of the k-th triangle. False: outside of a grid; `b` may exist all the same.
 bool find_corner(uint k, out uint b, out uint c)
 {
     const ClothRecord cloth = cloths[self.vertex.cloth];
@@ -111,25 +112,25 @@ bool find_corner(uint k, out uint b, out uint c)
     const ivec2 to_c = k_ring[(k + 1) % 6];
     b = neighbor(self.vertex.index, to_b, cloth.columns);
     c = neighbor(self.vertex.index, to_c, cloth.columns);
-    return in_grid(self.vertex.place + to_b, cloth.columns, cloth.rows) &&
-           in_grid(self.vertex.place + to_c, cloth.columns, cloth.rows);
+    return in_grid(self.vertex.column_row + to_b, cloth.columns, cloth.rows) &&
+           in_grid(self.vertex.column_row + to_c, cloth.columns, cloth.rows);
 }
 
-// What the vertex and two of its neighbors span. Features meet one after the other, so what they all need is kept.
+// The vertex and two of its neighbors. Features are tested one after the other, so their common input is kept here.
 struct Piece
 {
-    Traveller a; // the vertex
-    Traveller b;
-    Traveller c;
-    bool triangle;    // (a, b, c) is one whose vertices all move
-    bool edge_b;      // (a, b) is an edge whose vertices both move
+    SweptVertex a; // the vertex
+    SweptVertex b;
+    SweptVertex c;
+    bool triangle;    // (a, b, c) is a triangle without pinned vertices
+    bool edge_b;      // (a, b) is an edge without pinned vertices
     bool edge_c;
     vec3 across;      // unit normal of the triangle
     vec3 across_then; // before the substep
 };
 Piece piece;
 
-// Loads what the vertex spans with its k-th two neighbors. False: nothing that could meet anything.
+// Loads the k-th piece around the vertex. False: none.
 bool load_piece(uint k)
 {
     const ClothRecord cloth = cloths[self.vertex.cloth];
@@ -137,18 +138,18 @@ bool load_piece(uint k)
     uint b;
     uint c;
     const bool has_c = find_corner(k, b, c);
-    if (is_grid && !in_grid(self.vertex.place + k_ring[k], cloth.columns, cloth.rows))
+    if (is_grid && !in_grid(self.vertex.column_row + k_ring[k], cloth.columns, cloth.rows))
         return false;
-    piece.b = traveller(b);
+    piece.b = swept_vertex(b);
     piece.c = piece.b;
     if (has_c)
-        piece.c = traveller(c);
+        piece.c = swept_vertex(c);
     const vec3 normal = cross(piece.b.to - piece.a.to, piece.c.to - piece.a.to);
     const vec3 earlier = cross(piece.b.from - piece.a.from, piece.c.from - piece.a.from);
     if (!(dot(normal, normal) + dot(earlier, earlier) < 3e38))
-        return false; // not finite: its box would be none
+        return false; // not finite: it has no box
     piece.edge_b = piece.b.inverse_mass > 0;
-    piece.edge_c = !is_grid && piece.c.inverse_mass > 0; // a grid has it with another k
+    piece.edge_c = !is_grid && piece.c.inverse_mass > 0; // a grid tests it with another k
     piece.triangle = has_c && piece.edge_b && piece.c.inverse_mass > 0 && dot(normal, normal) >= 1e-30 &&
                      dot(earlier, earlier) >= 1e-30;
     piece.across = normalize(normal);

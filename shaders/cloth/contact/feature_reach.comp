@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which patches of cloth can meet corners and edges of colliders before the next such look: feature_contact.comp runs over
-// these alone, by an indirect dispatch. One thread a vertex.
+// Lists the patches of cloth near features of colliders until the next such pass. feature_contact.comp runs over these
+// patches only, by an indirect dispatch. One thread per vertex.
 // Reads: cloths, patches, positions and velocities before the substep, colliders and their motions, features and their
 // hierarchy.
-// Writes: which patches these are, their list and the size of the dispatch, whose x is 0 before.
+// Writes: Patch::near_features, the list of near patches and the size of the dispatch, whose x is 0 before.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/feature_layout.h"
@@ -40,7 +40,7 @@ bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 
 void take_leaf(uint first, uint count) { is_near = true; }
 
-// The first leaf is enough.
+// The first leaf suffices.
 bool first_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 {
     return !is_near && boxes_overlap(a_min, a_max, b_min, b_max);
@@ -49,13 +49,14 @@ bool first_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
 #define VOILE_ENTERS first_overlap
 #include "colliders/bvh.glsl"
 
-// `margin`: m, how far the vertex can go.
-void look(uint c, uint cloth, vec3 place, float margin)
+// Sets is_near if a feature of collider c is near. `margin`: m, the longest displacement of the vertex until the next
+// pass.
+void query_features(uint c, uint cloth, vec3 position, float margin)
 {
     const FeatureSet set = feature_sets[c];
     const uint flags = colliders[c].flags;
-    // The residual is far less than the cloth's edges.
-    vec3 from = from_origin(c, flags, FinePosition(place, vec3(0)));
+    // The residual is far smaller than the cloth's edges.
+    vec3 from = from_origin(c, flags, FinePosition(position, vec3(0)));
     vec3 to = from;
     if (is_moved(flags))
     {
@@ -63,9 +64,9 @@ void look(uint c, uint cloth, vec3 place, float margin)
         to = to_collider(pose_at(c, push.progress_to), to);
         margin += 0.5 * distance(from, to); // on the arc between them
     }
-    const float reach = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;
-    const vec3 box_min = min(from, to) - reach;
-    const vec3 box_max = max(from, to) + reach;
+    const float radius = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;
+    const vec3 box_min = min(from, to) - radius;
+    const vec3 box_max = max(from, to) + radius;
     if ((colliders[c].layers & cloths[cloth].layers) != 0 && boxes_overlap(box_min, box_max, set.box_min, set.box_max))
         visit_box(set.first_node, set.first_feature, box_min, box_max);
 }
@@ -76,15 +77,15 @@ void main()
         near_vertices = 0;
     barrier();
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
-    const vec4 place = self.exists ? positions[self.index] : vec4(0);
-    if (place.w > 0)
+    const vec4 position = self.exists ? positions[self.index] : vec4(0);
+    if (position.w > 0)
     {
         const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
-        ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, place.xyz - margin, place.xyz + margin);
+        ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, position.xyz - margin, position.xyz + margin);
         uint c;
         while (next_collider(walk, c))
             if (feature_sets[c].features > 0)
-                look(c, self.cloth, place.xyz, margin);
+                query_features(c, self.cloth, position.xyz, margin);
     }
     if (is_near)
         atomicOr(near_vertices, 1);

@@ -1,16 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Finds the way out for vertices that are inside a collider, once a step before its first substep. One thread a vertex.
+// Depenetration: finds the exit for vertices that are inside a collider, once per step before its first substep. One
+// thread per vertex.
 //
-// What lies on the right side of a surface, contact keeps there. This is for what begins inside: a cloth made that way or moved
-// there, a collider added over it, surfaces that closed upon it. Out of a solid leads a field: the sum of the six directions
-// along the axes, each over the distance at which it leaves the solid for good. Near a face it is the face's normal, in an
-// ellipsoid the normal of the smaller one around its center that goes through the vertex; and it has no jump where the
-// nearest place of the surface has one. Of it, what is along the cloth's normal counts most: sheets go out in one piece,
-// and are not torn apart in the middle. The contact pass takes the vertex along in each substep: in jumps of a whole step
-// neighbors would part so far that springs throw them.
-// Reads: cloths, patches, positions, residuals, normals, colliders and their motions, hierarchies, votes of the last step.
-// Writes: depenetrations of all vertices; if any is inside, the size of the next step's dispatch and the votes of cloths.
+// Contact keeps vertices on the right side of surfaces. This kernel is for vertices that begin inside: a cloth is
+// created or moved there, a collider is added over it, surfaces close on it. The exit follows a field: the sum of the
+// six directions along the axes, each divided by the distance at which it leaves the solid for good. Near a face the
+// field is the face's normal. In an ellipsoid it is the normal of the concentric ellipsoid through the vertex. It is
+// smooth where the nearest surface point jumps. The part of the field along the cloth's normal counts most, so that a
+// sheet leaves in one piece and is not torn apart in the middle. The contact kernel moves the vertex in each substep:
+// in jumps of a whole step neighbors would part so far that springs throw them.
+// Reads: cloths, patches, positions, residuals, normals, colliders and their motions, hierarchies, votes of the last
+// step.
+// Writes: depenetrations of all vertices. If any is inside: the size of the next step's dispatch and the votes of
+// cloths.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -48,29 +51,28 @@ layout(push_constant, std430) uniform Push { RecoverPush push; };
 #include "colliders/near_colliders.glsl"
 #include "contact/solid_query.glsl"
 
-// m/s, along the way out: with its own velocity (contact.comp) a vertex goes at 1.5 m/s at most.
-#define VOILE_OUT_SPEED 0.9
-// What counts of the field across the cloth's normal where the surface is far: cloth that is pulled out across its normal
-// only stretches.
-#define VOILE_ACROSS 0.05
-// By how much one side of a cloth is preferred to the other, as a fraction of all. In the middle of a solid the field along the
-// normal vanishes, and neighbors must agree: they take the side to which more of the cloth's vertices went in the last step.
-#define VOILE_BIAS 0.3
-#define VOILE_FIRST_BIAS 0.02 // before there was a vote
-// Votes are integers, whose sum has no order.
-#define VOILE_VOTE 1024
-// Weight of the mean of directions, to that of the vertex's own near the surface.
-#define VOILE_TOGETHER 1.0
-// Weight of the vertex's own, times the spacing over the depth: neighbors whose directions differ part for as long as they are
-// inside. So a sheet that is deep inside moves as one.
-#define VOILE_OWN 0.6
+// m/s, towards the exit. With its own velocity (contact.comp) a vertex moves at 1.5 m/s at most.
+const float k_exit_speed = 0.9;
+// The weight of the field across the cloth's normal far from the surface: cloth pulled out along itself only stretches.
+const float k_across = 0.05;
+// The preference for one side of a cloth, as a fraction. In the middle of a solid the field along the normal vanishes,
+// and neighbors must agree: they prefer the side to which most of the cloth's vertices went in the last step.
+const float k_bias = 0.3;
+const float k_first_bias = 0.02; // before there was a vote
+// Votes are integers because their sum must not depend on the order.
+const int k_vote = 1024;
+// Weight of the mean direction of the cloth, relative to the vertex's own direction near the surface.
+const float k_mean_weight = 1.0;
+// Weight of the vertex's own direction, times spacing over depth. Neighbors whose directions differ part for as long as
+// they are inside, so a sheet deep inside moves as one.
+const float k_own_weight = 0.6;
 const uint k_none = 0xffffffffu;
-// Overlapping solids that are searched for an exit.
-#define VOILE_MOST_OVERLAPS 8
+// The most overlapping solids that are searched for an exit.
+const int k_most_overlaps = 8;
 
-// Of a direction, between the world and a collider's space at the step's start.
-vec3 turned_into(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate_back(pose_at(c, 0).rotation, v) : v; }
-vec3 turned_out_of(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate(pose_at(c, 0).rotation, v) : v; }
+// Directions between the world and a collider's space at the step's start.
+vec3 rotated_into(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate_back(pose_at(c, 0).rotation, v) : v; }
+vec3 rotated_out_of(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate(pose_at(c, 0).rotation, v) : v; }
 
 bool is_inside(uint c, ColliderRecord collider, vec3 local)
 {
@@ -79,12 +81,11 @@ bool is_inside(uint c, ColliderRecord collider, vec3 local)
     return is_solid(collider) && in_box(collider, local) && line_winding(c, collider, local, 1) > 0;
 }
 
-// Whether a collider is in the way of a vertex that would come out by a displacement, m: it is under another surface there, or
-// on another side of an open mesh.
+// Whether a collider obstructs an exit by a displacement, m: the exit is under another surface, or behind an open mesh.
 bool obstructs(uint c, ColliderRecord collider, FinePosition from, vec3 displacement)
 {
     const vec3 start = into_collider(c, collider.flags, from, 0);
-    const vec3 end = start + turned_into(c, collider.flags, displacement);
+    const vec3 end = start + rotated_into(c, collider.flags, displacement);
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return plane_surface(collider, end).distance < 0;
     if (is_solid(collider))
@@ -92,7 +93,7 @@ bool obstructs(uint c, ColliderRecord collider, FinePosition from, vec3 displace
     return crosses(c, collider, start, end, false);
 }
 
-bool leads_out(FinePosition from, vec3 displacement, uint layers)
+bool is_free(FinePosition from, vec3 displacement, uint layers)
 {
     const vec3 to = from.x + displacement;
     ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from.x, to), max(from.x, to));
@@ -103,18 +104,18 @@ bool leads_out(FinePosition from, vec3 displacement, uint layers)
     return true;
 }
 
-// Another solid than `but`, if any, that a vertex is inside of at a displacement, m.
-bool other_solid(FinePosition from, vec3 displacement, uint layers, uint but, out uint c)
+// Finds a solid other than `excluded` that contains the vertex after a displacement, m. False: none.
+bool other_solid(FinePosition from, vec3 displacement, uint layers, uint excluded, out uint c)
 {
     const vec3 to = from.x + displacement;
     ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, to, to);
     while (next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
-        if (c == but || !is_solid(collider) || (collider.layers & layers) == 0)
+        if (c == excluded || !is_solid(collider) || (collider.layers & layers) == 0)
             continue;
         if (is_inside(c, collider, into_collider(c, collider.flags, from, 0) +
-                                       turned_into(c, collider.flags, displacement)))
+                                       rotated_into(c, collider.flags, displacement)))
             return true;
     }
     return false;
@@ -123,10 +124,10 @@ bool other_solid(FinePosition from, vec3 displacement, uint layers, uint but, ou
 struct Field
 {
     vec3 sum;   // 1/m
-    float size; // 1/m, of all terms, whatever their directions
+    float size; // 1/m, the sum of the terms' lengths
 };
 
-// m, between neighbors; of a mesh the mean.
+// m, between neighboring vertices. The mean for a mesh.
 float spacing(uint cloth)
 {
     const float a = cloths[cloth].springs[0].rest_length;
@@ -139,7 +140,7 @@ void add(inout Field field, vec3 direction, float distance)
     field.size += 1 / distance;
 }
 
-// m: how far it is along an axis, and against it, until a line is out of the solid for good.
+// m: the distances along an axis, and against it, to the last exit of a line.
 vec2 line_exits(uint c, ColliderRecord collider, vec3 local, int axis)
 {
     if (is_convex(collider))
@@ -152,30 +153,30 @@ vec2 line_exits(uint c, ColliderRecord collider, vec3 local, int axis)
     return vec2(solid.ends[0], solid.ends[1]);
 }
 
-// Of the ways that lead out of all colliders, or, where none does, of all.
-// `width`: m, of the solid there, along the axis along which it is thinnest.
+// The field of the exits that no collider obstructs, or of all six if each is obstructed.
+// `width`: m, of the solid along the axis along which it is thinnest.
 Field field_at(uint c, ColliderRecord collider, FinePosition x, vec3 local, float thickness, uint layers, out float width)
 {
     width = 3e38;
-    Field all_ways = Field(vec3(0), 0);
-    Field free_ways = Field(vec3(0), 0);
+    Field all_exits = Field(vec3(0), 0);
+    Field free_exits = Field(vec3(0), 0);
     for (int axis = 0; axis < 3; ++axis)
     {
         const vec2 exits = max(line_exits(c, collider, local, axis), vec2(1e-3 * thickness));
         width = min(width, exits.x + exits.y);
-        for (int way = 0; way < 2; ++way)
+        for (int side = 0; side < 2; ++side)
         {
             vec3 direction = vec3(0);
-            direction[axis] = way == 0 ? 1 : -1;
-            add(all_ways, direction, exits[way]);
-            const vec3 displacement = (exits[way] + 0.01 * thickness) * direction;
-            if (leads_out(x, turned_out_of(c, collider.flags, displacement), layers))
-                add(free_ways, direction, exits[way]);
+            direction[axis] = side == 0 ? 1 : -1;
+            add(all_exits, direction, exits[side]);
+            const vec3 displacement = (exits[side] + 0.01 * thickness) * direction;
+            if (is_free(x, rotated_out_of(c, collider.flags, displacement), layers))
+                add(free_exits, direction, exits[side]);
         }
     }
-    if (free_ways.size > 0)
-        return free_ways;
-    return all_ways;
+    if (free_exits.size > 0)
+        return free_exits;
+    return all_exits;
 }
 
 vec3 direction_out(uint cloth, Field field, vec3 normal)
@@ -183,26 +184,26 @@ vec3 direction_out(uint cloth, Field field, vec3 normal)
     const float along = dot(field.sum, normal);
     const vec3 across = field.sum - along * normal;
     const int vote = int(last_votes[VOILE_VOTE_WORDS * cloth]);
-    const float bias = vote == 0 ? VOILE_FIRST_BIAS : VOILE_BIAS * sign(vote);
+    const float bias = vote == 0 ? k_first_bias : k_bias * sign(vote);
     const float side = along + bias * field.size;
-    atomicAdd(next_votes[VOILE_VOTE_WORDS * cloth], uint(int(VOILE_VOTE * side / field.size)));
-    const vec3 sum = side * normal + VOILE_ACROSS * across;
+    atomicAdd(next_votes[VOILE_VOTE_WORDS * cloth], uint(int(k_vote * side / field.size)));
+    const vec3 sum = side * normal + k_across * across;
     const float size = length(sum);
     return size > 0 ? sum / size : vec3(0, 1, 0);
 }
 
-// What a vertex goes by besides the field: the way that the cloth's vertices went in the last step. Where parts of a sheet
-// would go out on different sides, they would tear it between them. `own`: weight of its own direction.
-vec3 together(uint cloth, uint c, uint flags, vec3 direction, float own)
+// The direction of the vertex, drawn towards the mean direction of the cloth's vertices in the last step. Parts of a
+// sheet that leave on different sides would tear it. `own`: weight of the vertex's own direction.
+vec3 agreed_direction(uint cloth, uint c, uint flags, vec3 direction, float own)
 {
     const uint word = VOILE_VOTE_WORDS * cloth;
     const vec3 sum = vec3(int(last_votes[word + 1]), int(last_votes[word + 2]), int(last_votes[word + 3]));
     const float count = max(float(last_votes[word + VOILE_VOTE_COUNT]), 1);
-    const vec3 mean = turned_into(c, flags, sum / (VOILE_VOTE * count)); // of unit vectors: shorter where they differ
-    const vec3 way = own * direction + VOILE_TOGETHER * mean;
-    const float size = length(way);
-    const vec3 chosen = size > 1e-3 ? way / size : direction;
-    const ivec3 vote = ivec3(VOILE_VOTE * turned_out_of(c, flags, chosen));
+    const vec3 mean = rotated_into(c, flags, sum / (k_vote * count)); // of unit vectors: shorter if they differ
+    const vec3 sum_of_both = own * direction + k_mean_weight * mean;
+    const float size = length(sum_of_both);
+    const vec3 chosen = size > 1e-3 ? sum_of_both / size : direction;
+    const ivec3 vote = ivec3(k_vote * rotated_out_of(c, flags, chosen));
     atomicAdd(next_votes[word + 1], uint(vote.x));
     atomicAdd(next_votes[word + 2], uint(vote.y));
     atomicAdd(next_votes[word + 3], uint(vote.z));
@@ -210,55 +211,55 @@ vec3 together(uint cloth, uint c, uint flags, vec3 direction, float own)
     return chosen;
 }
 
-// m: how far it is in a unit direction to the offset surface; `reach` if it is at least that.
-float way_out(uint c, ColliderRecord collider, vec3 local, vec3 direction, float thickness, float reach)
+// m: the distance to the offset surface in a unit direction, at most `limit`.
+float exit_of_one(uint c, ColliderRecord collider, vec3 local, vec3 direction, float thickness, float limit)
 {
     if (is_convex(collider))
-        return min(convex_exit(collider, local, direction) + thickness, reach);
-    if (!crosses(c, collider, local, local + reach * direction, true))
-        return reach;
-    return min(solid.crossing * reach + thickness, reach);
+        return min(convex_exit(collider, local, direction) + thickness, limit);
+    if (!crosses(c, collider, local, local + limit * direction, true))
+        return limit;
+    return min(solid.crossing * limit + thickness, limit);
 }
 
-// The same for all solids that overlap there. `direction`: world; `distance`: m, at which the vertex is out of solid c.
+// The same for all solids that overlap there. `direction`: world; `distance`: m, the exit of solid c.
 float exit_distance(uint c, FinePosition x, vec3 direction, float distance, float thickness, uint layers, float most)
 {
     uint other;
-    for (int i = 0; i < VOILE_MOST_OVERLAPS && distance < most && other_solid(x, distance * direction, layers, c, other); ++i)
+    for (int i = 0; i < k_most_overlaps && distance < most && other_solid(x, distance * direction, layers, c, other); ++i)
     {
         const ColliderRecord collider = colliders[other];
         const vec3 local =
-            into_collider(other, collider.flags, x, 0) + turned_into(other, collider.flags, distance * direction);
-        const vec3 local_direction = turned_into(other, collider.flags, direction);
-        distance += max(way_out(other, collider, local, local_direction, thickness, most - distance), 0.01 * thickness);
+            into_collider(other, collider.flags, x, 0) + rotated_into(other, collider.flags, distance * direction);
+        const vec3 local_direction = rotated_into(other, collider.flags, direction);
+        distance += max(exit_of_one(other, collider, local, local_direction, thickness, most - distance), 0.01 * thickness);
         c = other;
     }
     return min(distance, most);
 }
 
-// What is left of the way at full speed is shared out evenly between the last two steps: whole ones would end beside the offset
-// surface.
+// The rest of the exit at full speed is divided evenly between the last two steps. Full steps would end beside the
+// offset surface.
 Depenetration depenetration_of(uint i, uint cloth, uint c, FinePosition x)
 {
     const ColliderRecord collider = colliders[c];
     const vec3 local = into_collider(c, collider.flags, x, 0);
     const float thickness = cloths[cloth].thickness;
     const uint layers = cloths[cloth].layers;
-    const vec3 normal = turned_into(c, collider.flags, normals[i].xyz);
+    const vec3 normal = rotated_into(c, collider.flags, normals[i].xyz);
     float width;
     const Field field = field_at(c, collider, x, local, thickness, layers, width);
     const float size = length(field.sum);
-    // In what is thinner than the cloth's spacing a vertex has no neighbors to agree with.
+    // In a solid thinner than the cloth's spacing a vertex has no neighbors to agree with.
     const bool alone = width < spacing(cloth) && size > 0;
-    const float own = clamp(VOILE_OWN * spacing(cloth) * field.size, 0, 1);
+    const float own = clamp(k_own_weight * spacing(cloth) * field.size, 0, 1);
     const vec3 direction =
-        alone ? field.sum / size : together(cloth, c, collider.flags, direction_out(cloth, field, normal), own);
-    const float most = VOILE_OUT_SPEED * push.step;
-    const vec3 world = turned_out_of(c, collider.flags, direction);
-    const float out_of_one = way_out(c, collider, local, direction, thickness, 2 * most);
-    const float distance = exit_distance(c, x, world, out_of_one, thickness, layers, 2 * most);
+        alone ? field.sum / size : agreed_direction(cloth, c, collider.flags, direction_out(cloth, field, normal), own);
+    const float most = k_exit_speed * push.step;
+    const vec3 world = rotated_out_of(c, collider.flags, direction);
+    const float first_exit = exit_of_one(c, collider, local, direction, thickness, 2 * most);
+    const float distance = exit_distance(c, x, world, first_exit, thickness, layers, 2 * most);
     const float step_distance = distance < most ? distance : distance < 2 * most ? 0.5 * distance : most;
-    // Before there was a vote neighbors may differ: the first step is for that alone.
+    // Without a vote neighbors may differ, so the first step only votes.
     const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COUNT] > 0;
     return Depenetration(agreed ? step_distance / push.step * world : vec3(0), c + 1);
 }

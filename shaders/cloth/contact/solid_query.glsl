@@ -54,8 +54,8 @@ Corners corners_of(uint index)
                    deforming_positions[corners.z].xyz);
 }
 
-// The winding of the edge from a to b around the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards. Equal to
-// the bit to minus that of the edge from b to a: both triangles of an edge agree, whatever rounding does.
+// The winding of the edge from a to b around the half line from 0 along +x: 1 if it crosses upwards, -1 if downwards.
+// Equal to the bit to minus that of the edge from b to a: both triangles of an edge agree, whatever rounding does.
 int edge_winding(vec2 a, vec2 b)
 {
     precise const float left = a.x * b.y;
@@ -65,8 +65,9 @@ int edge_winding(vec2 a, vec2 b)
     return a.y > 0 && b.y <= 0 && left < right ? -1 : 0;
 }
 
-// The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). The sum over the
-// triangles on one side of the origin is the winding number of a closed mesh, also if the line meets edges and vertices.
+// The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). The sum over
+// the triangles on one side of the origin is the winding number of a closed mesh, also if the line meets edges and
+// vertices.
 void visit_line(Corners t, vec3 normal)
 {
     const int x = (solid.axis + 1) % 3;
@@ -147,8 +148,8 @@ void visit(ColliderRecord collider, vec3 box_min, vec3 box_max)
         visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
 }
 
-// The winding number of the mesh around a point. `solid.ends` are the last crossings of the line along the axis. Boxes of the
-// hierarchy are exact, so a box without width finds all triangles that the line meets.
+// The winding number of the mesh around a point. `solid.ends` are the last crossings of the line along the axis. Boxes
+// of the hierarchy are exact, so a box without width finds all triangles that the line meets.
 int line_winding(uint c, ColliderRecord collider, vec3 origin, int axis)
 {
     begin_solid_query(c, collider, k_solid_line, origin);
@@ -200,8 +201,8 @@ float half_solid_angle(vec3 a, vec3 b, vec3 c)
     return atan(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-// The generalized winding number: the fraction of all directions that the mesh fills, seen from a point (Jacobson et al. 2013,
-// "Robust inside-outside segmentation using generalized winding numbers"). Visits every triangle.
+// The generalized winding number: the fraction of all directions that the mesh fills, seen from a point (Jacobson et
+// al. 2013, "Robust inside-outside segmentation using generalized winding numbers"). Visits every triangle.
 float generalized_winding(uint c, ColliderRecord collider, vec3 origin)
 {
     begin_solid_query(c, collider, k_solid_line, origin);

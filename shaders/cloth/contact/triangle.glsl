@@ -2,9 +2,9 @@
 #ifndef VOILE_TRIANGLE_GLSL
 #define VOILE_TRIANGLE_GLSL
 
-// The parameter in [0, 1] at which the segment from `origin` to `origin + span` hits triangle (a, b, c), from either side; 2 for
-// a miss. Möller and Trumbore 1997. Hits on an edge, or within rounding of it, count for both triangles, so that no segment
-// passes between them.
+// The parameter in [0, 1] at which the segment from `origin` to `origin + span` hits triangle (a, b, c), from either
+// side; 2 for a miss. Möller and Trumbore 1997. Hits on an edge, or within rounding of it, count for both triangles, so
+// that no segment passes between them.
 float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
 {
     const vec3 e1 = b - a;
@@ -24,9 +24,9 @@ float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
     return inside ? t : 2;
 }
 
-// The point of triangle (a, b, c) nearest to p. Ericson 2004, Real-Time Collision Detection, 5.1.5: the Voronoi region of p
-// decides between the three vertices, the three edges and the face. All are computed and the last that holds is taken,
-// because neighboring threads would diverge at branches.
+// The point of triangle (a, b, c) nearest to p. Ericson 2004, Real-Time Collision Detection, 5.1.5: the Voronoi region
+// of p decides between the three vertices, the three edges and the face. All are computed and the last that holds is
+// taken, because neighboring threads would diverge at branches.
 vec3 nearest_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
 {
     const vec3 ab = b - a;
@@ -40,8 +40,8 @@ vec3 nearest_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
     const float d4 = dot(ac, bp);
     const float d5 = dot(ab, cp);
     const float d6 = dot(ac, cp);
-    // From the normal, not from areas: in a long thin triangle areas are differences of large numbers, and the offset from the
-    // point would lean along the triangle.
+    // From the normal, not from areas: in a long thin triangle areas are differences of large numbers, and the offset
+    // from the point would lean along the triangle.
     const vec3 normal = cross(ab, ac);
     vec3 point = p - dot(ap, normal) / dot(normal, normal) * normal;
     const float on_bc = d4 - d3;

@@ -1,5 +1,5 @@
-// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbors (no atomics, so the sum's
-// order never changes).
+// The acceleration of a vertex: springs, bending, air and gravity, gathered from its neighbors. Without atomics, so
+// that the order of the sum never changes.
 //
 // The including kernel declares cloths[], stage_positions[], stage_residuals[], stage_velocities[], mesh_vertices[],
 // mesh_springs[], mesh_corners[], membrane_corners[] and `push` (StagePush).
@@ -19,29 +19,29 @@ struct Gather
     vec3 force;   // N, of the springs
     float energy; // J, the vertex's part of what the springs store
     vec3 bending; // N, of the isometric model
-    float bending_stiffness; // the step's scale of it: bending sees bending_stiffness * x + bending_damping * v
-    float bending_damping;   // s
+    float bending_scale; // stability scale: bending acts on bending_scale * x + bending_damping * v
+    float bending_damping; // s
     vec3 wind;      // m/s, at x
     vec3 air;       // N
     float air_rate; // N s/m, force over relative velocity
-    Viscosity viscosity; // of fast springs
+    Viscosity viscosity;
 };
 
-// Verlet has no damping of its own, and springs that change much within a substep heat it up: its resonances with modes near
-// the end of its reach gain energy without bound. So fast springs are viscous, by a coefficient that grows with the speed
-// (von Neumann and Richtmyer 1950, "A method for the numerical calculation of hydrodynamic shocks"): where both ends
-// approach or part by more than k_viscous_strain of the rest length in a substep, along the spring; where one passes the
-// other by more than k_viscous_shear of it, in all directions. Slower springs feel nothing. The pair's forces are equal and
-// opposite. bench/NOTES.md has the measurements behind the numbers.
+// Verlet has no damping of its own. Springs that change much within a substep gain energy, because modes near the
+// stability limit resonate. Therefore fast springs are viscous, with a coefficient that grows with the speed (von
+// Neumann and Richtmyer 1950, "A method for the numerical calculation of hydrodynamic shocks"). If both ends approach
+// or part by more than k_viscous_strain of the rest length per substep, the force acts along the spring. If one end
+// passes the other by more than k_viscous_shear of it, the force acts in all directions. Slower springs have no
+// viscosity. The forces of a pair are equal and opposite. See bench/NOTES.md for the measurements behind the numbers.
 const float k_viscous_strain = 0.02;
 const float k_viscous_shear = 0.2;
 
 void add_spring(inout Gather g, float stiffness, float damping, float rest_length, vec3 delta, vec3 relative_velocity)
 {
-    const float length_squared = max(dot(delta, delta), 1e-20); // coinciding vertices: no direction, no force
+    const float length_squared = max(dot(delta, delta), 1e-20); // vertices that coincide have no direction and no force
     const float inverse_length = inversesqrt(length_squared);
     const vec3 direction = delta * inverse_length;
-    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest pulls with nothing.
+    // (l^2 - L^2) / (l + L), with products that are not rounded before they cancel: a spring at rest has no force.
     const float excess =
         fma(delta.x, delta.x, fma(delta.y, delta.y, fma(delta.z, delta.z, -rest_length * rest_length)));
     const float stretch = excess * (1 / (length_squared * inverse_length + rest_length));
@@ -49,15 +49,15 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     float viscosity = 0;
     if (g.viscosity.is_on)
     {
-        // Without branches: of the vertices that are computed together, some nearly always have a fast spring.
-        const float per_length = push.step / max(rest_length, 1e-9); // 0 where there is no such spring
+        // Without branches: among threads that run together some vertex nearly always has a fast spring.
+        const float per_length = push.step / max(rest_length, 1e-9); // huge for a spring without length, whose stiffness is 0
         const float sharpness = g.viscosity.sharpness;
         const float along = clamp(fma(abs(rate), per_length * sharpness, -k_viscous_strain * sharpness), 0, 1);
         const float across = clamp(fma(dot(relative_velocity, relative_velocity), per_length * per_length * sharpness,
                                        -k_viscous_shear * k_viscous_shear * sharpness), 0, 1);
-        // A stretched spring resists in all directions and leaves less of the reach.
-        const float share = clamp(rest_length * inverse_length, 0, 1);
-        const float scale = share * share * g.viscosity.scale * stiffness;
+        // A stretched spring resists in all directions and leaves less of the stability region.
+        const float ratio = clamp(rest_length * inverse_length, 0, 1);
+        const float scale = ratio * ratio * g.viscosity.scale * stiffness;
         viscosity = scale * along;
         g.force += scale * across * relative_velocity;
     }
@@ -65,20 +65,20 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     g.energy += 0.25 * stiffness * stretch * stretch;
 }
 
-// Drag of the air on `share` of the triangle that the edges to two neighbors span, with the vertex's velocity: 1/2 rho
-// A C |u| u along the normal and across it. Its parts along and across the wind are the drag and the lift.
-void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float share)
+// Drag of the air on a `fraction` of the triangle that the edges to two neighbors span, with the vertex's velocity:
+// 1/2 rho A C |u| u along the normal and across it. The parts along and across the wind are drag and lift.
+void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float fraction)
 {
     const vec3 across = cross(to_b, to_c); // twice the area, along the normal
     const float across_length = length(across);
     if (across_length < 1e-20)
         return;
     const vec3 n = across / across_length;
-    // Beyond that speed, and that area below, the force in the densest air would overflow.
+    // Beyond these bounds of speed and area the force in the densest air would overflow.
     const vec3 u = clamp(g.wind - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
     const float u_n = dot(u, n);
     const vec3 u_t = u - u_n * n;
-    const float c = 0.25 * push.air_density * share * min(across_length, VOILE_MOST_AIR_AREA);
+    const float c = 0.25 * push.air_density * fraction * min(across_length, VOILE_MOST_AIR_AREA);
     const float normal = c * cloths[cloth].drag_normal * abs(u_n);
     const float tangential = c * cloths[cloth].drag_tangential * length(u_t);
     g.air += normal * u_n * n + tangential * u_t;
@@ -94,56 +94,56 @@ FinePosition position_of(uint vertex)
     return FinePosition(x, unpack_residual(stage_residuals[vertex]));
 }
 
-// From the vertex to another one, m.
+// m, from the vertex to another.
 vec3 delta_to(Gather g, uint other) { return displacement(g.x, position_of(other)); }
 
-// A neighbor on a grid, seen from the vertex. Where there is none the vertex stands for it: its differences are 0, a spring
-// to it pulls with nothing, and no branch keeps loads from being issued together.
-// `bending`: of the model's form, between the neighbor and the vertex. Returns the displacement to the neighbor, m.
+// A neighbor on a grid. If it does not exist, the vertex takes its role: differences are 0, the spring has no force,
+// and no branch keeps loads from being issued together.
+// `bending`: weight of the neighbor in the bending energy. Returns the displacement to the neighbor, m.
 vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
 {
     const uint other = exists ? neighbor(self.index, offset, self.columns) : self.index;
     const vec3 delta = delta_to(g, other);
     const vec3 velocity = stage_velocities[other].xyz - g.v;
     add_spring(g, spring.stiffness, spring.damping, spring.rest_length, delta, velocity);
-    g.bending += bending * (g.bending_stiffness * delta + g.bending_damping * velocity);
+    g.bending += bending * (g.bending_scale * delta + g.bending_damping * velocity);
     return delta;
 }
 
 bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
 
-// Which lines of the grid there are beside the vertex's, on either side.
-struct Beside
+// Whether the grid has lines next to the vertex's, on either side.
+struct AdjacentLines
 {
     bvec2 next; // ahead, behind
     bvec2 far;
 };
 
-Beside beside(int place, uint lines)
+AdjacentLines adjacent_lines(int line, uint lines)
 {
-    return Beside(bvec2(uint(place + 1) < lines, place > 0), bvec2(uint(place + 2) < lines, place > 1));
+    return AdjacentLines(bvec2(uint(line + 1) < lines, line > 0), bvec2(uint(line + 2) < lines, line > 1));
 }
 
-// What the neighbors of one line have of the bending energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the inner places of
-// the line: minus its gradient is the sum of them times the displacements.
+// Weights of the neighbors along one line in the bending energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the line's
+// inner vertices. The force is the sum of the weights times the displacements.
 struct LineBending
 {
     vec2 next;
     float far;
 };
 
-LineBending line_bending(Beside line, float c)
+LineBending line_bending(AdjacentLines line, float c)
 {
     const float middle = all(line.next) ? 2 * c : 0;
     return LineBending(vec2(middle) + 2 * c * vec2(line.far), -c);
 }
 
-// What springs along the row and along the column have of their stiffness at the grid's border.
-vec2 border_shares(uint cloth, PatchVertex self)
+// Scales of the stiffness along the row and along the column, which differ from 1 at the grid's border.
+vec2 border_scales(uint cloth, PatchVertex self)
 {
-    const float share = cloths[cloth].border_share;
-    return vec2(self.place.y == 0 || self.place.y + 1 == int(self.rows) ? share : 1,
-                self.place.x == 0 || self.place.x + 1 == int(self.columns) ? share : 1);
+    const float border = cloths[cloth].border_share;
+    return vec2(self.column_row.y == 0 || self.column_row.y + 1 == int(self.rows) ? border : 1,
+                self.column_row.x == 0 || self.column_row.x + 1 == int(self.columns) ? border : 1);
 }
 
 SpringClass scaled(SpringClass spring, float stiffness, float damping)
@@ -153,26 +153,26 @@ SpringClass scaled(SpringClass spring, float stiffness, float damping)
     return spring;
 }
 
-SpringClass grid_springs(uint cloth, int c, vec2 shares, StabilityScales scales)
+SpringClass grid_springs(uint cloth, int c, vec2 border, StabilityScales scales)
 {
-    const float share = c % 4 == 0 ? shares.x : c % 4 == 1 ? shares.y : 1;
-    return scaled(cloths[cloth].springs[c], share * scales.stiffness, share * scales.damping);
+    const float scale = c % 4 == 0 ? border.x : c % 4 == 1 ? border.y : 1;
+    return scaled(cloths[cloth].springs[c], scale * scales.stiffness, scale * scales.damping);
 }
 
 // Eight springs per vertex, and bending from the same neighbors. The isometric model (Bergou et al. 2006, "A quadratic
 // bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
 // the sum of the squared second differences along rows and columns and of twice the squared twist of the cells,
-// x_diagonal - x_along_row - x_along_column + x. One neighbor after the other: what is kept of several takes registers.
+// x_diagonal - x_along_row - x_along_column + x. Neighbors are taken one after the other to save registers.
 void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales scales)
 {
-    const vec2 shares = border_shares(cloth, self);
+    const vec2 border = border_scales(cloth, self);
     SpringClass springs[VOILE_SPRING_CLASSES];
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
-        springs[c] = grid_springs(cloth, c, shares, scales);
-    const vec2 c = shares * cloths[cloth].bending.xy;
+        springs[c] = grid_springs(cloth, c, border, scales);
+    const vec2 c = border * cloths[cloth].bending.xy;
     const float twist = cloths[cloth].bending.z;
-    const Beside row = beside(self.place.x, self.columns);
-    const Beside column = beside(self.place.y, self.rows);
+    const AdjacentLines row = adjacent_lines(self.column_row.x, self.columns);
+    const AdjacentLines column = adjacent_lines(self.column_row.y, self.rows);
     const LineBending row_bending = line_bending(row, c.x);
     const LineBending column_bending = line_bending(column, c.y);
     // Each neighbor along a line belongs to the cells on both of its sides.
@@ -207,7 +207,7 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
     }
     if (feels_air(cloth))
     {
-        // Of each cell around it the vertex has a quarter: half of the triangle that two sides span.
+        // The vertex takes a quarter of each cell around it: half of the triangle that two sides span.
         add_air(g, cloth, east, north, 0.5);
         add_air(g, cloth, north, west, 0.5);
         add_air(g, cloth, west, south, 0.5);
@@ -217,14 +217,14 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
 
 #include "forces/membrane.glsl"
 
-// A mesh vertex's list of springs, which has the entries of the isometric model beside them, and the triangles around it,
-// with the membrane of a Fabric.
+// Springs of a mesh vertex, with the entries of the isometric model beside them, and the triangles around it, with the
+// membrane of a Fabric.
 void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
     const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
-    // The next entry is loaded while one is computed.
+    // The next entry is loaded while the current one is computed.
     MeshSpring next;
     if (vertex.springs > 0)
         next = mesh_springs[vertex.first_spring];
@@ -245,7 +245,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
         if (pulls)
             add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
-        g.bending -= entry.bending * (g.bending_stiffness * delta + g.bending_damping * relative_velocity);
+        g.bending -= entry.bending * (g.bending_scale * delta + g.bending_damping * relative_velocity);
     }
     g.bending *= cloths[cloth].bending.x;
     if (alike && !feels_air(cloth))
@@ -273,7 +273,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
     }
 }
 
-// All forces on a vertex but gravity and linear drag.
+// All forces on a vertex except gravity and linear drag.
 Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity viscosity, StabilityScales scales)
 {
     Gather g;
@@ -283,7 +283,7 @@ Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity vis
     g.energy = g.air_rate = 0;
     g.wind = wind;
     g.viscosity = viscosity;
-    g.bending_stiffness = scales.stiffness;
+    g.bending_scale = scales.stiffness;
     g.bending_damping = scales.damping * cloths[self.cloth].bending_time;
     if (self.columns > 0)
         gather_grid(g, self.cloth, self, scales);

@@ -1,10 +1,11 @@
 // Stretch and shear of a fabric on a triangle: four springs along its warp, its weft and both diagonals between them.
 //
-// The deformation gradient F takes a unit vector d of the fabric to F d, whose length is 1 at rest. Each direction has the
-// energy weight * stiffness / 2 * (|F d| - 1)^2, so that a mesh has the moduli of a grid, whatever its triangles are. The
-// force on a corner is minus the energy's gradient, F S g: S is the sum of tension * d d^T over the directions, and g the
-// gradient of the corner's barycentric coordinate. Each corner computes F and S from the same edges in the same order, so
-// that the three forces and their torques add up to nothing, but for the rounding of F S g itself.
+// The deformation gradient F maps a unit vector d of the fabric to F d, whose length is 1 at rest. Each direction has
+// the energy weight * stiffness / 2 * (|F d| - 1)^2, so a mesh has the moduli of a grid, whatever its triangles are.
+// The force on a corner is minus the gradient of the energy, F S g: S is the sum of tension * d d^T over the
+// directions, and g the gradient of the corner's barycentric coordinate. Each corner computes F and S from the same
+// edges in the same order. Therefore the three forces and their torques sum to 0, except for the rounding of F S g
+// itself.
 // Included by forces.glsl.
 #ifndef VOILE_MEMBRANE_GLSL
 #define VOILE_MEMBRANE_GLSL
@@ -20,7 +21,7 @@ struct FabricMatrix
 // d^T m d.
 float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.weft + 2 * d.x * d.y * m.mixed; }
 
-// |F d| below which a direction counts as one of that length: the triangle has collapsed.
+// The least |F d|. A triangle with less has collapsed.
 const float k_least_stretch = 1e-4;
 
 // `energy`: J/m^2; `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
@@ -34,7 +35,7 @@ void add_direction(inout FabricMatrix stress, inout float energy, Gather g, Spri
     float tension = spring.stiffness * squared_excess / (squared + stretch) + spring.damping * stretch_rate;
     if (g.viscosity.is_on)
     {
-        // As in add_spring, for a rest length of 1. Here what goes along suffices; what acts across would add spin.
+        // As in add_spring, for a rest length of 1. Viscosity along the direction suffices; across it would add spin.
         const float change = abs(stretch_rate) * stretch * push.step;
         const float viscosity = clamp((change - k_viscous_strain) * g.viscosity.sharpness, 0, 1);
         tension += min(1 / squared, 1) * g.viscosity.scale * viscosity * spring.stiffness * stretch_rate;

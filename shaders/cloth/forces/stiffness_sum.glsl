@@ -1,4 +1,4 @@
-// What the springs of a vertex amount to: a symmetric matrix, and its largest eigenvalue.
+// The stiffness matrix of a vertex: the sum over its springs, and its largest eigenvalue.
 #ifndef VOILE_STIFFNESS_SUM_GLSL
 #define VOILE_STIFFNESS_SUM_GLSL
 
@@ -9,8 +9,8 @@ struct StiffnessSum
     vec3 mixed;    // xy xz yz
 };
 
-// Adds a spring of length l > L along the unit vector d: k (L/l d d^T + (1 - L/l) I), what it resists displacement with;
-// a shorter one, which buckles, k d d^T.
+// Adds a spring along the unit vector d. Longer than at rest, l > L, its stiffness is k (L/l d d^T + (1 - L/l) I).
+// Shorter, it buckles, and its stiffness is k d d^T.
 void add_stiffness(inout StiffnessSum sum, float stiffness, vec3 d, float rest_over_length)
 {
     const float along = stiffness * min(rest_over_length, 1);

@@ -1,16 +1,17 @@
-// The wind at a place: a steady vector and gusts that drift with it.
+// The wind at a position: a steady vector and gusts that drift with it.
 //
-// The gusts are four transverse waves, so that the field has no divergence (Kraichnan 1970, "Diffusion by a random
-// velocity field"), an octave apart. Their amplitudes fall as k^(-1/3): an octave of Kolmogorov's spectrum, k^(-5/3) dk,
-// has the energy k^(-2/3). Their phases at the present time come from the host, which reduces them in double precision.
-// The field is a function of time and place alone. The including kernel declares `push` (StagePush).
+// The gusts are four transverse waves, an octave apart. The field has no divergence (Kraichnan 1970, "Diffusion by a
+// random velocity field"). Amplitudes fall as k^(-1/3): an octave of Kolmogorov's spectrum, k^(-5/3) dk, has the energy
+// k^(-2/3). The host computes the phases at the current time in double precision. The field depends on time and
+// position only.
+// The including kernel declares `push` (StagePush).
 #ifndef VOILE_WIND_GLSL
 #define VOILE_WIND_GLSL
 
 #include "shared/constants.glsl"
 
-// Wave vectors in units of the longest wave's; the unit directions that the air swings in, across them; and amplitudes
-// whose root mean square is 1 together.
+// Wave vectors in units of the longest wave's, unit directions of the velocity across them, and amplitudes, whose root
+// mean square is 1.
 const vec3 k_gust_waves[4] = vec3[](VOILE_GUST_WAVES);
 const vec3 k_gust_directions[4] = vec3[](vec3(0.5883, 0.1961, -0.7845), vec3(0.5699, 0.8206, -0.0420),
                                          vec3(0.6441, -0.0067, 0.7649), vec3(0.9487, 0.3162, 0));
@@ -24,9 +25,9 @@ float upper_half(float a)
     return upper;
 }
 
-// a b without whole turns, a in turns/m, b in m. Far from the origin the product has more turns than a float can hold with a
-// fraction; what rounding takes from it is kept (Dekker 1971, "A floating-point technique for extending the available
-// precision"). Vulkan's fma may round twice.
+// The fractional turns of a b, a in turns/m, b in m. Far from the origin a float cannot hold the turns and a precise
+// fraction, so the rounding error of the product is kept (Dekker 1971, "A floating-point technique for extending the
+// available precision"). Not with fma, which may round twice in Vulkan.
 float turns(float a, float b, float b_residual)
 {
     const float a_upper = upper_half(a);
@@ -39,7 +40,7 @@ float turns(float a, float b, float b_residual)
     return fract(product) + (rest + a * b_residual);
 }
 
-vec3 wind_at(FinePosition place)
+vec3 wind_at(FinePosition position)
 {
     vec3 wind = push.wind;
     if (push.gust_speed == 0)
@@ -47,8 +48,8 @@ vec3 wind_at(FinePosition place)
     for (int i = 0; i < 4; ++i)
     {
         const vec3 wave = push.gust_frequency * k_gust_waves[i];
-        const float along = turns(wave.x, place.x.x, place.residual.x) + turns(wave.y, place.x.y, place.residual.y) +
-                            turns(wave.z, place.x.z, place.residual.z);
+        const float along = turns(wave.x, position.x.x, position.residual.x) + turns(wave.y, position.x.y, position.residual.y) +
+                            turns(wave.z, position.x.z, position.residual.z);
         wind += push.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along) - push.gust_phases[i]) *
                 k_gust_directions[i];
     }

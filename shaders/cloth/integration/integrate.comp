@@ -3,9 +3,10 @@
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
 // A thread evaluates the acceleration of one vertex, from the stage's positions and velocities of the vertex and of its
-// neighbors, and writes the next stage's state. Stage 4 writes the result of the step, from the velocities of all stages:
-// they are k1 to k4 of the positions, and their differences have k1 to k3 of the velocities in them. So no stage keeps sums.
-// One kernel for all stages: four of them, each with the forces in it, are slower beside contact on an H200 (bench/NOTES.md).
+// neighbors, and writes the next stage's state. Stage 4 writes the result of the substep from the velocities of all
+// stages. They are k1 to k4 of the positions, and their differences contain k1 to k3 of the velocities, so no stage
+// stores sums. All stages share one kernel. Four kernels, each with the forces in it, are slower beside contact
+// (bench/NOTES.md).
 // Reads: cloths, patches, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
 // Writes: next state.
 #include "shared/cloth_layout.h"
@@ -58,7 +59,7 @@ void main()
     const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = inverse_mass > 0 ? acceleration(false, self, here, inverse_mass, stage_v) : vec3(0);
 
-    // Stage 1's state is the base state: one read serves both.
+    // Stage 1's state is the base state: one read suffices.
     const FinePosition x = push.stage == 1 ? here : base_position(i);
     const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
     const float h = push.step;
@@ -72,7 +73,7 @@ void main()
         next_velocities[i] = vec4(v + change / 3, 0);
         return;
     }
-    const float reach = push.stage == 3 ? h : 0.5 * h;
-    write_position(i, moved(x, reach * stage_v), inverse_mass);
-    next_velocities[i] = vec4(v + reach * a, 0);
+    const float time = push.stage == 3 ? h : 0.5 * h;
+    write_position(i, moved(x, time * stage_v), inverse_mass);
+    next_velocities[i] = vec4(v + time * a, 0);
 }

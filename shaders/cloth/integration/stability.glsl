@@ -1,4 +1,4 @@
-// Scales of the forces that fast springs and air add to a substep.
+// Stability scales of viscosity and air.
 #ifndef VOILE_STABILITY_GLSL
 #define VOILE_STABILITY_GLSL
 
@@ -7,15 +7,15 @@
 struct Viscosity
 {
     bool is_on;
-    float scale;     // s, a fraction of the substep
-    float sharpness; // a change of length beyond what springs may have in a substep, times this, is the fraction of `scale`
+    float scale;     // s, at full viscosity; a fraction of the substep
+    float sharpness; // a relative change of length beyond the threshold, times this, is the fraction of `scale`, up to 1
 };
 
 const Viscosity k_no_viscosity = Viscosity(false, 0, 0);
 
-// How viscous fast springs may be under Verlet (forces.glsl). Damping may take what the flat cloth leaves of the reach: D up
-// to twice that, of which less than half goes along a spring and across it each. A step far within the reach needs none:
-// there it vanishes with the fourth power of the step, faster than the method's own error.
+// The viscosity of fast springs under Verlet (forces.glsl). Damping may use what the flat cloth leaves of the stability
+// region: D up to twice that, of which less than half acts along a spring and less than half across it. A short substep
+// needs none: viscosity vanishes with the fourth power of the substep, faster than the method's own error.
 Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float decay, float h)
 {
     const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);
@@ -24,8 +24,8 @@ Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float d
     return Viscosity(true, scales.load * sqrt(scales.load) * h * most, 1 / max(most, 1e-6));
 }
 
-// The scale of the air's force, of decay rate `decay`, that a step of h seconds bears beside all else. What is quadratic
-// in the velocity grows twice as fast with it as its rate says, and may take up what the margin leaves of the reach.
+// The stability scale of the air's force, whose decay rate is `decay`, in a substep of h seconds. A force quadratic in
+// the velocity grows twice as fast with it as its rate says. It may use what the margin leaves of the stability region.
 float air_scale(bool verlet, float decay, float h)
 {
     const float reach = verlet ? 1 - VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One step of velocity Verlet (Swope et al. 1982) for the cloths that use it: kick and drift in one dispatch.
+// One substep of velocity Verlet (Swope et al. 1982) for the cloths that use it: kick and drift in one dispatch.
 //
-// The half kicks at the end of one substep and at the beginning of the next are one: a step of n substeps is n + 1
-// dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities stand half a substep
-// after positions. Damping and air need velocities at the time of the positions: each dispatch leaves a prediction for the
-// next (stability.glsl), which keeps the second order.
-// A thread moves one vertex. Reads: cloths, patches, mesh lists, positions and their residuals, predicted and own velocities.
+// The half kicks at the end of one substep and at the beginning of the next are merged: a step of n substeps is n + 1
+// dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities are half a substep
+// later than positions. Damping and air need velocities at the time of the positions. Each dispatch writes a prediction
+// for the next (stability.h), which keeps the second order.
+// One thread per vertex. Reads: cloths, patches, mesh lists, positions and their residuals, predicted and own
+// velocities.
 // Writes: next positions and residuals, velocities, predicted velocities.
 #include "shared/cloth_layout.h"
 
@@ -41,8 +42,8 @@ void main()
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 a = stage_x.w > 0 ? acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
-    // What touches a collider or hangs on a taut tether leaves the step with the velocity that this gave it: half a kick more
-    // would drive it into the surface. The next step's first kick has that half in it.
+    // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
+    // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_MEETS);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;

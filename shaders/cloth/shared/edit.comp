@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the host does to a whole cloth between two steps: masses by a new density, reset, teleport, a velocity. One thread a
-// vertex of that cloth.
+// Changes of a whole cloth by the host between two steps: masses by a new density, reset, teleport, velocity. One
+// thread per vertex of that cloth.
 // Reads: cloths, start. Writes: state.
 #include "shared/cloth_layout.h"
 
@@ -18,9 +18,9 @@ layout(push_constant, std430) uniform Push { EditPush push; };
 
 #include "shared/fine_position.glsl"
 
-// Products of floats and their sums, with what their rounding leaves, which is added up by itself: beside large numbers it would
-// be lost.
-FinePosition moved_by(mat4 transform, FinePosition p)
+// Products and sums with their rounding errors. The errors are summed separately, because next to large numbers they
+// would be lost.
+FinePosition transformed(mat4 transform, FinePosition p)
 {
     vec3 x = transform[3].xyz;
     vec3 residual = mat3(transform) * p.residual;
@@ -44,7 +44,7 @@ void main()
     const float inverse_mass = start[i].w * cloths[push.cloth].inverse_density;
     if (push.kind == VOILE_EDIT_MASSES)
     {
-        // Heavier: the momentum stays, lighter: the velocity. Kinetic energy never grows with the mass.
+        // A heavier vertex keeps its momentum, a lighter one its velocity, so that kinetic energy never grows.
         const float before = positions[i].w;
         if (before > inverse_mass)
             velocities[i].xyz *= inverse_mass / before;
@@ -60,8 +60,8 @@ void main()
     {
         const vec3 x = positions[i].xyz;
         const vec3 residual = unpack_residual(residuals[i]);
-        FinePosition next = moved_by(push.transform, FinePosition(x, residual));
-        // Scales multiply from call to call: what they make stays within the ranges of the input.
+        FinePosition next = transformed(push.transform, FinePosition(x, residual));
+        // Scales multiply from call to call. Clamped, the result stays within the ranges of the input.
         next.x = clamp(next.x, vec3(-VOILE_MOST_COORDINATE), vec3(VOILE_MOST_COORDINATE));
         const vec3 v = mat3(push.transform) * velocities[i].xyz;
         positions[i].xyz = next.x;

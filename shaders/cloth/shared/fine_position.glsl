@@ -1,8 +1,8 @@
-// Positions finer than float: what rounding takes from a coordinate is kept beside it.
+// Positions finer than float: a residual keeps what rounding takes from each coordinate.
 //
-// A float of 1 m is known to 6e-8 m. A stiff spring feels that much more than a vertex feels its weight. So each position has a
-// residual, at most half the distance to the next float at the size of its largest coordinate, in three signed 16 bit
-// fractions of it: 40 bits together. Springs see differences of both; everything else may read the float alone.
+// A float at 1 m has a resolution of 6e-8 m. In a stiff spring that is a larger force than the weight of a vertex. A
+// residual is at most half the distance from the largest coordinate to the next float, in three signed fractions of 16
+// bits: coordinates have 40 bits together. Springs use differences of both. Everything else may read the float alone.
 // Source of the sums: Knuth 1969, "The Art of Computer Programming", volume 2, 4.2.2 (two-sum).
 #ifndef VOILE_FINE_POSITION_GLSL
 #define VOILE_FINE_POSITION_GLSL
@@ -15,9 +15,9 @@ struct FinePosition
     vec3 residual; // m; the position is x + residual
 };
 
-// Steps are powers of two, and what is packed is a step's exponent and three fractions with an offset: what takes them apart
-// are bit operations and sums, no conversions, which take four times as long.
-const float k_residual_offset = 8421376; // 2^23 + 2^15: the float whose low 16 bits are the fraction 0
+// The 64 bits hold the unit's exponent and three fractions with an offset (residual.h). Bit operations and sums pack
+// and unpack them, because conversions take four times as long.
+const float k_residual_offset = 8421376; // 2^23 + 2^15: the float whose low 16 bits are 32768, the fraction 0
 
 vec3 unpack_residual(uvec2 bits)
 {
@@ -28,8 +28,8 @@ vec3 unpack_residual(uvec2 bits)
 uvec2 pack_residual(FinePosition p)
 {
     const uint unit = residual_unit(p.x);
-    const float a_unit = uintBitsToFloat((254u << 23) - unit); // 1 / unit, a power of two as well
-    const uvec3 fraction = floatBitsToUint(min(p.residual * a_unit, 32767) + k_residual_offset) & 0xffffu;
+    const float per_unit = uintBitsToFloat((254u << 23) - unit); // 1 / unit, a power of two as well
+    const uvec3 fraction = floatBitsToUint(min(p.residual * per_unit, 32767) + k_residual_offset) & 0xffffu;
     return pack_fraction(fraction, unit);
 }
 

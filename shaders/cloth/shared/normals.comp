@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Vertex normals for drawing. A thread computes one vertex's normal from its neighbors.
+// Vertex normals for drawing, from the neighbors of each vertex. One thread per vertex.
 // Reads: cloths, patches, mesh lists, positions and residuals. Writes: normals (w = 0).
 #include "shared/cloth_layout.h"
 

@@ -1,4 +1,4 @@
-// Which vertex of a patch a thread works on.
+// The vertex of a patch that a thread works on.
 //
 // The including kernel declares patches[].
 #ifndef VOILE_PATCH_GLSL
@@ -8,13 +8,13 @@
 
 struct PatchVertex
 {
-    bool exists; // false for the threads beyond the cloth's border
+    bool exists; // false for threads beyond the cloth's border
     uint cloth;
     uint local; // counted within the cloth
     uint index; // in the solver's buffers
     uint columns; // of the cloth; of a mesh 0
     uint rows;
-    ivec2 place; // column and row in a grid
+    ivec2 column_row; // in a grid
 };
 
 PatchVertex patch_vertex(uint patch_index, uint thread)
@@ -26,13 +26,13 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
     vertex.rows = c.rows;
     if (c.columns > 0)
     {
-        vertex.place = ivec2(c.first + (thread & ((1u << c.tile_shift) - 1)), c.row + (thread >> c.tile_shift));
-        vertex.exists = in_grid(vertex.place, c.columns, c.rows);
-        vertex.local = uint(vertex.place.y) * c.columns + uint(vertex.place.x);
+        vertex.column_row = ivec2(c.first + (thread & ((1u << c.tile_shift) - 1)), c.row + (thread >> c.tile_shift));
+        vertex.exists = in_grid(vertex.column_row, c.columns, c.rows);
+        vertex.local = uint(vertex.column_row.y) * c.columns + uint(vertex.column_row.x);
     }
     else
     {
-        vertex.place = ivec2(0);
+        vertex.column_row = ivec2(0);
         vertex.local = c.first + thread;
         vertex.exists = vertex.local < c.rows;
     }

@@ -4,19 +4,19 @@
 
 #include "../../shared_types.h"
 
-// The radius of RK4's stability region in the left half plane. It reaches 2.83 along the imaginary axis and 2.78 along the
-// negative real axis, and is nowhere closer to the origin than this.
+// The radius of RK4's stability region in the left half plane. It reaches 2.83 along the imaginary axis and 2.78 along
+// the negative real axis, and is nowhere closer to the origin than this.
 #define VOILE_RK4_REACH 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
 
 VOILE_SHARED_BEGIN(voile)
 
-// The load of a mode under velocity Verlet: the fraction of the stability region that it uses, from its frequency^2 (1/s^2)
-// and its decay rate (1/s). A substep of h seconds is stable up to a load of 1.
+// The load of a mode under velocity Verlet: the fraction of the stability region that it uses, from its frequency^2
+// (1/s^2) and its decay rate (1/s). A substep of h seconds is stable up to a load of 1.
 //
-// The damping force sees a predicted velocity, v[n-1/2] + p h a[n-1]. With W = (omega h)^2 and D = decay h the characteristic
-// polynomial is
+// The damping force sees a predicted velocity, v[n-1/2] + p h a[n-1]. With W = (omega h)^2 and D = decay h the
+// characteristic polynomial is
 //   z^3 + (W + (1 + p) D - 2) z^2 + (1 - (1 + 2 p) D) z + p D.
 // Its roots lie in the unit circle up to W / 4 + (1/2 + p) D = 1. Second order needs p = 1/2 in the limit of short
 // substeps. The longest substep needs p = 0. p = (1 - L) / 2 with L = W / 4 + D / 2 gives both, and the bound is L = 1.
@@ -25,8 +25,8 @@ VOILE_INLINE real verlet_load(real omega_squared, real decay, real h)
     return 0.25 * omega_squared * h * h + 0.5 * decay * h;
 }
 
-// Factors of a cloth's stiffness and damping in a substep. One pair for the whole cloth: forces stay equal and opposite, and
-// the softened cloth has an energy of its own.
+// Factors of a cloth's stiffness and damping in a substep. One pair for the whole cloth: forces stay equal and
+// opposite, and the softened cloth has an energy of its own.
 struct StabilityScales
 {
     real stiffness; // 0..1

@@ -1,5 +1,5 @@
-// The normal of a vertex, from the buffers that the including kernel names VOILE_NORMAL_POSITIONS and
-// VOILE_NORMAL_RESIDUALS. The kernel declares cloths[], mesh_vertices[] and mesh_corners[] too.
+// The normal of a vertex. The including kernel defines VOILE_NORMAL_POSITIONS and VOILE_NORMAL_RESIDUALS as the names
+// of the buffers to read, and declares cloths[], mesh_vertices[] and mesh_corners[].
 #ifndef VOILE_VERTEX_NORMAL_GLSL
 #define VOILE_VERTEX_NORMAL_GLSL
 
@@ -17,14 +17,14 @@ vec3 vertex_delta(uint from, uint to)
 
 vec3 neighbor_delta(PatchVertex self, ivec2 offset, uint columns, uint rows)
 {
-    if (!in_grid(self.place + offset, columns, rows))
+    if (!in_grid(self.column_row + offset, columns, rows))
         return vec3(0);
     return vertex_delta(self.index, neighbor(self.index, offset, columns));
 }
 
-// The sum of the cross products of consecutive neighbors around the vertex, E x N + N x W + W x S + S x E, is the one
-// product (E - W) x (N - S): the area-weighted normal of the four quadrants. Up for a flat grid seen from above.
-vec3 grid_across(PatchVertex self, uint columns, uint rows)
+// The area-weighted normal of the four quadrants around the vertex: E x N + N x W + W x S + S x E = (E - W) x (N - S).
+// It points up for a flat grid seen from above.
+vec3 grid_normal(PatchVertex self, uint columns, uint rows)
 {
     const vec3 along_row = neighbor_delta(self, ivec2(1, 0), columns, rows) -
                            neighbor_delta(self, ivec2(-1, 0), columns, rows);
@@ -34,24 +34,24 @@ vec3 grid_across(PatchVertex self, uint columns, uint rows)
 }
 
 // The area-weighted normal of the triangles around the vertex.
-vec3 mesh_across(uint cloth, uint local)
+vec3 mesh_normal(uint cloth, uint local)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
-    vec3 across = vec3(0);
+    vec3 sum = vec3(0);
     for (uint c = 0; c < vertex.corners; ++c)
     {
         const MeshCorner corner = mesh_corners[vertex.first_corner + c * MESH_STRIDE];
-        across += cross(vertex_delta(first_vertex + local, first_vertex + corner.b),
-                        vertex_delta(first_vertex + local, first_vertex + corner.c));
+        sum += cross(vertex_delta(first_vertex + local, first_vertex + corner.b),
+                     vertex_delta(first_vertex + local, first_vertex + corner.c));
     }
-    return across;
+    return sum;
 }
 
 vec3 vertex_normal(PatchVertex self)
 {
     const uint columns = cloths[self.cloth].columns;
-    const vec3 n = columns > 0 ? grid_across(self, columns, cloths[self.cloth].rows) : mesh_across(self.cloth, self.local);
+    const vec3 n = columns > 0 ? grid_normal(self, columns, cloths[self.cloth].rows) : mesh_normal(self.cloth, self.local);
     const float length_squared = dot(n, n);
     return length_squared > 1e-30 ? n * inversesqrt(length_squared) : vec3(0, 1, 0);
 }

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // Statistics of one patch of vertices: stretch, kinetic energy, values that are not finite, penetration.
 //
-// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and how
-// deep it lies under the surface of a collider.
-// Reads: cloths, patches, mesh lists, state, colliders, hierarchy. Writes: one record a workgroup.
+// A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and
+// its depth under the surface of a collider.
+// Reads: cloths, patches, mesh lists, state, colliders, hierarchy. Writes: one StatisticsRecord per workgroup.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -66,7 +66,7 @@ void measure_grid_springs(PatchVertex self, inout StatisticsRecord record)
         const SpringClass spring = cloths[cloth].springs[c];
         const ivec2 offset = k_spring_offsets[c];
         if (spring.stiffness > 0 &&
-            in_grid(self.place + offset, cloths[cloth].columns, cloths[cloth].rows))
+            in_grid(self.column_row + offset, cloths[cloth].columns, cloths[cloth].rows))
             measure_spring(self.index, neighbor(self.index, offset, cloths[cloth].columns), spring.rest_length, record);
     }
 }
@@ -84,25 +84,26 @@ void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
     }
 }
 
-// Whether the generalized winding number says that a point is inside a mesh with one side; one with two has no inside. Of a closed
-// mesh it is the signed crossings of a line. Outside of its box no mesh fills half of all directions.
-bool is_in_mesh(uint c, ColliderRecord collider, vec3 place)
+// Whether a point is inside a one-sided mesh, by its winding number; a two-sided mesh has no inside. For a closed mesh
+// the number is the sum of the signed crossings of a line, for an open mesh the generalized one. Outside of its box no
+// mesh fills half of all directions.
+bool is_in_mesh(uint c, ColliderRecord collider, vec3 point)
 {
-    if ((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(collider, place))
+    if ((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(collider, point))
         return false;
     if ((collider.flags & VOILE_COLLIDER_CLOSED) != 0)
-        return line_winding(c, collider, place, 1) > 0;
-    return generalized_winding(c, collider, place) > 0.5;
+        return line_winding(c, collider, point, 1) > 0;
+    return generalized_winding(c, collider, point) > 0.5;
 }
 
-// m: how deep a point is in a collider; 0 or less: it is not inside.
-float depth_in(uint c, ColliderRecord collider, vec3 place)
+// m: the depth of a point in a collider. 0 or less: it is outside.
+float depth_in(uint c, ColliderRecord collider, vec3 point)
 {
     if (collider.kind == VOILE_COLLIDER_PLANE)
-        return -plane_surface(collider, place).distance;
+        return -plane_surface(collider, point).distance;
     if (collider.kind != VOILE_COLLIDER_MESH)
-        return -convex_surface(collider, place).distance;
-    return is_in_mesh(c, collider, place) ? nearest_distance(c, collider, place, 3e38) : 0;
+        return -convex_surface(collider, point).distance;
+    return is_in_mesh(c, collider, point) ? nearest_distance(c, collider, point, 3e38) : 0;
 }
 
 void measure_penetration(FinePosition p, uint layers, inout StatisticsRecord record)

@@ -1,10 +1,10 @@
-// Reduction of statistics records within a workgroup whose size is a power of two. The order of the sums is fixed.
+// Reduction of statistics within a workgroup whose size is a power of two. The order of the sums is fixed.
 #ifndef VOILE_STATISTICS_MERGE_GLSL
 #define VOILE_STATISTICS_MERGE_GLSL
 
 shared StatisticsRecord partial[gl_WorkGroupSize.x];
 
-StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0); } // -1: shrunk to a point
+StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0); } // -1: all springs shrunk to a point
 
 StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
 {
@@ -21,7 +21,7 @@ StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
     return a;
 }
 
-// The merged record of all threads, valid in thread 0.
+// The merged statistics of all threads, valid in thread 0.
 StatisticsRecord merge_workgroup(StatisticsRecord mine)
 {
     const uint thread = gl_LocalInvocationID.x;

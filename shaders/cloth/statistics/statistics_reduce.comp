@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Merges the patches' statistics into one record. One workgroup: a thread takes every group-size-th patch, then they fold.
+// Merges the statistics of all patches. One workgroup: each thread merges every group-size-th patch, then the workgroup
+// folds.
 // Reads: partials. Writes: result[slot].
 #include "shared/cloth_layout.h"
 
