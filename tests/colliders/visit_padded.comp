@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// For tests: a thread asks a padded tree with one box and writes down what it is handed.
+// For tests: a thread queries an implicit complete BVH with one box and writes the leaves that it visits.
 // Reads: boxes, queries. Writes: answers.
 #include "shared/padded_layout.h"
 #include "visit_padded_layout.h"
@@ -13,20 +13,25 @@ layout(set = 0, binding = 2, std430) writeonly buffer Answers { uint answers[]; 
 
 layout(push_constant, std430) uniform Push { VisitPush push; };
 
-uint found = 0;
+#include "shared/box.glsl"
 
-bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+// An answer: the number of leaves, then the leaves as far as they fit.
+struct LeafQuery
 {
-    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
-}
+    Box box;
+    uint found;
+};
 
-void take_leaf(uint first, uint count)
+bool enters_node(LeafQuery query, Box node) { return overlap(query.box, node); }
+
+void visit_leaf(inout LeafQuery query, uint first, uint count)
 {
     for (uint slot = first; slot < first + count; ++slot)
-        if (++found < push.room)
-            answers[gl_GlobalInvocationID.x * push.room + found] = slot;
+        if (++query.found < push.room)
+            answers[gl_GlobalInvocationID.x * push.room + query.found] = slot;
 }
 
+#define VOILE_QUERY LeafQuery
 #include "colliders/padded.glsl"
 
 void main()
@@ -34,6 +39,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= push.queries)
         return;
-    visit_padded(push.first_box, push.first_leaf, push.triangles, queries[i].min, queries[i].max);
-    answers[i * push.room] = found;
+    LeafQuery query = LeafQuery(Box(queries[i].min, queries[i].max), 0);
+    traverse_padded(query, push.first_box, push.first_leaf, push.triangles);
+    answers[i * push.room] = query.found;
 }

@@ -1,22 +1,20 @@
-// Traversal of a bounding volume hierarchy with a box.
+// Traversal of a bounding volume hierarchy with a query of type VOILE_QUERY. May be included once per type of query.
 //
 // The including kernel declares `bvh_nodes[]` and defines before the include
-//   void take_leaf(uint first, uint count)
-// which is called for the triangles of every leaf that the traversal enters. It enters nodes whose box overlaps the
-// query's.
-// VOILE_ENTERS may name another test, a function of (box_min, box_max, node_min, node_max).
+//   VOILE_QUERY, the name of a struct,
+//   bool enters_node(VOILE_QUERY query, Box node), and
+//   void visit_leaf(inout VOILE_QUERY query, uint first, uint count), which is called for the triangles of every leaf that
+//   the query enters.
 #ifndef VOILE_BVH_GLSL
 #define VOILE_BVH_GLSL
-
-#ifndef VOILE_ENTERS
-#define VOILE_ENTERS boxes_overlap
-#endif
 
 // Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them
 // together keeps the triangle tests out of the loop over nodes.
 const uint k_bvh_waiting_leaves = 8;
 
-void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
+#endif
+
+void traverse_bvh(inout VOILE_QUERY query, uint first_node, uint first_triangle)
 {
     uint stack[VOILE_BVH_MAX_DEPTH];
     uint entries = 0;
@@ -29,8 +27,8 @@ void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
         while (waiting + 2 <= k_bvh_waiting_leaves)
         {
             const BvhNode n = bvh_nodes[first_node + node];
-            const bool left = VOILE_ENTERS(box_min, box_max, n.left_min, n.left_max);
-            const bool right = VOILE_ENTERS(box_min, box_max, n.right_min, n.right_max);
+            const bool left = enters_node(query, Box(n.left_min, n.left_max));
+            const bool right = enters_node(query, Box(n.right_min, n.right_max));
             const bool left_leaf = (n.left & VOILE_BVH_LEAF_BIT) != 0;
             const bool right_leaf = (n.right & VOILE_BVH_LEAF_BIT) != 0;
             if (left && left_leaf)
@@ -47,10 +45,8 @@ void visit_box(uint first_node, uint first_triangle, vec3 box_min, vec3 box_max)
             node = go_left ? n.left : go_right ? n.right : stack[--entries];
         }
         for (uint i = 0; i < waiting; ++i)
-            take_leaf(first_triangle + (leaves[i] & VOILE_BVH_FIRST_MASK),
-                      ((leaves[i] >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1);
+            visit_leaf(query, first_triangle + (leaves[i] & VOILE_BVH_FIRST_MASK),
+                       ((leaves[i] >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1);
         waiting = 0;
     }
 }
-
-#endif

@@ -27,6 +27,7 @@ layout(set = 0, binding = 8, std430) writeonly buffer NearColliders { uint near_
 
 layout(push_constant, std430) uniform Push { ColliderReachPush push; };
 
+#include "shared/box.glsl"
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
 
@@ -37,19 +38,9 @@ const float k_near_rounding = 2e-6;
 // The largest rate of a rotation along the chord of two quaternions over an even rotation.
 const float k_chord_rate = 1.3;
 
-struct Box
-{
-    vec3 min;
-    vec3 max;
-};
-
 shared Box boxes[gl_WorkGroupSize.x];
 shared uint first_word;
 shared uint end_word;
-
-Box grown(Box box, float margin) { return Box(box.min - margin, box.max + margin); }
-Box shifted(Box box, vec3 displacement) { return Box(box.min + displacement, box.max + displacement); }
-Box joined(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
 // The positions that the patch's vertices can have until the next pass.
 Box box_of_patch(PatchVertex self)
@@ -83,8 +74,7 @@ Box local_box(ColliderRecord collider)
         return Box(-collider.shape.xyz, collider.shape.xyz);
     if (!is_deforming(collider.flags))
         return Box(collider.box_min, collider.box_max);
-    const PaddedBox root = padded_boxes[collider.first_node];
-    return Box(root.min, root.max);
+    return Box(padded_boxes[collider.first_node].min, padded_boxes[collider.first_node].max);
 }
 
 // m: contact sees the path of a vertex within a substep as straight in the collider's space. A rotating collider can
@@ -107,12 +97,12 @@ bool touches(uint c, ColliderRecord collider, Box box)
     {
         const ColliderMotion motion = collider_motions[c];
         const float radius = length(max(abs(around.min), abs(around.max)));
-        const Box sweep = Box(min(motion.place_from, motion.place_to), max(motion.place_from, motion.place_to));
+        const Box sweep = box_around(motion.place_from, motion.place_to);
         around = grown(shifted(sweep, motion.origin), radius);
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
         around = grown(around, turning_margin(motion, length(farthest)));
     }
-    return all(lessThanEqual(around.min, box.max)) && all(lessThanEqual(box.min, around.max));
+    return overlap(around, box);
 }
 
 // A box that is not finite overlaps every collider.

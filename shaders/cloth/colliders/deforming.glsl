@@ -4,12 +4,7 @@
 #ifndef VOILE_DEFORMING_GLSL
 #define VOILE_DEFORMING_GLSL
 
-struct Triangle
-{
-    vec3 a;
-    vec3 b;
-    vec3 c;
-};
+#include "contact/triangle.glsl"
 
 // A triangle at the start and at the end of a substep.
 struct MovingTriangle

@@ -9,6 +9,8 @@
 #ifndef VOILE_NEAR_COLLIDERS_GLSL
 #define VOILE_NEAR_COLLIDERS_GLSL
 
+#include "shared/box.glsl"
+
 #ifndef VOILE_NEAR_LISTS
 #define VOILE_NEAR_LISTS true
 #endif
@@ -31,13 +33,13 @@ vec3 near_corner(uint word)
 }
 
 // Whether the list of a patch holds in the box.
-bool has_near_list(uint patch_index, vec3 box_min, vec3 box_max)
+bool has_near_list(uint patch_index, Box box)
 {
     if (!VOILE_NEAR_LISTS || push.near_stride == 0)
         return false;
     const uint header = patch_index * push.near_stride;
-    return all(greaterThanEqual(box_min, near_corner(header + VOILE_NEAR_MIN))) &&
-           all(lessThanEqual(box_max, near_corner(header + VOILE_NEAR_MAX)));
+    return all(greaterThanEqual(box.min, near_corner(header + VOILE_NEAR_MIN))) &&
+           all(lessThanEqual(box.max, near_corner(header + VOILE_NEAR_MAX)));
 }
 
 uint collider_bits(uint first, uint word)
@@ -54,9 +56,9 @@ ColliderWalk walk_all(uint patch_index)
 }
 
 // Over the colliders that may touch the box.
-ColliderWalk walk_colliders(uint patch_index, vec3 box_min, vec3 box_max)
+ColliderWalk walk_colliders(uint patch_index, Box box)
 {
-    if (!has_near_list(patch_index, box_min, box_max))
+    if (!has_near_list(patch_index, box))
         return walk_all(patch_index);
     const uint header = patch_index * push.near_stride;
     return ColliderWalk(patch_index, header + VOILE_NEAR_WORDS, near_colliders[header + VOILE_NEAR_FIRST],
@@ -85,7 +87,7 @@ bool next_collider(inout ColliderWalk walk, out uint c)
 // After collider c has moved the vertex to x: continues over all following colliders if x is outside of the list's box.
 void continue_walk(inout ColliderWalk walk, uint c, vec3 x)
 {
-    if (walk.first == k_all_colliders || has_near_list(walk.patch_index, x, x))
+    if (walk.first == k_all_colliders || has_near_list(walk.patch_index, Box(x, x)))
         return;
     walk = ColliderWalk(walk.patch_index, k_all_colliders, c / 32 + 1, (push.colliders + 31) / 32,
                         collider_bits(k_all_colliders, c / 32) & ~((2u << (c % 32)) - 1));

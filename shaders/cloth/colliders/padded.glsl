@@ -1,28 +1,21 @@
-// Traversal of an implicit complete BVH (padded_layout.h) with a box.
+// Traversal of an implicit complete BVH (padded_layout.h) with a query of type VOILE_QUERY, as in bvh.glsl. May be included
+// once per type of query.
 //
-// The including kernel declares `padded_boxes[]` and defines boxes_overlap and, before the include,
-//   void take_leaf(uint first, uint count)
-// which is called with a count of 1 for every leaf that the traversal enters, once per triangle. VOILE_ENTERS: as in
-// bvh.glsl.
+// The including kernel declares `padded_boxes[]` and defines before the include what bvh.glsl expects. visit_leaf is called
+// with a count of 1, once per triangle.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
-
-#ifndef VOILE_ENTERS
-#define VOILE_ENTERS boxes_overlap
-#endif
 
 // As in bvh.glsl.
 const uint k_padded_waiting_leaves = 8;
 
-bool padded_box_overlaps(uint box, vec3 box_min, vec3 box_max)
-{
-    const PaddedBox b = padded_boxes[box];
-    return VOILE_ENTERS(box_min, box_max, b.min, b.max);
-}
+Box padded_box(uint index) { return Box(padded_boxes[index].min, padded_boxes[index].max); }
+
+#endif
 
 // The ancestors of a box are its index modulo the widths of their levels, so the stack is one word: bit d is set if the
 // second child of the current ancestor on level d is still to visit.
-void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min, vec3 box_max)
+void traverse_padded(inout VOILE_QUERY query, uint first_box, uint first_leaf, uint triangles)
 {
     const uint last = 1u << findMSB(2 * triangles - 1); // width of the level of leaves
     uint leaves[k_padded_waiting_leaves];
@@ -30,7 +23,7 @@ void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min,
     uint second = 0;
     uint width = 1; // of the level
     uint box = 0;   // on it
-    const bool entered = padded_box_overlaps(first_box, box_min, box_max);
+    const bool entered = enters_node(query, padded_box(first_box));
     bool done = !entered || last == 1;
     if (entered && last == 1) // one triangle: the root is its leaf
         leaves[waiting++] = 0;
@@ -39,8 +32,8 @@ void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min,
         while (!done && waiting + 2 <= k_padded_waiting_leaves)
         {
             const uint child = first_box + 2 * width - 1 + box;
-            bool left = padded_box_overlaps(child, box_min, box_max);
-            bool right = padded_box_overlaps(child + width, box_min, box_max);
+            bool left = enters_node(query, padded_box(child));
+            bool right = enters_node(query, padded_box(child + width));
             if (2 * width == last)
             {
                 if (left)
@@ -65,9 +58,7 @@ void visit_padded(uint first_box, uint first_leaf, uint triangles, vec3 box_min,
             width *= 2;
         }
         for (uint i = 0; i < waiting; ++i)
-            take_leaf(first_leaf + leaves[i], 1);
+            visit_leaf(query, first_leaf + leaves[i], 1);
         waiting = 0;
     } while (!done);
 }
-
-#endif

@@ -257,7 +257,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
-    return walk_colliders(gl_WorkGroupID.x, min(motion.from.x, to), max(motion.from.x, to));
+    return walk_colliders(gl_WorkGroupID.x, box_around(motion.from.x, to));
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second

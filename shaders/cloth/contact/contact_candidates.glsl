@@ -39,7 +39,6 @@ struct Candidates
 {
     uint vertex;
     uint count;   // VOILE_CANDIDATES + 1: more than fit
-    bool collect; // take_leaf adds triangles to the list; else it visits them
     vec3 center;  // m, world: the query center, middle of the ball that the list covers
     float radius; // m, of the ball
     float wished; // m, the largest radius
@@ -135,11 +134,18 @@ void collect_triangle(uint triangle)
     ++candidates.count;
 }
 
-void take_leaf(uint first, uint count)
+// A traversal of a mesh, either to collect candidates or to visit triangles.
+struct MeshTraversal
+{
+    bool collect;
+    Box box;
+};
+
+void visit_leaf(inout MeshTraversal traversal, uint first, uint count)
 {
     for (uint t = first; t < first + count; ++t)
     {
-        if (candidates.collect)
+        if (traversal.collect)
             collect_triangle(t);
         else
             visit_triangle(t);
@@ -149,27 +155,28 @@ void take_leaf(uint first, uint count)
 // Whether a traversal enters a node's box. To collect: if the box touches the ball, which shrinks meanwhile; never once
 // the list has overflowed. Else: if the box may hold something closer than the nearest so far, or overlaps the vertex's
 // path. Boxes of a deforming mesh cover its motion within the step, so the path alone decides there, too.
-bool query_enters(vec3 box_min, vec3 box_max, vec3 node_min, vec3 node_max)
+bool enters_node(MeshTraversal traversal, Box node)
 {
-    if (candidates.collect)
+    if (traversal.collect)
         return candidates.count <= VOILE_CANDIDATES &&
-               distance(candidates.local_center, clamp(candidates.local_center, node_min, node_max)) <= candidates.radius;
+               distance(candidates.local_center, clamp(candidates.local_center, node.min, node.max)) <= candidates.radius;
     const float nearest = query.distance + 10 * query_tie() + rounding(query.to);
-    return boxes_overlap(box_min, box_max, node_min, node_max) &&
-           (distance(query.to, clamp(query.to, node_min, node_max)) <= nearest ||
-            boxes_overlap(min(query.from, query.to), max(query.from, query.to), node_min, node_max));
+    return overlap(traversal.box, node) &&
+           (distance(query.to, clamp(query.to, node.min, node.max)) <= nearest ||
+            overlap(box_around(query.from, query.to), node));
 }
 
-#define VOILE_ENTERS query_enters
+#define VOILE_QUERY MeshTraversal
 #include "colliders/bvh.glsl"
 #include "colliders/padded.glsl"
+#undef VOILE_QUERY
 
-void traverse(ColliderRecord collider, vec3 box_min, vec3 box_max)
+void traverse(MeshTraversal traversal, ColliderRecord collider)
 {
     if (is_deforming(collider.flags))
-        visit_padded(collider.first_node, collider.first_triangle, collider.triangles, box_min, box_max);
+        traverse_padded(traversal, collider.first_node, collider.first_triangle, collider.triangles);
     else
-        visit_box(collider.first_node, collider.first_triangle, box_min, box_max);
+        traverse_bvh(traversal, collider.first_node, collider.first_triangle);
 }
 
 // The query center in the space of collider c.
@@ -195,13 +202,13 @@ bool belongs(uint entry, ColliderRecord collider, uint kind)
            triangle < collider.first_triangle + collider.triangles;
 }
 
-void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
+void visit_mesh(uint c, ColliderRecord collider, Box box)
 {
     const uint kind = is_deforming(collider.flags) ? k_slot_bit : 0;
     const float needed = needed_radius(c, collider.flags, query.from, query.to, query.thickness);
     if (candidates.count > VOILE_CANDIDATES || needed > candidates.radius)
     {
-        traverse(collider, box_min, box_max);
+        traverse(MeshTraversal(false, box), collider);
         return;
     }
     load_radii();
@@ -223,7 +230,7 @@ bool covers_moving(FinePosition from, vec3 displacement, float query_radius, ino
         return true;
     bool covers = true;
     const vec3 to = from.x + displacement;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from.x, to), max(from.x, to));
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, box_around(from.x, to));
     uint c;
     while (next_collider(walk, c))
     {
@@ -241,9 +248,7 @@ bool covers_moving(FinePosition from, vec3 displacement, float query_radius, ino
             b = to_collider(pose_at(c, push.progress_to), end);
             shift = distance(to_world(start, b), end);
         }
-        const vec3 box_min = min(a, b) - query_radius;
-        const vec3 box_max = max(a, b) + query_radius;
-        if (!overlaps_mesh(colliders[c], box_min, box_max))
+        if (!overlaps_mesh(colliders[c], grown(box_around(a, b), query_radius)))
             continue;
         carried = max(carried, shift);
         covers = covers && needed_radius(c, flags, a, b, query_radius) <= candidates.radius;
@@ -254,9 +259,8 @@ bool covers_moving(FinePosition from, vec3 displacement, float query_radius, ino
 void collect_triangles()
 {
     candidates.count = 0;
-    candidates.collect = true;
     ColliderWalk walk =
-        walk_colliders(gl_WorkGroupID.x, candidates.center - candidates.radius, candidates.center + candidates.radius);
+        walk_colliders(gl_WorkGroupID.x, grown(Box(candidates.center, candidates.center), candidates.radius));
     uint c;
     while (next_collider(walk, c))
     {
@@ -270,12 +274,10 @@ void collect_triangles()
             candidates.kind = k_slot_bit;
             candidates.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
         }
-        const vec3 box_min = candidates.local_center - candidates.radius;
-        const vec3 box_max = candidates.local_center + candidates.radius;
-        if (overlaps_mesh(collider, box_min, box_max))
-            traverse(collider, box_min, box_max);
+        const Box box = grown(Box(candidates.local_center, candidates.local_center), candidates.radius);
+        if (overlaps_mesh(collider, box))
+            traverse(MeshTraversal(true, box), collider);
     }
-    candidates.collect = false;
 }
 
 // Makes a new list. `path`: m, the longest distance of this substep's path from the query center; `margin`: m, beyond
@@ -311,7 +313,6 @@ float path_distance(vec3 center, FinePosition from, vec3 displacement)
 void update_candidates(uint vertex, FinePosition from, vec3 displacement, vec3 velocity, float thickness)
 {
     candidates.vertex = vertex;
-    candidates.collect = false;
     const vec4 ball = candidate_places[vertex]; // w: m, the radius; < 0: there is no list
     const uint head = candidate_triangles[candidate_word(k_head_word)];
     const float query_radius = k_query_radius * thickness + rounding(vec3(push.mesh_extent));

@@ -2,7 +2,7 @@
 //
 // The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]` and
 // `deforming_positions[]`, a constant COLLIDERS_CONVEX (0: planes are the only colliders with a formula), and defines
-//   void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max)
+//   void visit_mesh(uint c, ColliderRecord collider, Box box)
 // after the include. It calls visit_triangle for all triangles of collider c that overlap the box.
 #ifndef VOILE_CONTACT_QUERY_GLSL
 #define VOILE_CONTACT_QUERY_GLSL
@@ -10,6 +10,7 @@
 #include "contact/convex.glsl"
 #include "colliders/deforming.glsl"
 #include "contact/triangle.glsl"
+#include "shared/box.glsl"
 
 // How the narrow phase finds the surface within the thickness. The first two are those of ContactMethod.
 const int k_method_normal_ray = 0;    // the nearest hit of two rays, along the vertex normal and its opposite
@@ -135,22 +136,17 @@ void visit_triangle(uint index)
         visit_nearest(triangle.a, triangle.b, triangle.c, face);
 }
 
-bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
-{
-    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
-}
-
-void visit_mesh(uint c, ColliderRecord collider, vec3 box_min, vec3 box_max);
+void visit_mesh(uint c, ColliderRecord collider, Box box);
 
 bool shares_layer(ColliderRecord collider) { return (collider.layers & query_layers) != 0; }
 
 // Whether a box overlaps the box of a mesh on a layer of the cloth.
-bool overlaps_mesh(ColliderRecord collider, vec3 box_min, vec3 box_max)
+bool overlaps_mesh(ColliderRecord collider, Box box)
 {
     if (!is_deforming(collider.flags))
-        return shares_layer(collider) && boxes_overlap(box_min, box_max, collider.box_min, collider.box_max);
+        return shares_layer(collider) && overlap(box, Box(collider.box_min, collider.box_max));
     const PaddedBox root = padded_boxes[collider.first_node];
-    return shares_layer(collider) && boxes_overlap(box_min, box_max, root.min, root.max);
+    return shares_layer(collider) && overlap(box, Box(root.min, root.max));
 }
 
 // m: the displacement within the substep of a triangle's point, by the mesh's own vertices.
@@ -239,12 +235,11 @@ Contact no_contact()
 
 Contact mesh_contact(uint c, ColliderRecord collider, int method, vec3 from, vec3 to, vec3 normal, float thickness)
 {
-    const vec3 box_min = min(to - thickness, from);
-    const vec3 box_max = max(to + thickness, from);
-    if (!overlaps_mesh(collider, box_min, box_max))
+    const Box box = Box(min(to - thickness, from), max(to + thickness, from));
+    if (!overlaps_mesh(collider, box))
         return no_contact();
     begin_query(c, collider, method, from, to, normal, thickness);
-    visit_mesh(c, collider, box_min, box_max);
+    visit_mesh(c, collider, box);
     if (query.crossing <= 1)
         return crossing_contact();
     return nearest_contact();

@@ -45,6 +45,7 @@ layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; /
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
 
+#include "shared/box.glsl"
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
 #include "contact/friction.glsl"
@@ -57,20 +58,27 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 // Per thread of the workgroup. Threads of one vertex are adjacent.
 shared Response responses[gl_WorkGroupSize.x];
 
-// Whether a node's box is closer than the thickness to the box of a piece of cloth.
-bool is_near(vec3 piece_min, vec3 piece_max, vec3 node_min, vec3 node_max)
+// Whether two boxes are closer than the thickness.
+bool is_near(Box a, Box b)
 {
-    const vec3 gap = max(max(node_min - piece_max, piece_min - node_max), vec3(0));
+    const vec3 gap = max(max(b.min - a.max, a.min - b.max), vec3(0));
     return dot(gap, gap) <= self.thickness * self.thickness;
 }
 
-void take_leaf(uint first, uint count)
+struct FeatureQuery
+{
+    Box piece; // of cloth
+};
+
+bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, node); }
+
+void visit_leaf(inout FeatureQuery query, uint first, uint count)
 {
     for (uint f = first; f < first + count; ++f)
         visit_feature(features[f]);
 }
 
-#define VOILE_ENTERS is_near
+#define VOILE_QUERY FeatureQuery
 #include "colliders/bvh.glsl"
 
 // The sum of the exit directions of the cloth's vertices, in the collider's space; 0 if none is inside it.
@@ -94,9 +102,8 @@ void visit_collider(uint c, uint part, uint parts)
     piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
-    const vec3 low = min(piece.a.from, piece.a.to) - loose;
-    const vec3 high = max(piece.a.from, piece.a.to) + loose;
-    if (!is_near(low, high, set.box_min, set.box_max))
+    const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
+    if (!is_near(around, Box(set.box_min, set.box_max)))
         return;
     friction = find_friction();
     exits_along = exit_direction(self.vertex.cloth, c);
@@ -105,10 +112,9 @@ void visit_collider(uint c, uint part, uint parts)
     {
         if (!load_piece(k))
             continue;
-        vec3 piece_low;
-        vec3 piece_high;
-        piece_box(piece_low, piece_high);
-        visit_box(set.first_node, set.first_feature, max(piece_low, low), min(piece_high, high));
+        const Box box = piece_box();
+        FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
+        traverse_bvh(query, set.first_node, set.first_feature);
     }
 }
 
@@ -123,8 +129,8 @@ void visit_colliders(uint part, uint parts)
     self.thickness = cloths[cloth].thickness;
     if (self.inverse_mass == 0)
         return;
-    ColliderWalk walk = walk_colliders(near_patches[gl_WorkGroupID.x], min(self.earlier.x, self.proposed.x),
-                                       max(self.earlier.x, self.proposed.x));
+    ColliderWalk walk =
+        walk_colliders(near_patches[gl_WorkGroupID.x], box_around(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, part, parts);

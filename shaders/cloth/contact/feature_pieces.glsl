@@ -1,7 +1,7 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both and proposed_velocities[], and includes patch.glsl, collider_pose.glsl and mesh.glsl before.
+// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and mesh.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 
@@ -157,10 +157,10 @@ bool load_piece(uint k)
     return true;
 }
 
-void piece_box(out vec3 low, out vec3 high)
+Box piece_box()
 {
-    low = min(min(piece.a.from, piece.a.to), min(min(piece.b.from, piece.b.to), min(piece.c.from, piece.c.to)));
-    high = max(max(piece.a.from, piece.a.to), max(max(piece.b.from, piece.b.to), max(piece.c.from, piece.c.to)));
+    return joined(box_around(piece.a.from, piece.a.to),
+                  joined(box_around(piece.b.from, piece.b.to), box_around(piece.c.from, piece.c.to)));
 }
 
 #endif

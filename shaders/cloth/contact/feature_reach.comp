@@ -31,27 +31,22 @@ layout(push_constant, std430) uniform Push { FeatureReachPush push; };
 #include "colliders/near_colliders.glsl"
 
 shared uint near_vertices;
-bool is_near = false;
 
-bool boxes_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
+struct FeatureSearch
 {
-    return all(lessThanEqual(a_min, b_max)) && all(lessThanEqual(b_min, a_max));
-}
-
-void take_leaf(uint first, uint count) { is_near = true; }
+    Box box;
+    bool found;
+};
 
 // The first leaf suffices.
-bool first_overlap(vec3 a_min, vec3 a_max, vec3 b_min, vec3 b_max)
-{
-    return !is_near && boxes_overlap(a_min, a_max, b_min, b_max);
-}
+bool enters_node(FeatureSearch search, Box node) { return !search.found && overlap(search.box, node); }
+void visit_leaf(inout FeatureSearch search, uint first, uint count) { search.found = true; }
 
-#define VOILE_ENTERS first_overlap
+#define VOILE_QUERY FeatureSearch
 #include "colliders/bvh.glsl"
 
-// Sets is_near if a feature of collider c is near. `margin`: m, the longest displacement of the vertex until the next
-// pass.
-void query_features(uint c, uint cloth, vec3 position, float margin)
+// Whether a feature of collider c is near. `margin`: m, the longest displacement of the vertex until the next pass.
+bool has_near_feature(uint c, uint cloth, vec3 position, float margin)
 {
     const FeatureSet set = feature_sets[c];
     const uint flags = colliders[c].flags;
@@ -65,10 +60,21 @@ void query_features(uint c, uint cloth, vec3 position, float margin)
         margin += 0.5 * distance(from, to); // on the arc between them
     }
     const float radius = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;
-    const vec3 box_min = min(from, to) - radius;
-    const vec3 box_max = max(from, to) + radius;
-    if ((colliders[c].layers & cloths[cloth].layers) != 0 && boxes_overlap(box_min, box_max, set.box_min, set.box_max))
-        visit_box(set.first_node, set.first_feature, box_min, box_max);
+    FeatureSearch search = FeatureSearch(grown(box_around(from, to), radius), false);
+    if ((colliders[c].layers & cloths[cloth].layers) != 0 && overlap(search.box, Box(set.box_min, set.box_max)))
+        traverse_bvh(search, set.first_node, set.first_feature);
+    return search.found;
+}
+
+bool has_near_feature(PatchVertex self, vec3 position)
+{
+    const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, grown(Box(position, position), margin));
+    uint c;
+    while (next_collider(walk, c))
+        if (feature_sets[c].features > 0 && has_near_feature(c, self.cloth, position, margin))
+            return true;
+    return false;
 }
 
 void main()
@@ -78,16 +84,7 @@ void main()
     barrier();
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
     const vec4 position = self.exists ? positions[self.index] : vec4(0);
-    if (position.w > 0)
-    {
-        const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
-        ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, position.xyz - margin, position.xyz + margin);
-        uint c;
-        while (next_collider(walk, c))
-            if (feature_sets[c].features > 0)
-                query_features(c, self.cloth, position.xyz, margin);
-    }
-    if (is_near)
+    if (position.w > 0 && has_near_feature(self, position.xyz))
         atomicOr(near_vertices, 1);
     barrier();
     if (gl_LocalInvocationID.x > 0)

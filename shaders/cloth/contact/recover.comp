@@ -74,48 +74,60 @@ const int k_most_overlaps = 8;
 vec3 rotated_into(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate_back(pose_at(c, 0).rotation, v) : v; }
 vec3 rotated_out_of(uint c, uint flags, vec3 v) { return is_moved(flags) ? rotate(pose_at(c, 0).rotation, v) : v; }
 
-bool is_inside(uint c, ColliderRecord collider, vec3 local)
+bool is_inside(Solid solid, vec3 local)
 {
-    if (is_convex(collider))
-        return convex_surface(collider, local).distance < 0;
-    return is_solid(collider) && in_box(collider, local) && line_winding(c, collider, local, 1) > 0;
+    if (is_convex(solid.collider))
+        return convex_surface(solid.collider, local).distance < 0;
+    return is_solid(solid.collider) && in_box(solid.collider, local) && line_exits(solid, local, 1).winding > 0;
 }
 
-// Whether a collider obstructs an exit by a displacement, m: the exit is under another surface, or behind an open mesh.
-bool obstructs(uint c, ColliderRecord collider, FinePosition from, vec3 displacement)
+// At the step's start, where all of this happens.
+Solid solid_at(uint c) { return Solid(c, colliders[c], false); }
+
+// A vertex of a cloth.
+struct Vertex
 {
-    const vec3 start = into_collider(c, collider.flags, from, 0);
-    const vec3 end = start + rotated_into(c, collider.flags, displacement);
+    FinePosition x;
+    uint cloth;
+    uint layers;
+    float thickness; // m
+};
+
+// Whether a collider obstructs an exit by a displacement, m: the exit is under another surface, or behind an open mesh.
+bool obstructs(Solid solid, FinePosition from, vec3 displacement)
+{
+    const ColliderRecord collider = solid.collider;
+    const vec3 start = into_collider(solid.index, collider.flags, from, 0);
+    const vec3 end = start + rotated_into(solid.index, collider.flags, displacement);
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return plane_surface(collider, end).distance < 0;
     if (is_solid(collider))
-        return is_inside(c, collider, end);
-    return crosses(c, collider, start, end, false);
+        return is_inside(solid, end);
+    return first_crossing(solid, start, end, false) <= 1;
 }
 
-bool is_free(FinePosition from, vec3 displacement, uint layers)
+bool is_free(Vertex vertex, vec3 displacement)
 {
-    const vec3 to = from.x + displacement;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, min(from.x, to), max(from.x, to));
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, box_around(vertex.x.x, vertex.x.x + displacement));
     uint c;
     while (next_collider(walk, c))
-        if ((colliders[c].layers & layers) != 0 && obstructs(c, colliders[c], from, displacement))
+        if ((colliders[c].layers & vertex.layers) != 0 && obstructs(solid_at(c), vertex.x, displacement))
             return false;
     return true;
 }
 
 // Finds a solid other than `excluded` that contains the vertex after a displacement, m. False: none.
-bool other_solid(FinePosition from, vec3 displacement, uint layers, uint excluded, out uint c)
+bool other_solid(Vertex vertex, vec3 displacement, uint excluded, out uint c)
 {
-    const vec3 to = from.x + displacement;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, to, to);
+    const vec3 to = vertex.x.x + displacement;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, Box(to, to));
     while (next_collider(walk, c))
     {
-        const ColliderRecord collider = colliders[c];
-        if (c == excluded || !is_solid(collider) || (collider.layers & layers) == 0)
+        const Solid solid = solid_at(c);
+        const uint flags = solid.collider.flags;
+        if (c == excluded || !is_solid(solid.collider) || (solid.collider.layers & vertex.layers) == 0)
             continue;
-        if (is_inside(c, collider, into_collider(c, collider.flags, from, 0) +
-                                       rotated_into(c, collider.flags, displacement)))
+        if (is_inside(solid, into_collider(c, flags, vertex.x, 0) + rotated_into(c, flags, displacement)))
             return true;
     }
     return false;
@@ -123,8 +135,9 @@ bool other_solid(FinePosition from, vec3 displacement, uint layers, uint exclude
 
 struct Field
 {
-    vec3 sum;   // 1/m
-    float size; // 1/m, the sum of the terms' lengths
+    vec3 sum;    // 1/m
+    float size;  // 1/m, the sum of the terms' lengths
+    float width; // m, of the solid along the axis along which it is thinnest
 };
 
 // m, between neighboring vertices. The mean for a mesh.
@@ -141,39 +154,38 @@ void add(inout Field field, vec3 direction, float distance)
 }
 
 // m: the distances along an axis, and against it, to the last exit of a line.
-vec2 line_exits(uint c, ColliderRecord collider, vec3 local, int axis)
+vec2 exits_along(Solid solid, vec3 local, int axis)
 {
-    if (is_convex(collider))
+    if (is_convex(solid.collider))
     {
         vec3 direction = vec3(0);
         direction[axis] = 1;
-        return vec2(convex_exit(collider, local, direction), convex_exit(collider, local, -direction));
+        return vec2(convex_exit(solid.collider, local, direction), convex_exit(solid.collider, local, -direction));
     }
-    line_winding(c, collider, local, axis);
-    return vec2(solid.ends[0], solid.ends[1]);
+    const LineExits exits = line_exits(solid, local, axis);
+    return vec2(exits.ahead, exits.behind);
 }
 
 // The field of the exits that no collider obstructs, or of all six if each is obstructed.
-// `width`: m, of the solid along the axis along which it is thinnest.
-Field field_at(uint c, ColliderRecord collider, FinePosition x, vec3 local, float thickness, uint layers, out float width)
+Field field_at(Solid solid, Vertex vertex, vec3 local)
 {
-    width = 3e38;
-    Field all_exits = Field(vec3(0), 0);
-    Field free_exits = Field(vec3(0), 0);
+    Field all_exits = Field(vec3(0), 0, 3e38);
+    Field free_exits = all_exits;
     for (int axis = 0; axis < 3; ++axis)
     {
-        const vec2 exits = max(line_exits(c, collider, local, axis), vec2(1e-3 * thickness));
-        width = min(width, exits.x + exits.y);
+        const vec2 exits = max(exits_along(solid, local, axis), vec2(1e-3 * vertex.thickness));
+        all_exits.width = min(all_exits.width, exits.x + exits.y);
         for (int side = 0; side < 2; ++side)
         {
             vec3 direction = vec3(0);
             direction[axis] = side == 0 ? 1 : -1;
             add(all_exits, direction, exits[side]);
-            const vec3 displacement = (exits[side] + 0.01 * thickness) * direction;
-            if (is_free(x, rotated_out_of(c, collider.flags, displacement), layers))
+            const vec3 displacement = (exits[side] + 0.01 * vertex.thickness) * direction;
+            if (is_free(vertex, rotated_out_of(solid.index, solid.collider.flags, displacement)))
                 add(free_exits, direction, exits[side]);
         }
     }
+    free_exits.width = all_exits.width;
     if (free_exits.size > 0)
         return free_exits;
     return all_exits;
@@ -212,75 +224,77 @@ vec3 agreed_direction(uint cloth, uint c, uint flags, vec3 direction, float own)
 }
 
 // m: the distance to the offset surface in a unit direction, at most `limit`.
-float exit_of_one(uint c, ColliderRecord collider, vec3 local, vec3 direction, float thickness, float limit)
+float exit_of_one(Solid solid, vec3 local, vec3 direction, float thickness, float limit)
 {
-    if (is_convex(collider))
-        return min(convex_exit(collider, local, direction) + thickness, limit);
-    if (!crosses(c, collider, local, local + limit * direction, true))
+    if (is_convex(solid.collider))
+        return min(convex_exit(solid.collider, local, direction) + thickness, limit);
+    const float crossing = first_crossing(solid, local, local + limit * direction, true);
+    if (!(crossing <= 1))
         return limit;
-    return min(solid.crossing * limit + thickness, limit);
+    return min(crossing * limit + thickness, limit);
 }
 
 // The same for all solids that overlap there. `direction`: world; `distance`: m, the exit of solid c.
-float exit_distance(uint c, FinePosition x, vec3 direction, float distance, float thickness, uint layers, float most)
+float exit_of_all(Vertex vertex, uint c, vec3 direction, float distance, float limit)
 {
     uint other;
-    for (int i = 0; i < k_most_overlaps && distance < most && other_solid(x, distance * direction, layers, c, other); ++i)
+    for (int i = 0; i < k_most_overlaps && distance < limit && other_solid(vertex, distance * direction, c, other); ++i)
     {
-        const ColliderRecord collider = colliders[other];
+        const Solid solid = solid_at(other);
+        const uint flags = solid.collider.flags;
         const vec3 local =
-            into_collider(other, collider.flags, x, 0) + rotated_into(other, collider.flags, distance * direction);
-        const vec3 local_direction = rotated_into(other, collider.flags, direction);
-        distance += max(exit_of_one(other, collider, local, local_direction, thickness, most - distance), 0.01 * thickness);
+            into_collider(other, flags, vertex.x, 0) + rotated_into(other, flags, distance * direction);
+        const vec3 local_direction = rotated_into(other, flags, direction);
+        distance += max(exit_of_one(solid, local, local_direction, vertex.thickness, limit - distance),
+                        0.01 * vertex.thickness);
         c = other;
     }
-    return min(distance, most);
+    return min(distance, limit);
 }
 
 // The rest of the exit at full speed is divided evenly between the last two steps. Full steps would end beside the
-// offset surface.
-Depenetration depenetration_of(uint i, uint cloth, uint c, FinePosition x)
+// offset surface. `normal`: of the cloth, world.
+Depenetration depenetration_of(Vertex vertex, uint c, vec3 normal)
 {
-    const ColliderRecord collider = colliders[c];
-    const vec3 local = into_collider(c, collider.flags, x, 0);
-    const float thickness = cloths[cloth].thickness;
-    const uint layers = cloths[cloth].layers;
-    const vec3 normal = rotated_into(c, collider.flags, normals[i].xyz);
-    float width;
-    const Field field = field_at(c, collider, x, local, thickness, layers, width);
+    const Solid solid = solid_at(c);
+    const uint flags = solid.collider.flags;
+    const vec3 local = into_collider(c, flags, vertex.x, 0);
+    const Field field = field_at(solid, vertex, local);
     const float size = length(field.sum);
     // In a solid thinner than the cloth's spacing a vertex has no neighbors to agree with.
-    const bool alone = width < spacing(cloth) && size > 0;
-    const float own = clamp(k_own_weight * spacing(cloth) * field.size, 0, 1);
+    const bool alone = field.width < spacing(vertex.cloth) && size > 0;
+    const float own = clamp(k_own_weight * spacing(vertex.cloth) * field.size, 0, 1);
     const vec3 direction =
-        alone ? field.sum / size : agreed_direction(cloth, c, collider.flags, direction_out(cloth, field, normal), own);
+        alone ? field.sum / size
+              : agreed_direction(vertex.cloth, c, flags,
+                                 direction_out(vertex.cloth, field, rotated_into(c, flags, normal)), own);
     const float most = k_exit_speed * push.step;
-    const vec3 world = rotated_out_of(c, collider.flags, direction);
-    const float first_exit = exit_of_one(c, collider, local, direction, thickness, 2 * most);
-    const float distance = exit_distance(c, x, world, first_exit, thickness, layers, 2 * most);
+    const float first_exit = exit_of_one(solid, local, direction, vertex.thickness, 2 * most);
+    const vec3 world = rotated_out_of(c, flags, direction);
+    const float distance = exit_of_all(vertex, c, world, first_exit, 2 * most);
     const float step_distance = distance < most ? distance : distance < 2 * most ? 0.5 * distance : most;
     // Without a vote neighbors may differ, so the first step only votes.
-    const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COUNT] > 0;
+    const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * vertex.cloth + VOILE_VOTE_COUNT] > 0;
     return Depenetration(agreed ? step_distance / push.step * world : vec3(0), c + 1);
 }
 
 Depenetration find_depenetration(uint i, uint cloth)
 {
     const FinePosition x = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
-    const uint layers = cloths[cloth].layers;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, x.x, x.x);
+    const Vertex vertex = Vertex(x, cloth, cloths[cloth].layers, cloths[cloth].thickness);
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, Box(x.x, x.x));
     uint first = k_none;
     uint c;
     while (positions[i].w > 0 && next_collider(walk, c))
     {
-        const ColliderRecord collider = colliders[c];
-        if (!is_solid(collider) || (collider.layers & layers) == 0 ||
-            !is_inside(c, collider, into_collider(c, collider.flags, x, 0)))
+        const Solid solid = solid_at(c);
+        if (!is_solid(solid.collider) || (solid.collider.layers & vertex.layers) == 0 ||
+            !is_inside(solid, into_collider(c, solid.collider.flags, x, 0)))
             continue;
         atomicOr(next_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COLLIDERS], 1u << (c % 32));
         first = min(first, c);
     }
-    return first == k_none ? Depenetration(vec3(0), 0) : depenetration_of(i, cloth, first, x);
+    return first == k_none ? Depenetration(vec3(0), 0) : depenetration_of(vertex, first, normals[i].xyz);
 }
 
 void main()

@@ -1,6 +1,13 @@
-// Tests of a triangle against a segment and against a point.
+// Triangles, and tests of them against a segment and against a point.
 #ifndef VOILE_TRIANGLE_GLSL
 #define VOILE_TRIANGLE_GLSL
+
+struct Triangle
+{
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
 
 // The parameter in [0, 1] at which the segment from `origin` to `origin + span` hits triangle (a, b, c), from either
 // side; 2 for a miss. Möller and Trumbore 1997. Hits on an edge, or within rounding of it, count for both triangles, so

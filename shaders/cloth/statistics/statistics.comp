@@ -87,36 +87,36 @@ void measure_mesh_springs(uint cloth, uint local, inout StatisticsRecord record)
 // Whether a point is inside a one-sided mesh, by its winding number; a two-sided mesh has no inside. For a closed mesh
 // the number is the sum of the signed crossings of a line, for an open mesh the generalized one. Outside of its box no
 // mesh fills half of all directions.
-bool is_in_mesh(uint c, ColliderRecord collider, vec3 point)
+bool is_in_mesh(Solid solid, vec3 point)
 {
-    if ((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(collider, point))
+    if ((solid.collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0 || !in_box(solid.collider, point))
         return false;
-    if ((collider.flags & VOILE_COLLIDER_CLOSED) != 0)
-        return line_winding(c, collider, point, 1) > 0;
-    return generalized_winding(c, collider, point) > 0.5;
+    if ((solid.collider.flags & VOILE_COLLIDER_CLOSED) != 0)
+        return line_exits(solid, point, 1).winding > 0;
+    return generalized_winding(solid, point) > 0.5;
 }
 
 // m: the depth of a point in a collider. 0 or less: it is outside.
-float depth_in(uint c, ColliderRecord collider, vec3 point)
+float depth_in(Solid solid, vec3 point)
 {
+    const ColliderRecord collider = solid.collider;
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return -plane_surface(collider, point).distance;
     if (collider.kind != VOILE_COLLIDER_MESH)
         return -convex_surface(collider, point).distance;
-    return is_in_mesh(c, collider, point) ? nearest_distance(c, collider, point, 3e38) : 0;
+    return is_in_mesh(solid, point) ? nearest_distance(solid, point, 3e38) : 0;
 }
 
 void measure_penetration(FinePosition p, uint layers, inout StatisticsRecord record)
 {
-    solid_at_end = true;
     float depth = 0;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, p.x, p.x);
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, Box(p.x, p.x));
     uint c;
     while (next_collider(walk, c))
     {
-        const ColliderRecord collider = colliders[c];
-        if ((collider.layers & layers) != 0)
-            depth = max(depth, depth_in(c, collider, into_collider(c, collider.flags, p, 1)));
+        const Solid solid = Solid(c, colliders[c], true);
+        if ((solid.collider.layers & layers) != 0)
+            depth = max(depth, depth_in(solid, into_collider(c, solid.collider.flags, p, 1)));
     }
     record.deepest_penetration = depth;
     record.penetrating_vertices = depth > 0 ? 1 : 0;
