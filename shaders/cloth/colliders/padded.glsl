@@ -1,8 +1,8 @@
-// Traversal of an implicit complete BVH (padded_layout.h) with a query of type VOILE_QUERY, as in bvh.glsl. May be included
-// once per type of query.
+// Traversal of an implicit complete BVH (padded_layout.h) with a query of type VOILE_QUERY, as in bvh.glsl. May be
+// included once per type of query.
 //
-// The including kernel declares `padded_boxes[]` and defines before the include what bvh.glsl expects. visit_leaf is called
-// with a count of 1, once per triangle.
+// The including kernel declares `padded_boxes[]` and defines before the include what bvh.glsl expects. visit_leaf is
+// called with a count of 1, once per triangle.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 

@@ -51,19 +51,6 @@ layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
-// m: distances below this are a few roundings of a coordinate near x, in a collider's space.
-float rounding(vec3 x)
-{
-    return 5e-7 * max(max(abs(x.x), abs(x.y)), abs(x.z));
-}
-
-// m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
-// plane only rounding along its normal counts.
-float contact_slop(ColliderRecord collider, vec3 x, float thickness)
-{
-    return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
-}
-
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "shared/vertex_normal.glsl"
@@ -71,8 +58,7 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 #define VOILE_NEAR_LISTS (NEAR_LISTS != 0)
 #include "colliders/near_colliders.glsl"
 #include "contact/contact_query.glsl"
-#include "contact/contact_candidates.glsl"
-#include "shared/fine_position.glsl"
+#include "contact/contact_vertex.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
 
@@ -83,26 +69,12 @@ const float k_inside_speed = 0.6;
 // It cancels at most this fraction of the exit velocity, so that no vertex is held inside.
 const float k_inside_back = 0.5;
 
-// The vertex within the substep.
-struct Motion
+// m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
+// plane only rounding along its normal counts.
+float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 {
-    FinePosition from; // before the substep
-    vec3 displacement; // m, since then
-    vec3 v;            // m/s
-    uint cloth;
-};
-
-// Rounded to float.
-vec3 position_of(Motion motion) { return motion.from.x + motion.displacement; }
-
-// What contact needs of the vertex's cloth.
-struct ClothContact
-{
-    float thickness; // m
-    float static_friction;
-    float kinetic_friction;
-    vec3 normal; // at the vertex, for k_method_normal_ray
-};
+    return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
+}
 
 // The motion of a vertex in a collider's space.
 struct RelativeMotion
@@ -159,8 +131,7 @@ float lift_of(Contact contact, float thickness)
 
 // `n`: world, unit, away from the surface; `lift`: m along it; `surface`: m, its displacement in this substep; `slop`:
 // m, see contact_slop.
-void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, float static_friction,
-             float kinetic_friction)
+void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, Friction friction)
 {
     motion.displacement += lift * n;
     const vec3 relative = motion.v - surface / push.step;
@@ -172,7 +143,7 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, 
 
     const vec3 v_t = relative - dot(relative, n) * n;
     const float speed = length(v_t);
-    if (speed <= static_friction * normal_impulse)
+    if (speed <= friction.at_rest * normal_impulse)
     {
         // Sticks. The sliding within this substep is undone, too, or a held vertex would creep by a h^2 / 2 per
         // substep. It is undone to the bit: roundings that add up would stretch stiff cloth until it slips.
@@ -181,7 +152,7 @@ void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, 
         motion.v -= v_t;
         return;
     }
-    const vec3 change = (slip_speed(speed, normal_impulse, static_friction, kinetic_friction) / speed - 1) * v_t;
+    const vec3 change = (slip_speed(speed, normal_impulse, friction.at_rest, friction.kinetic) / speed - 1) * v_t;
     motion.v += change;
     // The flags are read here and not kept through the queries, which are slower with one more register
     // (bench/NOTES.md).
@@ -221,17 +192,29 @@ void stop_at_start(inout Motion motion, RelativeMotion relative, Contact contact
     motion.v -= min(dot(motion.v - surface / push.step, n), 0) * n;
 }
 
+Friction pair_friction(Friction fabric, ColliderRecord collider)
+{
+    return Friction(pair_friction(fabric.at_rest, collider.static_friction, collider.flags),
+                    pair_friction(fabric.kinetic, collider.kinetic_friction, collider.flags));
+}
+
+Path path_of(RelativeMotion relative, ClothContact cloth, bool path_only, float radius)
+{
+    const vec3 normal = relative.moves ? rotate_back(relative.end.rotation, cloth.normal) : cloth.normal;
+    return Path(path_only ? k_method_path_only : METHOD, relative.from, relative.to, normal, path_only ? 0 : radius,
+                cloth.layers);
+}
+
 // `path_only`: only what the path crosses counts, in the second round.
-void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, inout ContactState state)
+void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, Candidates list,
+                     inout ContactState state)
 {
     const ColliderRecord collider = colliders[c];
     const RelativeMotion relative = relative_motion(c, collider.flags, motion);
-    const vec3 normal = relative.moves ? rotate_back(relative.end.rotation, cloth.normal) : cloth.normal;
     // A vertex at rest lies on the offset surface within rounding. It touches on either side.
     const float slop = contact_slop(collider, relative.from, cloth.thickness);
-    const float radius = path_only ? 0 : cloth.thickness + slop;
-    const Contact contact = find_contact(c, collider, path_only ? k_method_path_only : METHOD, relative.from,
-                                         relative.to, normal, radius);
+    const Contact contact =
+        find_contact(c, collider, path_of(relative, cloth, path_only, cloth.thickness + slop), list);
     if (!contact.found)
         return;
     if (path_only)
@@ -250,8 +233,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     if (contact.start < 0)
         motion.v -= dot(motion.v - surface / push.step, n) * n; // it leaves the inside without a velocity of its own
     respond(motion, n, lift_of(contact, cloth.thickness), surface, slop,
-            pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
-            pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
+            pair_friction(cloth.friction, collider));
 }
 
 ColliderWalk walk_path(Motion motion)
@@ -265,7 +247,7 @@ ColliderWalk walk_path(Motion motion)
 // the wrong side. Both rounds share one loop because their queries are most of this kernel.
 // `leaves_solid`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would
 // hold what the other releases.
-ContactState resolve_contacts(inout Motion motion, ClothContact cloth, bool leaves_solid)
+ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
     ContactState state = ContactState(false, false);
     bool path_only = false;
@@ -283,7 +265,7 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, bool leav
         }
         if (leaves_solid && is_solid(colliders[c]))
             continue;
-        resolve_contact(motion, c, path_only, cloth, state);
+        resolve_contact(motion, c, path_only, cloth, list, state);
         if (state.touches)
             continue_walk(walk, c, position_of(motion));
     }
@@ -365,12 +347,10 @@ void main()
     bool changed = flags != 0;
     if (proposed.w > 0)
     {
-        query_progress = vec2(push.progress_from, push.progress_to);
-        query_layers = cloths[cloth].layers;
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;
-        contact.static_friction = cloths[cloth].static_friction;
-        contact.kinetic_friction = cloths[cloth].kinetic_friction;
+        contact.friction = Friction(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
+        contact.layers = cloths[cloth].layers;
         contact.normal = METHOD == k_method_normal_ray ? vertex_normal(self) : vec3(0);
         const Depenetration depenetration = depenetration_of(i);
         if (depenetration.solid != 0)
@@ -378,8 +358,8 @@ void main()
             depenetrate(motion, depenetration);
             changed = true;
         }
-        update_candidates(i, motion.from, motion.displacement, motion.v, contact.thickness);
-        if (resolve_contacts(motion, contact, depenetration.solid != 0).touches)
+        const Candidates list = find_candidates(i, motion, contact.thickness, contact.layers);
+        if (resolve_contacts(motion, contact, list, depenetration.solid != 0).touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;

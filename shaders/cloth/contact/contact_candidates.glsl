@@ -9,10 +9,13 @@
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It holds until the end
 // of that step. So does the list of a deforming mesh, whose boxes cover the whole step.
-// The including kernel declares candidate_places[] and candidate_triangles[] and includes contact_query.glsl,
-// collider_pose.glsl and near_colliders.glsl before.
+// The including kernel declares candidate_places[] and candidate_triangles[] and what mesh_query.glsl expects, and
+// includes near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
+
+#include "contact/contact_vertex.glsl"
+#include "contact/mesh_query.glsl"
 
 // The margin of a vertex at rest, as a fraction of the thickness.
 const float k_candidate_margin = 0.5;
@@ -35,6 +38,7 @@ const uint k_slot_bit = 0x80000000u; // the entry is a slot
 const uint k_levels = 31;
 const uint k_triangle_mask = (1u << VOILE_CANDIDATE_TRIANGLE_BITS) - 1;
 
+// The list of a vertex.
 struct Candidates
 {
     uint vertex;
@@ -49,149 +53,121 @@ struct Candidates
     uint kind;          // k_slot_bit if it deforms, else 0
     uvec2 first_corner; // as in MeshQuery
 };
-Candidates candidates;
 
 // Word-major order: neighboring threads read the same word at the same time.
-uint candidate_word(uint word) { return word * push.vertices + candidates.vertex; }
+uint candidate_word(Candidates list, uint word) { return word * push.vertices + list.vertex; }
 
 // Loaded only where the list is read or made. For most vertices it is neither.
-void load_radii()
+void load_radii(inout Candidates list)
 {
-    candidates.wished = uintBitsToFloat(candidate_triangles[candidate_word(k_radius_word)]);
-    candidates.least = uintBitsToFloat(candidate_triangles[candidate_word(k_least_word)]);
+    list.wished = uintBitsToFloat(candidate_triangles[candidate_word(list, k_radius_word)]);
+    list.least = uintBitsToFloat(candidate_triangles[candidate_word(list, k_least_word)]);
 }
 
 // m: a lower bound of an entry's distance from the query center.
-float entry_distance(uint entry)
+float entry_distance(Candidates list, uint entry)
 {
     const float level = float(entry >> VOILE_CANDIDATE_TRIANGLE_BITS & k_levels) / k_levels;
-    return level > 0 ? candidates.least + level * level * (candidates.wished - candidates.least) : 0;
+    return level > 0 ? list.least + level * level * (list.wished - list.least) : 0;
 }
 
-uint level_of(float distance)
+uint level_of(Candidates list, float distance)
 {
-    const float at_least = 0.9999 * distance - rounding(candidates.local_center);
-    const float fraction = (at_least - candidates.least) / (candidates.wished - candidates.least);
+    const float at_least = 0.9999 * distance - rounding(list.local_center);
+    const float fraction = (at_least - list.least) / (list.wished - list.least);
     return uint(sqrt(clamp(fraction, 0, 1)) * k_levels);
 }
 
 // Shrinks the ball until the list is short, while a lasting margin is left. A full list shrinks further, until it has
 // room or the levels of its entries differ no more.
-void shrink_ball()
+void shrink_ball(inout Candidates list)
 {
-    const float least_spare = (candidates.wished - candidates.least) / (k_levels * k_levels);
-    while (candidates.count >= k_aimed_count)
+    const float least_spare = (list.wished - list.least) / (k_levels * k_levels);
+    while (list.count >= k_aimed_count)
     {
-        const float spare = candidates.radius - candidates.least;
-        const bool has_room = candidates.count < VOILE_CANDIDATES;
-        if (spare < (has_room ? k_lasting_margin * candidates.wished : least_spare))
+        const float spare = list.radius - list.least;
+        const bool has_room = list.count < VOILE_CANDIDATES;
+        if (spare < (has_room ? k_lasting_margin * list.wished : least_spare))
             return;
-        const float radius = candidates.least + 0.5 * spare;
-        if (radius >= candidates.radius)
+        const float radius = list.least + 0.5 * spare;
+        if (radius >= list.radius)
             return; // by rounding
-        candidates.radius = radius;
+        list.radius = radius;
         uint kept = 0;
-        for (uint i = 0; i < candidates.count; ++i)
+        for (uint i = 0; i < list.count; ++i)
         {
-            const uint entry = candidate_triangles[candidate_word(k_first_entry + i)];
-            if (entry_distance(entry) <= candidates.radius)
-                candidate_triangles[candidate_word(k_first_entry + kept++)] = entry;
+            const uint entry = candidate_triangles[candidate_word(list, k_first_entry + i)];
+            if (entry_distance(list, entry) <= list.radius)
+                candidate_triangles[candidate_word(list, k_first_entry + kept++)] = entry;
         }
-        candidates.count = kept;
+        list.count = kept;
     }
 }
 
 // m, from the query center. For a triangle that deforms a lower bound over the whole step: the triangle is never
 // farther from its halfway position than half of its corners' longest displacement.
-float triangle_distance(uint triangle)
+float triangle_distance(Candidates list, uint triangle)
 {
-    if (COLLIDERS_MOVE == 0 || candidates.kind == 0)
+    if (COLLIDERS_MOVE == 0 || list.kind == 0)
     {
         const BvhTriangle t = bvh_triangles[triangle];
-        return distance(candidates.local_center, nearest_on_triangle(candidates.local_center, t.a, t.b, t.c));
+        return distance(list.local_center, nearest_on_triangle(list.local_center, t.a, t.b, t.c));
     }
-    const MovingTriangle t = moving_triangle(triangle, candidates.first_corner, vec2(0, 1));
+    const MovingTriangle t = moving_triangle(triangle, list.first_corner, vec2(0, 1));
     const float longest = max(max(distance(t.start.a, t.end.a), distance(t.start.b, t.end.b)), distance(t.start.c, t.end.c));
-    const vec3 nearest = nearest_on_triangle(candidates.local_center, 0.5 * (t.start.a + t.end.a), 0.5 * (t.start.b + t.end.b),
+    const vec3 nearest = nearest_on_triangle(list.local_center, 0.5 * (t.start.a + t.end.a), 0.5 * (t.start.b + t.end.b),
                                              0.5 * (t.start.c + t.end.c));
-    return max(distance(candidates.local_center, nearest) - 0.5 * longest, 0);
+    return max(distance(list.local_center, nearest) - 0.5 * longest, 0);
 }
 
-void collect_triangle(uint triangle)
+void collect_triangle(inout Candidates list, uint triangle)
 {
-    if (candidates.count > VOILE_CANDIDATES)
+    if (list.count > VOILE_CANDIDATES)
         return;
-    const float distance = triangle_distance(triangle);
-    if (distance <= candidates.radius)
-        shrink_ball();
-    if (distance > candidates.radius)
+    const float distance = triangle_distance(list, triangle);
+    if (distance <= list.radius)
+        shrink_ball(list);
+    if (distance > list.radius)
         return;
-    if (candidates.count < VOILE_CANDIDATES)
+    if (list.count < VOILE_CANDIDATES)
     {
-        candidate_triangles[candidate_word(k_first_entry + candidates.count)] =
-            candidates.kind | level_of(distance) << VOILE_CANDIDATE_TRIANGLE_BITS | triangle;
+        candidate_triangles[candidate_word(list, k_first_entry + list.count)] =
+            list.kind | level_of(list, distance) << VOILE_CANDIDATE_TRIANGLE_BITS | triangle;
     }
-    ++candidates.count;
+    ++list.count;
 }
 
-// A traversal of a mesh, either to collect candidates or to visit triangles.
-struct MeshTraversal
+// Whether a traversal enters a node's box: if it touches the ball, which shrinks meanwhile; never once the list has
+// overflowed.
+bool enters_node(Candidates list, Box node)
 {
-    bool collect;
-    Box box;
-};
+    return list.count <= VOILE_CANDIDATES &&
+           distance(list.local_center, clamp(list.local_center, node.min, node.max)) <= list.radius;
+}
 
-void visit_leaf(inout MeshTraversal traversal, uint first, uint count)
+void visit_leaf(inout Candidates list, uint first, uint count)
 {
     for (uint t = first; t < first + count; ++t)
-    {
-        if (traversal.collect)
-            collect_triangle(t);
-        else
-            visit_triangle(t);
-    }
+        collect_triangle(list, t);
 }
 
-// Whether a traversal enters a node's box. To collect: if the box touches the ball, which shrinks meanwhile; never once
-// the list has overflowed. Else: if the box may hold something closer than the nearest so far, or overlaps the vertex's
-// path. Boxes of a deforming mesh cover its motion within the step, so the path alone decides there, too.
-bool enters_node(MeshTraversal traversal, Box node)
-{
-    if (traversal.collect)
-        return candidates.count <= VOILE_CANDIDATES &&
-               distance(candidates.local_center, clamp(candidates.local_center, node.min, node.max)) <= candidates.radius;
-    const float nearest = query.distance + 10 * query_tie() + rounding(query.to);
-    return overlap(traversal.box, node) &&
-           (distance(query.to, clamp(query.to, node.min, node.max)) <= nearest ||
-            overlap(box_around(query.from, query.to), node));
-}
-
-#define VOILE_QUERY MeshTraversal
-#include "colliders/bvh.glsl"
-#include "colliders/padded.glsl"
+#define VOILE_QUERY Candidates
+#include "colliders/mesh_traversal.glsl"
 #undef VOILE_QUERY
 
-void traverse(MeshTraversal traversal, ColliderRecord collider)
-{
-    if (is_deforming(collider.flags))
-        traverse_padded(traversal, collider.first_node, collider.first_triangle, collider.triangles);
-    else
-        traverse_bvh(traversal, collider.first_node, collider.first_triangle);
-}
-
 // The query center in the space of collider c.
-vec3 local_query_center(uint c, uint flags)
+vec3 local_query_center(Candidates list, uint c, uint flags)
 {
-    return into_collider(c, flags, FinePosition(candidates.center, vec3(0)), candidates.made);
+    return into_collider(c, flags, FinePosition(list.center, vec3(0)), list.made);
 }
 
 // m: the radius of the smallest ball around the query center that holds the path from `from` to `to` and a ball of
 // `query_radius` around its end. Both are in the space of collider c.
-float needed_radius(uint c, uint flags, vec3 from, vec3 to, float query_radius)
+float needed_radius(Candidates list, uint c, uint flags, vec3 from, vec3 to, float query_radius)
 {
-    if (candidates.made < 0 && (is_moved(flags) || is_deforming(flags)))
+    if (list.made < 0 && (is_moved(flags) || is_deforming(flags)))
         return 3e38;
-    const vec3 center = local_query_center(c, flags);
+    const vec3 center = local_query_center(list, c, flags);
     return max(distance(center, from), distance(center, to) + query_radius);
 }
 
@@ -202,142 +178,151 @@ bool belongs(uint entry, ColliderRecord collider, uint kind)
            triangle < collider.first_triangle + collider.triangles;
 }
 
-void visit_mesh(uint c, ColliderRecord collider, Box box)
+void visit_mesh(inout MeshQuery query, Candidates list, uint c, ColliderRecord collider)
 {
     const uint kind = is_deforming(collider.flags) ? k_slot_bit : 0;
-    const float needed = needed_radius(c, collider.flags, query.from, query.to, query.thickness);
-    if (candidates.count > VOILE_CANDIDATES || needed > candidates.radius)
+    const Path path = query.path;
+    const float needed = needed_radius(list, c, collider.flags, path.from, path.to, path.radius);
+    if (list.count > VOILE_CANDIDATES || needed > list.radius)
     {
-        traverse(MeshTraversal(false, box), collider);
+        traverse(query, collider);
         return;
     }
-    load_radii();
-    uint next = candidate_triangles[candidate_word(k_first_entry)]; // loaded one ahead, while the current one is tested
-    for (uint i = 0; i < candidates.count; ++i)
+    load_radii(list);
+    uint next = candidate_triangles[candidate_word(list, k_first_entry)]; // loaded one ahead, while the current one is tested
+    for (uint i = 0; i < list.count; ++i)
     {
         const uint entry = next;
-        next = candidate_triangles[candidate_word(k_first_entry + min(i + 1, VOILE_CANDIDATES - 1))];
-        if (entry_distance(entry) <= needed && belongs(entry, collider, kind))
-            visit_triangle(entry & k_triangle_mask);
+        next = candidate_triangles[candidate_word(list, k_first_entry + min(i + 1, VOILE_CANDIDATES - 1))];
+        if (entry_distance(list, entry) <= needed && belongs(entry, collider, kind))
+            visit_triangle(query, entry & k_triangle_mask);
     }
 }
 
-// Whether the list covers every moving mesh that is near. `carried`: m, raised to the longest displacement that a mesh
-// gives its surface here.
-bool covers_moving(FinePosition from, vec3 displacement, float query_radius, inout float carried)
+// Moving meshes near a vertex.
+struct MovingMeshes
 {
+    bool covered; // the list covers all of them
+    float carried; // m, the longest displacement that one gives its surface at the vertex
+};
+
+MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float query_radius)
+{
+    MovingMeshes result = MovingMeshes(true, 0);
     if (COLLIDERS_MOVE == 0)
-        return true;
-    bool covers = true;
-    const vec3 to = from.x + displacement;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, box_around(from.x, to));
+        return result;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, box_around(motion.from.x, position_of(motion)));
     uint c;
     while (next_collider(walk, c))
     {
         const uint flags = colliders[c].flags;
         if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH)
             continue;
-        vec3 a = from_origin(c, flags, from);
-        vec3 b = a + displacement;
+        vec3 from = from_origin(c, flags, motion.from);
+        vec3 to = from + motion.displacement;
         float shift = 0;
         if (is_moved(flags))
         {
-            const vec3 end = b;
+            const vec3 end = to;
             const Pose start = pose_at(c, push.progress_from);
-            a = to_collider(start, a);
-            b = to_collider(pose_at(c, push.progress_to), end);
-            shift = distance(to_world(start, b), end);
+            from = to_collider(start, from);
+            to = to_collider(pose_at(c, push.progress_to), end);
+            shift = distance(to_world(start, to), end);
         }
-        if (!overlaps_mesh(colliders[c], grown(box_around(a, b), query_radius)))
+        if (!overlaps_mesh(colliders[c], layers, grown(box_around(from, to), query_radius)))
             continue;
-        carried = max(carried, shift);
-        covers = covers && needed_radius(c, flags, a, b, query_radius) <= candidates.radius;
+        result.carried = max(result.carried, shift);
+        result.covered = result.covered && needed_radius(list, c, flags, from, to, query_radius) <= list.radius;
     }
-    return covers;
+    return result;
 }
 
-void collect_triangles()
+void collect_triangles(inout Candidates list, uint layers)
 {
-    candidates.count = 0;
-    ColliderWalk walk =
-        walk_colliders(gl_WorkGroupID.x, grown(Box(candidates.center, candidates.center), candidates.radius));
+    list.count = 0;
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, grown(Box(list.center, list.center), list.radius));
     uint c;
     while (next_collider(walk, c))
     {
         const ColliderRecord collider = colliders[c];
         if (collider.kind != VOILE_COLLIDER_MESH)
             continue;
-        candidates.local_center = local_query_center(c, collider.flags);
-        candidates.kind = 0;
+        list.local_center = local_query_center(list, c, collider.flags);
+        list.kind = 0;
         if (is_deforming(collider.flags))
         {
-            candidates.kind = k_slot_bit;
-            candidates.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
+            list.kind = k_slot_bit;
+            list.first_corner = uvec2(collider_motions[c].first_from, collider_motions[c].first_to);
         }
-        const Box box = grown(Box(candidates.local_center, candidates.local_center), candidates.radius);
-        if (overlaps_mesh(collider, box))
-            traverse(MeshTraversal(true, box), collider);
+        if (overlaps_mesh(collider, layers, grown(Box(list.local_center, list.local_center), list.radius)))
+            traverse(list, collider);
     }
 }
 
 // Makes a new list. `path`: m, the longest distance of this substep's path from the query center; `margin`: m, beyond
 // that;
 // `query_radius`: m, of contact around the vertex.
-void refresh_candidates(float path, float margin, float query_radius)
+void refresh_candidates(inout Candidates list, uint layers, float path, float margin, float query_radius)
 {
     // If the last ball shrank, this one is only a little wider: what lies farther out would be dropped again.
-    const float last = candidates.radius - query_radius;
-    const bool shrank = last >= 0 && candidates.radius < candidates.wished;
+    const float last = list.radius - query_radius;
+    const bool shrank = last >= 0 && list.radius < list.wished;
     const float grown = max(k_margin_growth * last, 0.1 * k_candidate_margin * query_radius);
-    candidates.least = query_radius + path;
-    candidates.wished = candidates.least + (shrank ? min(margin, grown) : margin);
-    candidates.radius = candidates.wished;
-    collect_triangles();
-    if (candidates.count > VOILE_CANDIDATES)
-        candidates.radius = candidates.wished; // until the next refresh, which would find as many
-    candidate_places[candidates.vertex] = vec4(candidates.center, candidates.radius);
-    candidate_triangles[candidate_word(k_head_word)] =
-        push.substep << VOILE_CANDIDATE_COUNT_BITS | candidates.count;
-    candidate_triangles[candidate_word(k_radius_word)] = floatBitsToUint(candidates.wished);
-    candidate_triangles[candidate_word(k_least_word)] = floatBitsToUint(candidates.least);
+    list.least = query_radius + path;
+    list.wished = list.least + (shrank ? min(margin, grown) : margin);
+    list.radius = list.wished;
+    collect_triangles(list, layers);
+    if (list.count > VOILE_CANDIDATES)
+        list.radius = list.wished; // until the next refresh, which would find as many
+    candidate_places[list.vertex] = vec4(list.center, list.radius);
+    candidate_triangles[candidate_word(list, k_head_word)] =
+        push.substep << VOILE_CANDIDATE_COUNT_BITS | list.count;
+    candidate_triangles[candidate_word(list, k_radius_word)] = floatBitsToUint(list.wished);
+    candidate_triangles[candidate_word(list, k_least_word)] = floatBitsToUint(list.least);
 }
 
-// m: the longest distance of the path from the query center.
-float path_distance(vec3 center, FinePosition from, vec3 displacement)
+// m: the longest distance of the vertex's path from the query center.
+float path_distance(vec3 center, Motion motion)
 {
-    const vec3 offset = from.x - center + from.residual;
-    return max(length(offset), length(offset + displacement));
+    const vec3 offset = motion.from.x - center + motion.from.residual;
+    return max(length(offset), length(offset + motion.displacement));
 }
 
-// Loads the vertex's list. Makes a new one if that does not cover the displacement (m) from `from`.
-void update_candidates(uint vertex, FinePosition from, vec3 displacement, vec3 velocity, float thickness)
+Candidates load_candidates(uint vertex)
 {
-    candidates.vertex = vertex;
+    Candidates list;
+    list.vertex = vertex;
     const vec4 ball = candidate_places[vertex]; // w: m, the radius; < 0: there is no list
-    const uint head = candidate_triangles[candidate_word(k_head_word)];
-    const float query_radius = k_query_radius * thickness + rounding(vec3(push.mesh_extent));
+    const uint head = candidate_triangles[candidate_word(list, k_head_word)];
     const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
-    candidates.count = head & VOILE_CANDIDATE_COUNT_MASK;
-    candidates.center = ball.xyz;
-    candidates.radius = ball.w;
-    candidates.made = made < push.first_substep
-                          ? -1
-                          : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
-    const float margin = ball.w - query_radius; // below 0 if the cloth has become thicker
+    list.count = head & VOILE_CANDIDATE_COUNT_MASK;
+    list.center = ball.xyz;
+    list.radius = ball.w;
+    list.made = made < push.first_substep ? -1
+                                          : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
+    return list;
+}
+
+// The list of the vertex. A new one if the last one does not cover the vertex's motion.
+Candidates find_candidates(uint vertex, Motion motion, float thickness, uint layers)
+{
+    Candidates list = load_candidates(vertex);
+    const float query_radius = k_query_radius * thickness + rounding(vec3(push.mesh_extent));
+    const float margin = list.radius - query_radius; // below 0 if the cloth has become thicker
     const float usable = push.renew == 1 ? 0.5 * margin : margin;
-    const bool covers = path_distance(ball.xyz, from, displacement) <= usable;
-    float carried = 0;
-    const bool covers_all = covers_moving(from, displacement, query_radius, carried);
-    const float speed = length(velocity) + carried / push.step;
+    const bool covers = path_distance(list.center, motion) <= usable;
+    const MovingMeshes meshes = moving_meshes(list, motion, layers, query_radius);
+    const float speed = length(motion.v) + meshes.carried / push.step;
     const float wanted = max(k_candidate_margin * thickness, 2 * speed * push.renewal_time);
     // A list that overflowed when the vertex was fast, or too close, may fit when it rests.
-    const bool may_fit = push.renew == 1 && candidates.count > VOILE_CANDIDATES;
-    if (covers && covers_all && !may_fit)
-        return;
-    candidates.center = from.x + 0.5 * displacement;
-    candidates.made = push.progress_to;
-    load_radii();
-    refresh_candidates(path_distance(candidates.center, from, displacement) + carried, wanted, query_radius);
+    const bool may_fit = push.renew == 1 && list.count > VOILE_CANDIDATES;
+    if (covers && meshes.covered && !may_fit)
+        return list;
+    list.center = motion.from.x + 0.5 * motion.displacement;
+    list.made = push.progress_to;
+    load_radii(list);
+    refresh_candidates(list, layers, path_distance(list.center, motion) + meshes.carried, wanted, query_radius);
+    return list;
 }
 
 #endif

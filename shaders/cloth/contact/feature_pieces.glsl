@@ -1,7 +1,8 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and mesh.glsl before.
+// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and mesh.glsl
+// before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 

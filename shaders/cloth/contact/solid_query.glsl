@@ -1,5 +1,5 @@
-// Queries of a mesh as a solid, in the collider's space: inside or outside, depth, the exits of a line, the crossing of a
-// segment.
+// Queries of a mesh as a solid, in the collider's space: inside or outside, depth, the exits of a line, the crossing of
+// a segment.
 //
 // The including kernel declares `bvh_nodes[]`, `bvh_triangles[]`, `padded_boxes[]`, `padded_leaves[]`,
 // `deforming_positions[]` and includes collider_pose.glsl before.
@@ -123,8 +123,7 @@ void visit_leaf(inout SolidQuery query, uint first, uint count)
 }
 
 #define VOILE_QUERY SolidQuery
-#include "colliders/bvh.glsl"
-#include "colliders/padded.glsl"
+#include "colliders/mesh_traversal.glsl"
 #undef VOILE_QUERY
 
 SolidQuery solid_query(Solid solid, int kind, vec3 origin)
@@ -137,14 +136,6 @@ SolidQuery solid_query(Solid solid, int kind, vec3 origin)
         query.first_corner =
             solid.at_end ? collider_motions[solid.index].first_to : collider_motions[solid.index].first_from;
     return query;
-}
-
-void traverse(inout SolidQuery query, ColliderRecord collider)
-{
-    if (query.deforms)
-        traverse_padded(query, collider.first_node, collider.first_triangle, collider.triangles);
-    else
-        traverse_bvh(query, collider.first_node, collider.first_triangle);
 }
 
 // Where a line along an axis leaves a mesh for good.
