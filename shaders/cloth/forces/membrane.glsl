@@ -24,26 +24,39 @@ float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.
 // The least |F d|. A triangle with less has collapsed.
 const float k_least_stretch = 1e-4;
 
-// `energy`: J/m^2; `excess`: F^T F - 1; `rate`: half of its rate, 1/s.
-void add_direction(inout FabricMatrix stress, inout float energy, Gather g, SpringClass spring, FabricMatrix excess,
-                   FabricMatrix rate, vec2 d)
+// The deformation of a triangle.
+struct Deformation
 {
-    const float squared_excess = along(excess, d);
+    FabricMatrix excess; // F^T F - 1
+    FabricMatrix rate;   // 1/s, half of the excess' rate
+};
+
+// The response of a triangle, summed over directions.
+struct FabricStress
+{
+    FabricMatrix stress; // N/m
+    float energy;        // J/m^2
+};
+
+// `d`: the direction of the spring, a unit vector of the fabric.
+void add_direction(inout FabricStress sum, Deformation deformation, vec2 d, SpringClass spring, Viscosity viscosity)
+{
+    const float squared_excess = along(deformation.excess, d);
     const float squared = max(1 + squared_excess, k_least_stretch * k_least_stretch);
     const float stretch = sqrt(squared);
-    const float stretch_rate = along(rate, d) / squared; // 1/s, of |F d| over itself
+    const float stretch_rate = along(deformation.rate, d) / squared; // 1/s, of |F d| over itself
     float tension = spring.stiffness * squared_excess / (squared + stretch) + spring.damping * stretch_rate;
-    if (g.viscosity.is_on)
+    if (viscosity.is_on)
     {
         // As in add_spring, for a rest length of 1. Viscosity along the direction suffices; across it would add spin.
         const float change = abs(stretch_rate) * stretch * push.step;
-        const float viscosity = clamp((change - k_viscous_strain) * g.viscosity.sharpness, 0, 1);
-        tension += min(1 / squared, 1) * g.viscosity.scale * viscosity * spring.stiffness * stretch_rate;
+        const float fraction = clamp((change - k_viscous_strain) * viscosity.sharpness, 0, 1);
+        tension += min(1 / squared, 1) * viscosity.scale * fraction * spring.stiffness * stretch_rate;
     }
-    energy += 0.5 * spring.stiffness * squared_excess * squared_excess / ((1 + stretch) * (1 + stretch));
-    stress.warp += tension * d.x * d.x;
-    stress.weft += tension * d.y * d.y;
-    stress.mixed += tension * d.x * d.y;
+    sum.energy += 0.5 * spring.stiffness * squared_excess * squared_excess / ((1 + stretch) * (1 + stretch));
+    sum.stress.warp += tension * d.x * d.x;
+    sum.stress.weft += tension * d.y * d.y;
+    sum.stress.mixed += tension * d.x * d.y;
 }
 
 // A corner of a triangle.
@@ -78,17 +91,18 @@ void add_membrane(inout Gather g, SpringClass springs[VOILE_MEMBRANE_SPRINGS], M
     const FabricMatrix rate = FabricMatrix(dot(warp, warp_rate), dot(weft, weft_rate),
                                            0.5 * (dot(warp, weft_rate) + dot(weft, warp_rate)));
     const float k_diagonal = 0.70710678;
-    FabricMatrix stress = FabricMatrix(0, 0, 0);
-    float energy = 0; // J/m^2
-    add_direction(stress, energy, g, springs[0], excess, rate, vec2(1, 0));
-    add_direction(stress, energy, g, springs[1], excess, rate, vec2(0, 1));
-    add_direction(stress, energy, g, springs[2], excess, rate, vec2(k_diagonal, k_diagonal));
-    add_direction(stress, energy, g, springs[2], excess, rate, vec2(k_diagonal, -k_diagonal));
+    const Deformation deformation = Deformation(excess, rate);
+    FabricStress sum = FabricStress(FabricMatrix(0, 0, 0), 0);
+    add_direction(sum, deformation, vec2(1, 0), springs[0], g.viscosity);
+    add_direction(sum, deformation, vec2(0, 1), springs[1], g.viscosity);
+    add_direction(sum, deformation, vec2(k_diagonal, k_diagonal), springs[2], g.viscosity);
+    add_direction(sum, deformation, vec2(k_diagonal, -k_diagonal), springs[2], g.viscosity);
 
     const vec2 own = first    ? -(rest.gradient_1 + rest.gradient_2)
                      : second ? rest.gradient_1
                               : rest.gradient_2;
-    g.energy += rest.weight * energy / 3;
+    g.energy += rest.weight * sum.energy / 3;
+    const FabricMatrix stress = sum.stress;
     g.force -= rest.weight * ((stress.warp * own.x + stress.mixed * own.y) * warp +
                               (stress.mixed * own.x + stress.weft * own.y) * weft);
 }
