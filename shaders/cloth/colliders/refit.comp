@@ -29,88 +29,95 @@ const uint ROWS = gl_WorkGroupSize.x / LANES;
 
 shared vec3 shared_halves[gl_WorkGroupSize.x];
 
-// Of this thread.
-bool upper;  // whether it computes maxima
-uint root;   // of its subtree, on its level
-uint roots;  // how many that level has
-uint row;    // its boxes of the bottom level are the subtree's row-th, (row + ROWS)-th, ...
+// The part of a subtree that a thread folds.
+struct Fold
+{
+    bool upper; // whether it computes maxima
+    uint root;  // of its subtree, on its level
+    uint roots; // number of boxes of that level
+    uint row;   // its boxes of the bottom level are the subtree's row-th, (row + ROWS)-th, ...
+};
 
-vec3 fold(vec3 a, vec3 b) { return upper ? max(a, b) : min(a, b); }
+vec3 fold(bool upper, vec3 a, vec3 b) { return upper ? max(a, b) : min(a, b); }
 
 // The neutral element of fold.
-vec3 neutral() { return vec3(upper ? uintBitsToFloat(0xff800000u) : uintBitsToFloat(0x7f800000u)); }
+vec3 neutral(bool upper) { return vec3(upper ? uintBitsToFloat(0xff800000u) : uintBitsToFloat(0x7f800000u)); }
 
 // The index of the subtree's k-th box on the level on which it has `width` boxes.
-uint half_index(uint k, uint width) { return 2 * (push.first_box + roots * (width + k) - 1 + root) + uint(upper); }
-
-void store(uint k, uint width, vec3 value)
+uint half_index(Fold self, uint k, uint width)
 {
-    if (root < roots)
-        box_halves[half_index(k, width)] = vec4(value, 0);
+    return 2 * (push.first_box + self.roots * (width + k) - 1 + self.root) + uint(self.upper);
 }
 
-vec3 leaf_half(uint slot)
+void store(Fold self, uint k, uint width, vec3 value)
+{
+    if (self.root < self.roots)
+        box_halves[half_index(self, k, width)] = vec4(value, 0);
+}
+
+vec3 triangle_half(bool upper, uvec3 corners)
+{
+    return fold(upper, fold(upper, positions[corners.x].xyz, positions[corners.y].xyz), positions[corners.z].xyz);
+}
+
+vec3 leaf_half(bool upper, uint slot)
 {
     const uvec3 corners = leaves[push.first_leaf + slot].corners;
-    const uvec3 from = push.first_from + corners;
-    const uvec3 to = push.first_to + corners;
-    const vec3 start = fold(fold(positions[from.x].xyz, positions[from.y].xyz), positions[from.z].xyz);
-    const vec3 end = fold(fold(positions[to.x].xyz, positions[to.y].xyz), positions[to.z].xyz);
-    return fold(start, end);
+    const vec3 start = triangle_half(upper, push.first_from + corners);
+    const vec3 end = triangle_half(upper, push.first_to + corners);
+    return fold(upper, start, end);
 }
 
-// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it
-// lacks are neutral.
-vec3 bottom_half(uint k)
+// The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it lacks
+// are neutral.
+vec3 bottom_half(Fold self, uint k)
 {
     const uint width = 1u << push.levels;
-    if (root >= roots || k >= width)
-        return neutral();
+    if (self.root >= self.roots || k >= width)
+        return neutral(self.upper);
     if (FROM_LEAVES == 0)
-        return box_halves[half_index(k, width)].xyz;
-    const vec3 value = leaf_half(root + k * roots);
-    store(k, width, value);
+        return box_halves[half_index(self, k, width)].xyz;
+    const vec3 value = leaf_half(self.upper, self.root + k * self.roots);
+    store(self, k, width, value);
     return value;
 }
 
-vec3 fold_in_registers()
+vec3 fold_in_registers(Fold self)
 {
     const uint width = 1u << push.levels;
     vec3 values[VOILE_REFIT_ITEMS];
     [[unroll]] for (uint i = 0; i < VOILE_REFIT_ITEMS; ++i)
-        values[i] = bottom_half(row + i * ROWS);
+        values[i] = bottom_half(self, self.row + i * ROWS);
     [[unroll]] for (uint items = VOILE_REFIT_ITEMS / 2; items > 0; items /= 2)
         [[unroll]] for (uint i = 0; i < items; ++i)
         {
-            values[i] = fold(values[i], values[i + items]);
+            values[i] = fold(self.upper, values[i], values[i + items]);
             if (items * ROWS < width)
-                store(row + i * ROWS, items * ROWS, values[i]);
+                store(self, self.row + i * ROWS, items * ROWS, values[i]);
         }
     return values[0];
 }
 
-void fold_rows(vec3 value)
+void fold_rows(Fold self, vec3 value)
 {
     const uint thread = gl_LocalInvocationID.x;
     shared_halves[thread] = value;
     for (uint rows = ROWS / 2; rows > 0; rows /= 2)
     {
         barrier();
-        if (row >= rows)
+        if (self.row >= rows)
             continue;
-        value = fold(value, shared_halves[thread + rows * LANES]);
+        value = fold(self.upper, value, shared_halves[thread + rows * LANES]);
         shared_halves[thread] = value;
         if (rows < 1u << push.levels)
-            store(row, rows, value);
+            store(self, self.row, rows, value);
     }
 }
 
 void main()
 {
     const uint lane = gl_LocalInvocationID.x % LANES;
-    upper = lane % 2 == 1;
-    root = gl_WorkGroupID.x * RUN + lane / 2;
-    roots = 1u << (push.bottom - push.levels);
-    row = gl_LocalInvocationID.x / LANES;
-    fold_rows(fold_in_registers());
+    const Fold self = Fold(lane % 2 == 1, gl_WorkGroupID.x * RUN + lane / 2, 1u << (push.bottom - push.levels),
+                           gl_LocalInvocationID.x / LANES);
+    fold_rows(self, fold_in_registers(self));
 }
