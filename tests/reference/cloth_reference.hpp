@@ -1,5 +1,5 @@
-// The cloth model in double precision on the CPU: springs, drag, gravity and RK4 by the textbook formulas, written
-// without a look at the shaders' structure (one loop over springs that adds to both ends).
+// The cloth model in double precision on the CPU: springs, drag, gravity and RK4 by the textbook formulas. It does not
+// follow the structure of the kernels: one loop over springs adds to both ends.
 #pragma once
 
 #include "integrators.hpp"
@@ -123,12 +123,12 @@ private:
                 if (other < 0 || other >= int(grid_.columns))
                     continue;
                 // Along a row a spring belongs to that row's strip, along a column to that column's.
-                const double share = rows == 0      ? border(uint32_t(row), grid_.rows)
+                const double scale = rows == 0      ? border(uint32_t(row), grid_.rows)
                                      : columns == 0 ? border(uint32_t(column), grid_.columns)
                                                     : 1;
                 springs.push_back({uint32_t(row) * grid_.columns + uint32_t(column),
                                    uint32_t(row + rows) * grid_.columns + uint32_t(other),
-                                   share * double(spring.stiffness), share * double(spring.damping), rest_length});
+                                   scale * double(spring.stiffness), scale * double(spring.damping), rest_length});
             }
     }
 
@@ -137,7 +137,7 @@ private:
         return i == 0 || i + 1 == count ? double(material_.border_share) : 1;
     }
 
-    // Each of the four cells around the vertex acts on half of the triangle that its two sides span, a quarter of it.
+    // The vertex takes a quarter of each of the four cells around it: half of the triangle that two sides span.
     [[nodiscard]] glm::dvec3 air_force(const ClothState& s, size_t i, const Environment& environment) const
     {
         const double c_n = material_.air_drag_normal;

@@ -1,5 +1,5 @@
-// Contact in double precision on the CPU, by brute force over all triangles: detection by the nearest point or by rays
-// along the normal, crossing of the path, response with Coulomb friction.
+// Contact in double precision on the CPU, by brute force over all triangles: crossing of the path, nearest point or
+// rays along the normal, response with Coulomb friction.
 #pragma once
 
 #include "voile/descriptions.hpp"
@@ -37,7 +37,7 @@ inline glm::dvec3 face_normal(const TriangleMesh& mesh, const glm::uvec3& t)
         glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
 }
 
-// The first triangle that the path crosses; leaving a closed mesh does not count.
+// The first triangle that the path crosses. Leaving a closed mesh is no crossing.
 inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to)
 {
     double first = 2;
@@ -59,7 +59,7 @@ inline std::optional<Contact> crossing_contact(const TriangleMesh& mesh, const g
     return result;
 }
 
-// By the plane of the contact; what is outside now and was under that plane came round an edge.
+// By the plane of the contact. A vertex that is outside now and was under that plane came around an edge.
 inline Contact with_start(Contact contact, const glm::dvec3& from, const glm::dvec3& to)
 {
     contact.start = contact.gap - glm::dot(to - from, contact.direction);
@@ -81,7 +81,7 @@ inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const gl
             voile::nearest_on_triangle(to, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
         const glm::dvec3 n = face_normal(mesh, t);
         const double alignment = std::abs(glm::dot(to - found.point, n)) / std::max(found.distance, 1e-12);
-        const double tie = 1e-5 * thickness; // triangles that share the nearest edge: the one that faces the vertex
+        const double tie = 1e-5 * thickness; // at a shared edge the triangle that faces the vertex counts
         if (found.distance < nearest - tie ||
             (found.distance < nearest + tie && alignment > best_alignment && best_alignment > 0))
         {
@@ -94,7 +94,7 @@ inline std::optional<Contact> nearest_contact(const TriangleMesh& mesh, const gl
     if (nearest >= thickness)
         return std::nullopt;
     const double height = glm::dot(to - point, face);
-    if (nearest < 0.01 * thickness) // too short for a direction in float: the face's normal stands in
+    if (nearest < 0.01 * thickness) // too short for a direction in float: the face gives it
     {
         const glm::dvec3 side = !mesh.closed && height < 0 ? -face : face;
         return with_start({side, glm::dot(to - point, side)}, from, to);
@@ -126,16 +126,17 @@ inline std::optional<Contact> ray_contact(const TriangleMesh& mesh, const glm::d
     return result;
 }
 
-// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up.
-constexpr double k_recovery_speed = 0.75;
+// m/s: the speed at which a vertex under a surface, or closer than the thickness, is lifted.
+constexpr double k_lift_speed = 0.75;
 
-// Ends on the offset surface without approaching it; what was too near before comes up slowly, what was inside no
-// faster and without a velocity of its own. Sticks within the cone of static friction, else slides.
+// The vertex ends on the offset surface and does not approach it. A vertex that was too close before is lifted slowly,
+// one that was inside no faster and without a velocity of its own. It sticks within the cone of static friction, else
+// slides.
 inline void respond(const Contact& contact, double thickness, double mu_s, double mu_k, double h,
                     const glm::dvec3& from, glm::dvec3& x, glm::dvec3& v)
 {
     const glm::dvec3 n = contact.direction;
-    const double lift = std::min(thickness, contact.start + k_recovery_speed * h) - contact.gap;
+    const double lift = std::min(thickness, contact.start + k_lift_speed * h) - contact.gap;
     x += (contact.start < 0 ? lift : std::max(lift, 0.0)) * n;
     if (contact.start < 0)
         v -= glm::dot(v, n) * n;

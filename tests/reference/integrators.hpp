@@ -1,4 +1,4 @@
-// Integrators by their textbook formulas, for any reference cloth that gives accelerations(state, environment).
+// Textbook integrators for any reference cloth with accelerations(state, environment).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -30,7 +30,7 @@ inline std::vector<glm::dvec3> sum(const std::vector<glm::dvec3>& a, double h, c
     return result;
 }
 
-// Kutta 1901. Held vertices have no velocity and no acceleration, and so stay.
+// Kutta 1901. Held vertices have neither velocity nor acceleration, so they stay.
 template <typename Cloth>
 void rk4_step(const Cloth& cloth, ClothState& s, double h, const Environment& environment)
 {
@@ -48,9 +48,9 @@ void rk4_step(const Cloth& cloth, ClothState& s, double h, const Environment& en
     }
 }
 
-// Swope et al. 1982: x += h v + h^2/2 a, v += h/2 (a + a'). Where a' depends on the velocity it sees v + (1/2 + p) h a:
-// the half kick that was made, and p of another by the acceleration before, p = (1 - load) / 2. The last a' of a
-// substep is the first a of the next, so that a step of n substeps evaluates n + 1 of them.
+// Swope et al. 1982: x += h v + h^2/2 a, v += h/2 (a + a'). If a' depends on the velocity, it takes v + (1/2 + p) h a:
+// the half kick, and p of another by the acceleration before, p = (1 - load) / 2. The last a' of a substep is the first
+// a of the next, so a step of n substeps evaluates n + 1 of them.
 template <typename Cloth>
 void verlet_step(const Cloth& cloth, ClothState& s, double h, uint32_t substeps, const Environment& environment,
                  double load)

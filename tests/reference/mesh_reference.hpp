@@ -1,6 +1,6 @@
 // A mesh as cloth in double precision on the CPU, from the model's formulas alone: one map of edges, one loop over
 // triangles. A fabric's stretch and shear are springs along four directions of each triangle; bending is the quadratic
-// form of its energy, assembled as it stands.
+// form of its energy, assembled directly.
 #pragma once
 
 #include "cloth_reference.hpp"
@@ -110,7 +110,7 @@ public:
         return total;
     }
 
-    // Scales what stores energy, as a step does that is too long for it.
+    // Scales stiffness and bending, as the solver does for a substep that is too long.
     void soften(double stiffness)
     {
         for (Spring& spring : springs)
@@ -118,7 +118,7 @@ public:
         bending_ *= stiffness;
     }
 
-    // No vertex is moved by its neighbors faster than this, 1/s^2: twice its springs and bending over its mass.
+    // A bound of the frequency^2 of any vertex, 1/s^2: twice its springs and bending over its mass.
     [[nodiscard]] double omega_squared() const
     {
         std::vector<double> stiffness(size());
@@ -145,7 +145,7 @@ public:
         return largest;
     }
 
-    // One direction of a triangle of fabric: the sum of coefficient * x is what a unit vector along it becomes.
+    // One direction of a triangle of fabric: a unit vector along it is mapped to the sum of coefficient * x.
     struct Thread
     {
         uint32_t corner[3];
@@ -172,7 +172,7 @@ private:
         glm::uvec3 triangle;
     };
 
-    // The gradient, in the world, of the second coordinate in which the mesh is seen along its thinnest axis.
+    // The gradient, in the world, of the second coordinate of the mesh projected along its thinnest axis.
     void find_second_axis(const voile::MeshCloth& mesh)
     {
         glm::dvec3 low(1e300);
@@ -215,7 +215,7 @@ private:
                 [&](uint32_t a, uint32_t b, double, double length) {
                     springs.push_back({a, b, double(along.stiffness), double(along.damping), length});
                 });
-            std::map<std::pair<uint32_t, uint32_t>, bool> seen; // one spring a pair, however many edges it crosses
+            std::map<std::pair<uint32_t, uint32_t>, bool> seen; // one spring per pair, however many edges it crosses
             for_each_pair(
                 [&](uint32_t a, uint32_t b, double, double length)
                 {
@@ -263,17 +263,17 @@ private:
         bending_time_ = fastest > 0 ? 2 * ratio / std::sqrt(fastest) : 0;
     }
 
-    // Threads of a fabric that runs as the mesh seen along its thinnest axis does: the other two in their order. The
-    // moduli of stretch in one direction and of shear are the fabric's: (c_warp, K_s; K_s, c_weft) is the stiffness of
-    // strain along both, and c_warp - K_s^2 / c_weft = K_warp, likewise for the weft. Diagonals at 45 degrees of 2 K_s
-    // each have (K_s, K_s; K_s, K_s) and shear with K_s. Damping: the ratio of what is critical to vertices of the mean
-    // mass on a spring as a grid of square cells has it, whose diagonals have K_s.
+    // Threads of a fabric whose warp and weft follow the axes of the mesh projected along its thinnest axis. The moduli
+    // of stretch in one direction and of shear are the fabric's: (c_warp, K_s; K_s, c_weft) is the stiffness of strain
+    // along both, and c_warp - K_s^2 / c_weft = K_warp, and the same for the weft. Diagonals at 45 degrees of 2 K_s
+    // each have (K_s, K_s; K_s, K_s) and shear with K_s. Damping: the ratio to the critical damping of vertices of the
+    // mean mass on a spring of a grid of square cells, whose diagonals have K_s.
     void add_membrane(const voile::Fabric& fabric, double mean_mass)
     {
         const double warp = double(fabric.stretch_stiffness[0]);
         const double weft = double(fabric.stretch_stiffness[1]);
         const double shear = double(fabric.shear_stiffness);
-        const double quotient = weft / warp; // of the held stiffnesses too
+        const double quotient = weft / warp; // of the held stiffnesses, too
         const double held = warp / 2 * (1 + std::sqrt(1 + 4 * shear * shear / (warp * weft)));
         const auto damping = [&](double k)
         { return 2 * double(fabric.damping_ratio) * std::sqrt(std::max(k, 0.0) * mean_mass / 2); };
@@ -302,7 +302,7 @@ private:
         }
     }
 
-    // Unit vectors of warp and weft in a triangle: along the warp the second of the mesh's own coordinates stays.
+    // Unit vectors of warp and weft in a triangle. The second of the mesh's own coordinates is constant along the warp.
     [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> fabric_axes(const glm::uvec3& t) const
     {
         const glm::dvec3 normal = glm::normalize(glm::cross(rest_[t.y] - rest_[t.x], rest_[t.z] - rest_[t.x]));
@@ -324,7 +324,7 @@ private:
         }
     }
 
-    // The same of every pair of vertices opposite to an edge.
+    // The same for every pair of vertices opposite to an edge.
     template <typename Visit>
     void for_each_pair(Visit visit) const
     {
@@ -337,7 +337,7 @@ private:
                               glm::distance(rest_[sides[i].opposite], rest_[sides[j].opposite]));
     }
 
-    // Where the height on an edge from `opposite` stands, as a share of the way from a to b.
+    // The foot of the height from `opposite`, as a fraction of the edge from a to b.
     [[nodiscard]] double foot(uint32_t a, uint32_t b, uint32_t opposite) const
     {
         const glm::dvec3 along = rest_[b] - rest_[a];
@@ -348,8 +348,8 @@ private:
         return rest_[opposite] - glm::mix(rest_[a], rest_[b], foot(a, b, opposite));
     }
 
-    // The angle of a small fold times the edge's length, along the normal: what each side's height has turned by, its
-    // foot less its top over its length.
+    // The angle of a small fold times the edge's length, along the normal. Each side's height turns by the difference
+    // of foot and top over its length.
     [[nodiscard]] Linear fold(uint32_t a, uint32_t b, uint32_t first, uint32_t second) const
     {
         Linear result;
@@ -393,7 +393,7 @@ private:
         }
     }
 
-    // Drag on a whole triangle whose velocity against the air is -u.
+    // Drag on a whole triangle whose velocity relative to the air is -u.
     [[nodiscard]] glm::dvec3 air(const glm::uvec3& t, const ClothState& s, const glm::dvec3& u, double density) const
     {
         const glm::dvec3 across = glm::cross(s.x[t.y] - s.x[t.x], s.x[t.z] - s.x[t.x]);
@@ -412,7 +412,7 @@ private:
     std::vector<double> areas_; // m^2, of each vertex
     std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> edges_;
     std::map<std::pair<uint32_t, uint32_t>, double> bending_form_; // 1/m^2, both halves
-    double density_ = 0;                                           // kg/m^2, or kg a vertex
+    double density_ = 0;                                           // kg/m^2, or kg per vertex
     bool masses_alike_ = false;
     double bending_ = 0; // N m
     double bending_time_ = 0;

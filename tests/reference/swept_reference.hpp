@@ -1,5 +1,5 @@
-// A point on a straight path against a convex solid, in double precision and by search alone: the signed distance of a
-// convex solid is convex along the path, whatever the shape.
+// A point on a straight path against a convex solid, in double precision, by search only: the signed distance of a
+// convex solid is convex along the path.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -63,7 +63,10 @@ VOILE_INLINE StabilityScales stability_scales(bool verlet, real omega_squared, r
 }
 
 // The p of verlet_load.
-VOILE_INLINE real verlet_prediction(StabilityScales scales) { return 0.5 * (1 - scales.load); }
+VOILE_INLINE real verlet_prediction(StabilityScales scales)
+{
+    return 0.5 * (1 - scales.load);
+}
 
 VOILE_SHARED_END
 

@@ -62,9 +62,9 @@ Rates wave_rates(const shared::ClothRecord& record, const glm::vec2& spacing, co
     for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
     {
         const ivec2& o = k_spring_offsets[c];
-        const double factor = 2 - 2 * std::real(column[static_cast<size_t>(o.x)] *
-                                                (o.y < 0 ? std::conj(row[static_cast<size_t>(-o.y)])
-                                                         : row[static_cast<size_t>(o.y)]));
+        const double factor =
+            2 - 2 * std::real(column[static_cast<size_t>(o.x)] *
+                              (o.y < 0 ? std::conj(row[static_cast<size_t>(-o.y)]) : row[static_cast<size_t>(o.y)]));
         const double stiffness = factor * static_cast<double>(record.springs[c].stiffness);
         const glm::dvec2 d = glm::normalize(glm::dvec2(o) * glm::dvec2(spacing));
         xx += stiffness * d.x * d.x;

@@ -26,8 +26,8 @@ shared::StabilityScales stability_scales(const shared::ClothRecord& record, doub
     const bool verlet = uses_verlet(record);
     shared::StabilityScales scales = shared::stability_scales(verlet, omega_squared, decay, substep);
     if (!verlet)
-        scales.load = std::max(std::sqrt(scales.stiffness * omega_squared), scales.damping * decay) * substep /
-                      VOILE_RK4_REACH;
+        scales.load =
+            std::max(std::sqrt(scales.stiffness * omega_squared), scales.damping * decay) * substep / VOILE_RK4_REACH;
     return scales;
 }
 
