@@ -47,7 +47,7 @@ App::App(const AppOptions& options)
 
 App::~App()
 {
-    (void)device_.context().fn.vkDeviceWaitIdle(device_.context().device()); // a lost device has nothing to wait for
+    (void)device_.context().fn.vkDeviceWaitIdle(device_.context().device()); // a lost device has no work to wait for
     if (window_)
         window_->detach();
 }
@@ -154,13 +154,13 @@ void App::keep_pace()
 {
     using Clock = std::chrono::steady_clock;
     std::this_thread::sleep_until(next_frame_);
-    // From the due time, not from now: sleeping a little too long must not add up. A late frame starts a new count.
+    // Counts from the due time, not from now, so that oversleeping does not add up. A late frame restarts the count.
     const Clock::time_point now = Clock::now();
     const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<float>(time_step_));
     next_frame_ = next_frame_ + step < now ? now + step : next_frame_ + step;
 }
 
-// Dragging turns the camera around its target, the wheel brings it nearer.
+// Dragging turns the camera around its target. The wheel moves it closer.
 void App::steer_camera()
 {
     const Window::Input input = window_->take_input();

@@ -1,4 +1,4 @@
-// Signals: blocked everywhere, waited for in one thread.
+// Signals: blocked in all threads, awaited in one.
 #include "voile/engine/app/signals.hpp"
 
 #include "voile/engine/assets/cleanup.hpp"
@@ -20,7 +20,7 @@ namespace
 constexpr std::pair<int, const char*> k_ending[] = {
     {SIGHUP, "SIGHUP"}, {SIGINT, "SIGINT"}, {SIGQUIT, "SIGQUIT"}, {SIGTERM, "SIGTERM"}, {SIGXCPU, "SIGXCPU"}};
 
-// As nohup does, and shells for what runs in the background.
+// nohup ignores signals, and so do shells for background jobs.
 bool is_ignored(int signal)
 {
     struct sigaction action = {};
@@ -41,7 +41,7 @@ void wait_and_end(const sigset_t& signals, const std::string& program)
     if (sigwait(&signals, &signal) != 0)
         return;
     run_cleanups();
-    // A terminal has the cursor behind what was typed or drawn last.
+    // On a terminal the cursor may be behind typed or drawn text.
     const std::string line = (::isatty(STDERR_FILENO) == 1 ? "\n" : "") + program + ": interrupted by " +
                              std::string(name_of(signal)) + "; unfinished files are gone\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -12,12 +12,12 @@ namespace voile::engine
 namespace
 {
 
-// GLFW is initialized at the first need and stays so: it counts nothing, and leaving it open at exit is allowed.
+// GLFW is initialized on first use and never terminated: it has no reference count, and it may stay open at exit.
 bool initialize_glfw()
 {
     static const bool initialized = []
     {
-        glfwSetErrorCallback([](int, const char*) {}); // the answer is in the return values
+        glfwSetErrorCallback([](int, const char*) {}); // errors show in the return values
         return glfwInit() == GLFW_TRUE;
     }();
     return initialized;
@@ -205,7 +205,7 @@ std::optional<Window::Target> Window::acquire(uint32_t slot)
         return std::nullopt;
     }
     if (result == VK_SUBOPTIMAL_KHR)
-        stale_ = true; // this image can still be shown
+        stale_ = true; // this image can still be presented
     else
         check(result, "swapchain image");
     target.image = images_[target.index];

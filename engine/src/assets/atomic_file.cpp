@@ -74,7 +74,7 @@ gpu::Result<fs::path> resolve_target(const fs::path& path)
     const fs::path folder = path.parent_path();
     if (!folder.empty() && !fs::is_directory(folder, problem))
         return file_error(path, "there is no folder " + path_text(folder));
-    // What links to a pipe (/dev/stdout) has no name of its own behind it.
+    // A link to a pipe (/dev/stdout) has no target file of its own.
     const bool is_special = fs::exists(path, problem) && !fs::is_regular_file(path, problem);
     if (is_special || !fs::is_symlink(path, problem))
         return path;
@@ -99,7 +99,7 @@ gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
         result.temporary_ = TemporaryFile(result.target_);
     const fs::path& opened = direct ? result.target_ : result.temporary_.path();
     errno = 0;
-    // x: nothing that has the temporary name already is written through; e: a program that is started does not get it.
+    // x: never write through an existing temporary file. e: child processes do not inherit it.
     result.file_ = std::fopen(opened.c_str(), direct ? "wbe" : "wbxe");
     if (result.file_ == nullptr)
         return file_error(path, std::strerror(errno));
@@ -159,7 +159,7 @@ gpu::Result<void> AtomicFile::commit()
 {
     if (file_ == nullptr)
         return file_error(path_, "it is written already");
-    // A full disk may show itself no sooner than here.
+    // A full disk may be reported only here.
     if (std::fflush(file_) != 0 && failure_ == 0)
         failure_ = errno;
     if (std::fclose(std::exchange(file_, nullptr)) != 0 && failure_ == 0)

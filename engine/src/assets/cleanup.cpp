@@ -1,4 +1,4 @@
-// The actions that are registered.
+// The registered actions.
 #include "voile/engine/assets/cleanup.hpp"
 
 #include <mutex>
@@ -16,7 +16,7 @@ struct Registry
     std::list<std::function<void()>> actions;
 };
 
-// Never destroyed: signals come until the very end.
+// Never destroyed: signals may arrive until the very end.
 Registry& registry()
 {
     static auto* const instance = new Registry;
@@ -42,7 +42,7 @@ Cleanup::~Cleanup()
 void run_cleanups()
 {
     Registry& all = registry();
-    all.mutex.lock(); // for good
+    all.mutex.lock(); // never released
     for (const std::function<void()>& action : all.actions)
         action();
 }

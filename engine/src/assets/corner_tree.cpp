@@ -1,4 +1,4 @@
-// CornerTree: built by halving at the median, searched depth first.
+// CornerTree: built by median splits, searched depth first.
 #include "assets/corner_tree.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace
 constexpr uint32_t k_leaf_points = 8;
 constexpr uint32_t k_removed = std::numeric_limits<uint32_t>::max();
 
-// False only if no point of the box lies in the triangle or on its edges, the triangle's corners apart. Exact for a box
-// of one point. Every operation of turn() is monotonic in the point's coordinates, rounding included: its value at the
-// box's farthest corner bounds those at all points of the box.
+// Returns false only if no point of the box lies in the triangle or on its edges, the triangle's corners excluded.
+// Exact for a box of one point. Every operation of turn() is monotonic in the point's coordinates, rounding included,
+// so its value at the box's farthest corner bounds the values at all points of the box.
 bool may_touch(const FlatTriangle& triangle, const glm::dvec2& min, const glm::dvec2& max)
 {
     const auto [a, b, c] = triangle;
@@ -46,7 +46,7 @@ CornerTree::CornerTree(std::span<const glm::dvec2> points)
         build(node);
 }
 
-// Sets the box and halves what is more than a leaf holds.
+// Sets the box and splits a node with more points than a leaf holds.
 void CornerTree::build(uint32_t node)
 {
     Node& n = nodes_[node];
@@ -85,7 +85,7 @@ void CornerTree::remove(uint32_t point)
 
 std::optional<uint32_t> CornerTree::find(const FlatTriangle& triangle, uint32_t seed) const
 {
-    uint32_t bits = seed * 0x9E3779B9u; // which child of a level comes first
+    uint32_t bits = seed * 0x9E3779B9u; // child order per level
     std::array<uint32_t, 64> stack{};   // at most one more per level, and 2^32 points have 32 levels
     size_t size = 1;
     while (size > 0)

@@ -1,4 +1,4 @@
-// Whole files in and out.
+// Reads and writes whole files.
 #include "voile/engine/assets/file.hpp"
 
 #include "voile/engine/assets/atomic_file.hpp"
@@ -44,7 +44,7 @@ std::string too_large(uint64_t most_bytes)
     return "larger than " + std::to_string(most_bytes >> 20) + " MiB";
 }
 
-// Empty if it can be read.
+// Returns why the file cannot be read, empty if it can.
 std::string find_obstacle(int file, uint64_t most_bytes, struct stat& status)
 {
     if (file < 0 || ::fstat(file, &status) != 0)
@@ -66,7 +66,7 @@ gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t m
     struct stat status = {};
     if (const std::string obstacle = find_obstacle(file.number(), most_bytes, status); !obstacle.empty())
         return error(obstacle);
-    // One byte more than it should have: those of the system have no size, and others grow while they are read.
+    // One extra byte: files of the system report no size, and other files may grow while they are read.
     std::string bytes(static_cast<size_t>(status.st_size) + 1, '\0');
     size_t size = 0;
     while (true)

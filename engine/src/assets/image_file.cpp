@@ -27,8 +27,8 @@ namespace voile::engine
 namespace
 {
 
-// Frames of a film are written by the hundred, so speed counts for more than size: stb's quickest compression, and one
-// filter for all rows instead of trying all five. "Up" suits rendered pictures, where most rows resemble the one above.
+// A film writes hundreds of frames, so speed counts for more than size: stb's fastest compression, and one filter for
+// all rows instead of trying all five. "Up" suits rendered pictures, where most rows resemble the one above.
 constexpr int k_quickest = 5;
 constexpr int k_filter_up = 2;
 
@@ -39,7 +39,8 @@ void append(void* context, void* data, int size)
 
 std::string encode_png(const Picture& picture)
 {
-    // stb keeps its settings in globals: set once, before the first use, also when several threads write pictures.
+    // stb keeps its settings in globals. They are set once, before the first use, also when several threads write
+    // pictures.
     [[maybe_unused]] static const bool k_settings = []
     {
         stbi_write_png_compression_level = k_quickest;

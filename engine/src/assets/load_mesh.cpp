@@ -1,4 +1,4 @@
-// The choice of a mesh format.
+// Selects the loader of a mesh format.
 #include "voile/engine/assets/load_mesh.hpp"
 
 #include "voile/engine/assets/obj.hpp"

@@ -1,4 +1,4 @@
-// Mesh: what can be asked of one.
+// Bounds of a mesh.
 #include "voile/engine/assets/mesh.hpp"
 
 namespace voile::engine

@@ -1,4 +1,4 @@
-// Triangulating, cleaning, computing normals, and putting the vertices together.
+// Triangulates, cleans, computes normals and joins vertices.
 #include "assets/mesh_builder.hpp"
 
 #include "voile/engine/assets/normals.hpp"
@@ -52,7 +52,7 @@ std::vector<Triangle> cut_faces(const Polygons& polygons, MeshReport& report)
     return triangles;
 }
 
-// For every position the first one that has the same coordinates: files repeat positions along seams.
+// For each position, the first one with the same coordinates: files repeat positions along seams.
 std::vector<uint32_t> find_equal_positions(const std::vector<glm::vec3>& positions)
 {
     const auto key = [&](uint32_t i) { return std::tuple(positions[i].x, positions[i].y, positions[i].z); };
@@ -66,8 +66,8 @@ std::vector<uint32_t> find_equal_positions(const std::vector<glm::vec3>& positio
     return first;
 }
 
-// A triangle is degenerate if floats cannot tell it from a line: its height over the longest edge is within the
-// rounding of a coordinate as large as the mesh's largest. It may be as thin as it likes above that.
+// A triangle is degenerate if floats cannot distinguish it from a line: its height over the longest edge is within the
+// rounding of a coordinate as large as the mesh's largest. Any higher triangle is kept, however thin.
 double least_height(const std::vector<glm::vec3>& positions)
 {
     float largest = 0;
@@ -91,8 +91,8 @@ struct HashIndices
     }
 };
 
-// Drops triangles without area and those on the same three points as an earlier one, whichever way round: two faces
-// back to back are of no use for collision and flicker when drawn.
+// Drops triangles without area, and triangles on the same three points as an earlier one, in either winding: two faces
+// back to back are useless for collision and flicker when drawn.
 void clean(const Polygons& polygons, std::vector<Triangle>& triangles, MeshReport& report)
 {
     const double least = least_height(polygons.positions);
@@ -116,7 +116,7 @@ void clean(const Polygons& polygons, std::vector<Triangle>& triangles, MeshRepor
     std::erase_if(triangles, is_dropped);
 }
 
-// One a position.
+// One normal per position.
 std::vector<glm::vec3> compute_normals(const Polygons& polygons, const std::vector<Triangle>& triangles)
 {
     std::vector<glm::uvec3> indices;
@@ -132,10 +132,11 @@ std::vector<glm::vec3> compute_normals(const Polygons& polygons, const std::vect
     return normals;
 }
 
-// Uses the file's normals if every corner has one that points somewhere.
+// Uses the file's normals if every corner has one of nonzero length.
 void settle_normals(Polygons& polygons, std::vector<Triangle>& triangles, MeshReport& report)
 {
-    const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); }; // may not fit in a float
+    const auto length = [](const glm::vec3& v) { return glm::length(glm::dvec3(v)); }; // the square may overflow a
+                                                                                       // float
     const auto has_normal = [&](const Corner& c)
     { return c.normal >= 0 && length(polygons.normals[static_cast<size_t>(c.normal)]) > 1e-6; };
     report.normals_computed =
@@ -185,7 +186,7 @@ Mesh assemble_positions(const Polygons& polygons, const std::vector<Triangle>& t
 {
     Mesh mesh;
     mesh.positions = polygons.positions;
-    mesh.normals = polygons.normals; // computed: one a position
+    mesh.normals = polygons.normals; // computed: one per position
     mesh.texture_coordinates.resize(polygons.positions.size(), glm::vec2(0.f));
     std::vector<bool> placed(polygons.positions.size());
     for (const Triangle& t : triangles)

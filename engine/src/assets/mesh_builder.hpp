@@ -1,4 +1,4 @@
-// From the polygons of a mesh file, whatever its format, to a clean Mesh.
+// Makes a clean Mesh from the polygons of a mesh file of any format.
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
@@ -12,7 +12,7 @@
 namespace voile::engine
 {
 
-// A corner of a face: indices into the lists of Polygons, -1 where there is none.
+// A corner of a face: indices into the lists of Polygons, -1 if missing.
 struct Corner
 {
     int32_t position = 0;
@@ -22,20 +22,20 @@ struct Corner
     auto operator<=>(const Corner&) const = default;
 };
 
-// What a file holds: all indices in range, all numbers finite, every face with at least 3 corners.
+// The contents of a file: all indices in range, all numbers finite, every face with at least 3 corners.
 struct Polygons
 {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec2> texture_coordinates;
     std::vector<glm::vec3> normals; // any length
-    std::vector<Corner> corners;    // of all faces, one after the other
+    std::vector<Corner> corners;    // of all faces, concatenated
     std::vector<uint32_t> face_sizes;
 };
 
-// Cuts the faces into triangles, drops those that are degenerate or duplicate, computes the normals unless every corner
-// has one, and makes one vertex of each combination of position, texture coordinate and normal in use, in the order of
-// the positions; or one of each position. With MeshVertices::faces it cuts alone. `report` may be null. Error: "NAME:
-// REASON" if no triangle is left.
+// Triangulates the faces, drops degenerate and duplicate triangles, and computes the normals unless every corner has
+// one. Makes one vertex per combination of position, texture coordinate and normal in use, in the order of the
+// positions, or one per position. MeshVertices::faces only triangulates. `report` may be null. Error: "NAME: REASON" if
+// no triangle is left.
 gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report,
                              MeshVertices vertices = MeshVertices::corners);
 

@@ -1,4 +1,4 @@
-// OBJ in and out. Reading: the text is checked (obj_check), parsed (tinyobjloader), and made a mesh (mesh_builder).
+// Reads and writes OBJ. Reading has three steps: check (obj_check), parse (tinyobjloader), build (mesh_builder).
 #include "voile/engine/assets/obj.hpp"
 
 #include "assets/mesh_builder.hpp"
@@ -52,7 +52,7 @@ gpu::Result<Polygons> parse(CheckedObj checked, const std::string& name)
 template <typename Number>
 void append_number(std::string& text, Number number)
 {
-    std::array<char, 32> digits{}; // the shortest that read back as the same number
+    std::array<char, 32> digits{}; // shortest text that reads back as the same number
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     text.append(" ").append(digits.data(), end);
 }

@@ -1,5 +1,5 @@
-// The strict look at an OBJ file: one pass over its lines. Format: Wavefront, "Object Files (.obj)", Advanced
-// Visualizer manual, appendix B1.
+// Validates an OBJ file in one pass over its lines. Format: Wavefront, "Object Files (.obj)", Advanced Visualizer
+// manual, appendix B1.
 #include "assets/obj_check.hpp"
 
 #include "voile/engine/assets/words.hpp"
@@ -17,7 +17,7 @@ namespace voile::engine
 namespace
 {
 
-// The lists that a face's corner refers to, in the order in which it does.
+// The lists that a face's corner refers to, in the order of its indices.
 enum List : size_t
 {
     positions,
@@ -34,7 +34,7 @@ public:
     gpu::Result<CheckedObj> run(std::string_view text);
 
 private:
-    // A reference to something that no line has defined yet; whether one ever does shows at the end.
+    // A reference to an element that no line has defined yet. It is checked at the end.
     struct Forward
     {
         List list;
@@ -56,10 +56,10 @@ private:
 
     const std::string& name_;
     CheckedObj checked_;
-    std::string error_;                   // the first one found
+    std::string error_;                   // the first error
     std::vector<std::string_view> words_; // of the current statement
     uint32_t line_ = 0;                   // on which the current statement begins, from 1
-    uint32_t lines_read_ = 0;             // including those that continue it
+    uint32_t lines_read_ = 0;             // including continuation lines
     std::array<int64_t, 3> counts_{};     // of each list so far
     std::vector<Forward> forward_;
 };
@@ -70,8 +70,8 @@ void Checker::fail_at(uint32_t line, const std::string& reason)
         error_ = name_ + ":" + std::to_string(line) + ": " + reason;
 }
 
-// Takes one statement off the text: a line, and the next as long as a backslash ends it. A comment is cut first, so
-// that a path like C:\models\ at its end continues nothing.
+// Takes one statement off the text: a line, and the next as long as a backslash ends it. Comments are cut first, so
+// that a path like C:\models\ at the end of a comment continues nothing.
 void Checker::read_statement(std::string_view& text)
 {
     words_.clear();
@@ -103,7 +103,7 @@ bool Checker::check_numbers()
     return error_.empty();
 }
 
-// Checks a statement of least to most numbers and keeps the first few of them.
+// Checks a statement of `least` to `most` numbers and keeps the first `kept`.
 void Checker::check_vector(List list, size_t least, size_t most, size_t kept)
 {
     const size_t count = words_.size() - 1;
@@ -119,7 +119,7 @@ void Checker::check_vector(List list, size_t least, size_t most, size_t kept)
     checked_.text.push_back('\n');
 }
 
-// x y z, then nothing, a weight (used by free-form curves alone), a color, or both.
+// x y z, then optionally a weight (used only by free-form curves), a color, or both.
 void Checker::check_vertex()
 {
     if (words_.size() == 6)
@@ -176,7 +176,7 @@ void Checker::check_face()
     checked_.face_sizes.push_back(static_cast<uint32_t>(corners));
 }
 
-// Names, groups, materials, lines, curves: not part of a mesh, whatever they say.
+// Skips names, groups, materials, lines and curves, whatever they contain.
 void Checker::check_statement()
 {
     if (words_.empty())

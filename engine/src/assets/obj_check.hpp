@@ -1,5 +1,5 @@
-// A strict look at the text of an OBJ file before tinyobjloader parses it. tinyobjloader turns a missing or unreadable
-// number into zero and lets indices point anywhere; here each such line is found and named.
+// Validates the text of an OBJ file before tinyobjloader parses it. tinyobjloader turns a missing or unreadable number
+// into zero and accepts any index. The check finds each such line and names it.
 #pragma once
 
 #include "voile/gpu/result.hpp"
@@ -12,8 +12,8 @@
 namespace voile::engine
 {
 
-// The statements that make up a mesh, and nothing else: one a line, continued lines joined, only the numbers that the
-// mesh uses, every index absolute and in range.
+// Only the statements that make up a mesh: one per line, continued lines joined, only the numbers that the mesh uses,
+// every index absolute and in range.
 struct CheckedObj
 {
     std::string text;

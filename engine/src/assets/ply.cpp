@@ -1,4 +1,4 @@
-// PLY in: the header (ply_header) says what to expect, the body is read value by value.
+// Reads PLY: the header (ply_header) describes the body, which is read value by value.
 #include "voile/engine/assets/ply.hpp"
 
 #include "assets/mesh_builder.hpp"
@@ -51,14 +51,14 @@ private:
     [[nodiscard]] std::string entry() const;    // "vertex 3 of 8"
 
     const PlyHeader& header_;
-    std::string_view body_; // what is left of it
+    std::string_view body_; // the unread rest
     const std::string& name_;
     Polygons polygons_;
-    std::string error_;                   // the first one found
+    std::string error_;                   // the first error
     std::vector<std::string_view> words_; // of the current line, if ASCII
     size_t next_word_ = 0;
     uint32_t line_;
-    const PlyElement* element_ = nullptr; // being read
+    const PlyElement* element_ = nullptr; // the element being read
     uint32_t index_ = 0;                  // within the element
 };
 
@@ -189,7 +189,7 @@ void BodyReader::end_line()
              " is left over");
 }
 
-// One vertex, face or whatever the element is; in ASCII one line.
+// Reads one entry of an element, such as a vertex or face. In ASCII this is one line.
 void BodyReader::read_entry(const PlyElement& element)
 {
     if (header_.is_ascii())

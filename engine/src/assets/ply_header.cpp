@@ -67,7 +67,7 @@ bool has_role(const PlyElement& element, PlyRole role)
                        [&](const PlyProperty& p) { return p.role == role; });
 }
 
-// Each function that reads a line returns what is wrong with it; empty if nothing is.
+// Each function that reads a line returns an error, empty on success.
 
 // format ascii 1.0
 std::string read_format(const Words& words, PlyHeader& header)
@@ -137,7 +137,7 @@ std::string read_statement(const Words& words, PlyHeader& header, Names& element
     return quoted_word(words[0]) + " is not a statement of a PLY header";
 }
 
-// What a mesh needs that the header does not announce.
+// Returns what a mesh needs and the header lacks.
 std::string find_missing(PlyHeader& header)
 {
     constexpr std::array<std::pair<PlyRole, const char*>, 3> k_coordinates = {

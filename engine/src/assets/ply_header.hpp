@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, how many, and of what properties.
+// The header of a PLY file: the elements that follow, their counts and properties.
 // Format: Turk 1994, "The PLY Polygon File Format".
 #pragma once
 
@@ -31,7 +31,7 @@ enum class PlyType
     Float64
 };
 
-// What a property is to a mesh.
+// The use of a property in a mesh.
 enum class PlyRole
 {
     Skipped,
@@ -57,7 +57,7 @@ struct PlyElement
     std::vector<PlyProperty> properties;
 };
 
-// Has an element "vertex" with X, Y and Z and an element "face" with Corners, neither of them without entries.
+// Has an element "vertex" with X, Y and Z and an element "face" with Corners, both with entries.
 struct PlyHeader
 {
     PlyFormat format = PlyFormat::ascii;

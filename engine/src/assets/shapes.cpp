@@ -1,4 +1,4 @@
-// Simple meshes made by rule.
+// Simple procedural meshes.
 #include "voile/engine/assets/shapes.hpp"
 
 #include <glm/gtc/constants.hpp>
@@ -12,13 +12,13 @@ namespace voile::engine
 namespace
 {
 
-// The circle at `v` of the way from pole to pole of a sphere.
+// Adds the circle at fraction `v` from pole to pole of a sphere.
 void add_ring(Mesh& mesh, const glm::vec3& center, float radius, float v, uint32_t segments)
 {
     for (uint32_t segment = 0; segment <= segments; ++segment)
     {
         const float u = static_cast<float>(segment) / static_cast<float>(segments);
-        // The seam's two columns and the poles' vertices lie exactly on each other: the sphere is closed.
+        // The seam's two columns coincide exactly, and so do the vertices of a pole: the sphere is closed.
         const bool pole = v == 0 || v == 1;
         const float polar = v * glm::pi<float>();
         const float azimuth =
@@ -34,7 +34,7 @@ void add_ring(Mesh& mesh, const glm::vec3& center, float radius, float v, uint32
 enum class Ends
 {
     poles,    // both
-    pole_rim, // a pole at the first ring alone
+    pole_rim, // a pole at the first ring only
     rims
 };
 

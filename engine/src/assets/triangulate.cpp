@@ -15,7 +15,7 @@ namespace voile::engine
 namespace
 {
 
-// The mean normal of a polygon, as long as twice its area (Newell; Sutherland et al. 1974).
+// The mean normal of a polygon, its length twice the area (Newell; Sutherland et al. 1974).
 glm::dvec3 newell_normal(std::span<const glm::vec3> corners)
 {
     glm::dvec3 normal(0.);
@@ -29,7 +29,7 @@ glm::dvec3 newell_normal(std::span<const glm::vec3> corners)
     return normal;
 }
 
-// Seen along the axis in which the normal is longest, counter-clockwise.
+// Projects along the axis of the normal's largest component, counter-clockwise.
 std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
 {
     const glm::dvec3 normal = newell_normal(corners);
@@ -46,9 +46,9 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
     return flat;
 }
 
-// Cuts off, again and again, the ear with the shortest cut. An ear that has another corner in its way is not tested
-// again before that corner is cut off or the ear's own neighbors change, and a test searches a tree: so the time grows
-// little faster than the number of corners.
+// Cuts off the ear with the shortest cut until a triangle is left. An ear that contains another corner waits: it is
+// tested again when that corner has been cut off or the ear's own neighbors have changed. A test searches a tree. So
+// the time grows little faster than the number of corners.
 class EarClipper
 {
 public:
@@ -83,11 +83,11 @@ private:
 
     struct CornerState
     {
-        uint32_t before = 0; // its neighbors among those left
+        uint32_t before = 0; // its remaining neighbors
         uint32_t after = 0;
-        uint32_t changes = 0; // of its neighbors, so far
+        uint32_t changes = 0; // changes of its neighbors so far
         bool is_cut = false;
-        uint32_t waiting = k_none; // the last of waiting_ that waits for it
+        uint32_t waiting = k_none; // the last entry of waiting_ that waits for it
     };
 
     // A convex corner, valid as long as its neighbors do not change.
@@ -154,13 +154,13 @@ private:
             untested_.pop();
             if (!is_current(ear))
                 continue;
-            // By different seeds, or all ears would wait for the same corner, and all be tested again after it.
+            // Different seeds, so that not all ears wait for the same corner and are retested together.
             const auto in_its_way = tree_.find(flat_triangle(ear.corner), ear.corner);
             if (!in_its_way)
                 return ear.corner;
             wait(ear, *in_its_way);
         }
-        // It crosses itself, or has no area.
+        // The polygon crosses itself or has no area.
         while (!convex_.empty() && !is_current(convex_.top()))
             convex_.pop();
         return convex_.empty() ? first_left() : convex_.top().corner;
@@ -184,12 +184,12 @@ private:
     }
 
     std::span<const glm::dvec2> flat_;
-    CornerTree tree_; // of the corners left
+    CornerTree tree_; // the remaining corners
     std::vector<CornerState> corners_;
     Ears convex_;   // all
-    Ears untested_; // those of which no corner is known that is in their way
+    Ears untested_; // ears without a known blocking corner
     std::vector<Waiting> waiting_;
-    uint32_t left_; // corners that are not cut off
+    uint32_t left_; // remaining corners
     uint32_t first_left_ = 0;
 };
 

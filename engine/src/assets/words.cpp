@@ -53,7 +53,7 @@ std::string path_text(const std::filesystem::path& path, size_t most)
     if (text.size() <= most)
         return text;
     size_t begin = text.size() - most;
-    while (begin < text.size() && (static_cast<unsigned char>(text[begin]) & 0xc0u) == 0x80u) // within a character
+    while (begin < text.size() && (static_cast<unsigned char>(text[begin]) & 0xc0u) == 0x80u) // inside a character
         ++begin;
     return "..." + text.substr(begin);
 }

@@ -1,4 +1,4 @@
-// FrameBindings: the descriptor sets that the renderer's shaders read, one a frame slot, written once.
+// FrameBindings: the descriptor sets of the renderer's shaders, one per frame slot, written once.
 #pragma once
 
 #include "gpu/owned.hpp"
@@ -16,14 +16,14 @@ namespace voile::engine
 class FrameBindings
 {
 public:
-    // Binding 0: FrameUniforms of the slot; binding 1: `shadow_map` in DEPTH_STENCIL_READ_ONLY_OPTIMAL, compared with
-    // bilinear filtering. StartupError when they cannot be made.
+    // Binding 0: FrameUniforms of the slot. Binding 1: `shadow_map` in DEPTH_STENCIL_READ_ONLY_OPTIMAL, compared with
+    // bilinear filtering. StartupError if they cannot be made.
     FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map);
 
     // One set, and push constants of a DrawPush for vertex and fragment shaders.
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
 
-    // Writes the slot's uniforms (its previous use has completed) and binds its set.
+    // Writes the slot's uniforms and binds its set. The slot's previous use must have completed.
     void bind(VkCommandBuffer cmd, uint32_t slot, const shared::FrameUniforms& uniforms);
 
 private:

@@ -1,4 +1,4 @@
-// Building a graphics pipeline from the few things that differ between the renderer's.
+// Builds a graphics pipeline from the few settings that differ between the renderer's pipelines.
 #include "render/graphics_pipeline.hpp"
 
 #include "voile/engine/gpu/device.hpp"
@@ -59,7 +59,7 @@ struct VertexInput
     }
 };
 
-// The state that hangs together by pointers; lives while the pipeline is made.
+// The create infos that point to each other. Lives while the pipeline is made.
 struct FixedState
 {
     VkPipelineInputAssemblyStateCreateInfo assembly{};
@@ -81,7 +81,7 @@ struct FixedState
         viewport.scissorCount = 1;
         raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
         raster.polygonMode = VK_POLYGON_MODE_FILL;
-        raster.cullMode = VK_CULL_MODE_NONE; // cloth has two sides, and users' meshes may be open or inside out
+        raster.cullMode = VK_CULL_MODE_NONE; // cloth has two sides, and user meshes may be open or inside out
         raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1;
         raster.depthBiasEnable = description.depth_bias != 0 ? VK_TRUE : VK_FALSE;

@@ -10,7 +10,7 @@
 namespace voile::engine
 {
 
-// One vertex buffer that feeds one attribute; binding and location are its place in the list.
+// One vertex buffer that feeds one attribute. Binding and location are its index in the list.
 struct VertexStream
 {
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -30,7 +30,7 @@ struct GraphicsPipelineDescription
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
-    float depth_bias = 0; // constant factor; the slope's is half of it
+    float depth_bias = 0; // constant factor; the slope factor is half of it
 };
 
 // StartupError when the driver refuses.

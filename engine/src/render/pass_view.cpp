@@ -98,7 +98,7 @@ void PassView::draw_marks(VkCommandBuffer cmd, VkPipeline pipeline, const Marks&
     context_.fn.vkCmdPushConstants(cmd, pass_.layout, k_stages, 0, sizeof(push), &push);
     context_.fn.vkCmdBindVertexBuffers(cmd, 0, static_cast<uint32_t>(marks.buffers.size()), marks.buffers.data(),
                                        marks.offsets.data());
-    context_.fn.vkCmdDraw(cmd, 6, marks.count, 0, 0); // two triangles each
+    context_.fn.vkCmdDraw(cmd, 6, marks.count, 0, 0); // two triangles per mark
 }
 
 void PassView::draw(VkCommandBuffer cmd, const Lines& lines)

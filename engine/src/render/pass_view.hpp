@@ -1,4 +1,4 @@
-// PassView: what the renderer hands to components while one of its passes is recorded.
+// PassView: the View that components draw into while one of the renderer's passes is recorded.
 #pragma once
 
 #include "gpu/owned.hpp"
@@ -9,7 +9,7 @@
 namespace voile::engine
 {
 
-// The pipelines of lines and dots. Made when something is first drawn with them, which a normal run never does.
+// The pipelines of lines and dots. Created on first use, because a normal run draws none.
 class MarkPipelines
 {
 public:
@@ -41,7 +41,7 @@ public:
     {
         VkPipelineLayout layout = VK_NULL_HANDLE;
         VkPipeline surfaces = VK_NULL_HANDLE;
-        MarkPipelines* marks = nullptr; // null: the pass draws none
+        MarkPipelines* marks = nullptr; // null if the pass draws none
         VkExtent2D extent{};
     };
 
@@ -55,7 +55,7 @@ public:
     void draw(VkCommandBuffer cmd, const Dots& dots) override;
 
 private:
-    struct Marks; // what lines and dots have in common
+    struct Marks; // the common part of lines and dots
     void draw_marks(VkCommandBuffer cmd, VkPipeline pipeline, const Marks& marks);
     void bind(VkCommandBuffer cmd, VkPipeline pipeline);
 

@@ -35,7 +35,7 @@ constexpr VkAccessFlags2KHR k_color_access =
 struct Targets
 {
     Image color;   // resolved
-    Image samples; // what is drawn into
+    Image samples; // multisampled target
     Image depth;
 
     Targets() = default;
@@ -85,7 +85,7 @@ glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_rad
            glm::lookAtRH(camera.position, camera.target, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
 }
 
-// An orthographic view of the sphere around the scene's focus, deep enough for casters outside it.
+// An orthographic view of the sphere around the scene's focus. It is deep enough for casters outside the sphere.
 glm::mat4 shadow_matrix(const Scene& scene, const glm::vec3& to_sun)
 {
     const float r = scene.focus_radius;
@@ -211,7 +211,7 @@ void Renderer::State::record_shadow_map(VkCommandBuffer cmd, const Scene& scene,
                        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT_KHR});
 }
 
-// The previous frame's writes, and copies out of the picture, come first; its contents are not needed.
+// Waits for the previous frame's writes and for copies of the picture. The old contents are discarded.
 void Renderer::State::transition_targets(VkCommandBuffer cmd) const
 {
     for (const Image* image : {&targets.color, &targets.samples})
@@ -234,7 +234,7 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
     color.resolveImageView = targets.color.view();
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the sky covers what nothing else does
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the sky covers the rest
     color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     const VkRenderingAttachmentInfoKHR depth = depth_attachment(targets.depth.view(), VK_ATTACHMENT_STORE_OP_DONT_CARE);
     VkRenderingInfoKHR rendering{};

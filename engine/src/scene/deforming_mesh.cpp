@@ -1,4 +1,4 @@
-// DeformingMesh: vertex streams in a buffer a slot, written by the host.
+// DeformingMesh: vertex streams written by the host, one buffer per slot.
 #include "voile/engine/scene/deforming_mesh.hpp"
 
 #include "voile/engine/assets/normals.hpp"

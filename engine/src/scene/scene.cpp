@@ -1,4 +1,4 @@
-// Scene: calls the hooks of all components, in the order in which they were added.
+// Scene: calls the hooks of all components, in the order of their creation.
 #include "voile/engine/scene/scene.hpp"
 
 namespace voile::engine

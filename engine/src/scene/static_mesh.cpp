@@ -1,4 +1,4 @@
-// StaticMesh: vertex streams on the device, in the layout that Drawable asks for.
+// StaticMesh: vertex streams on the device, in the layout of Drawable.
 #include "voile/engine/scene/static_mesh.hpp"
 
 namespace voile::engine

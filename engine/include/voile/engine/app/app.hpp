@@ -1,4 +1,4 @@
-// App: device, scene, renderer and, with a display, a window; and the frame loop that ties them together.
+// App: owns device, scene, renderer and, with a display, a window, and runs the frame loop.
 #pragma once
 
 #include "voile/engine/app/window.hpp"
@@ -24,7 +24,7 @@ struct AppOptions
     bool fixed_extent = false; // pictures keep their extent when the window is resized, and are scaled into it
     DeviceOptions device{};
     uint32_t slots = 2;         // frames in flight
-    float time_step = 1.f / 60; // s a frame
+    float time_step = 1.f / 60; // s per frame
     bool timestamps = false;    // time the passes on the GPU
 };
 
@@ -43,17 +43,17 @@ public:
     [[nodiscard]] uint32_t slots() const { return frames_.slots(); }
     [[nodiscard]] gpu::Timestamps* timestamps() { return timestamps_ ? &*timestamps_ : nullptr; }
 
-    // For components that are being built: recorded at the start of the next frame.
+    // Collects uploads of components under construction. Recorded at the start of the next frame.
     [[nodiscard]] UploadBatch& uploads();
 
     // Called after the scene has been drawn, outside rendering: for copies out of the frame.
     std::function<void(VkCommandBuffer, const FrameInfo&)> after_render;
-    // Called once a frame's work on the GPU has completed, before its slot is used again.
+    // Called when the GPU has completed a frame, before its slot is used again.
     std::function<void(const FrameInfo&)> completed;
 
-    // Records and submits one frame: uploads, compute, shadow and scene passes, all in one command buffer. False when
-    // the user has closed the window; the frame is then not run. A minimized window waits without simulating. In a
-    // window a frame begins no sooner than its time step after the last one, so that fast displays show real time.
+    // Records and submits one frame: uploads, compute, shadow and scene passes, all in one command buffer. Returns
+    // false when the user has closed the window; that frame is not run. A minimized window waits without simulating. In
+    // a window a frame begins no sooner than one time step after the last one, so that fast displays show real time.
     bool frame();
 
     // Waits for all frames in flight and calls `completed` for each.
@@ -63,7 +63,7 @@ public:
     void run(uint64_t headless_frames);
 
     [[nodiscard]] float time_step() const { return time_step_; }                      // s
-    [[nodiscard]] double record_milliseconds() const { return record_milliseconds_; } // of the host, for the last frame
+    [[nodiscard]] double record_milliseconds() const { return record_milliseconds_; } // host time of the last frame
 
 private:
     void complete(uint32_t slot);
@@ -77,14 +77,15 @@ private:
     std::optional<gpu::Timestamps> timestamps_;
     Renderer renderer_;
     std::unique_ptr<UploadBatch> uploads_;
-    std::vector<std::unique_ptr<UploadBatch>> uploads_in_flight_; // one a slot
-    std::vector<std::optional<FrameInfo>> in_flight_;             // one a slot
-    Scene scene_;                                                 // last: components go before what they borrow
+    std::vector<std::unique_ptr<UploadBatch>> uploads_in_flight_; // one per slot
+    std::vector<std::optional<FrameInfo>> in_flight_;             // one per slot
+    Scene scene_;                                                 // last: components are destroyed before what they
+                                                                  // borrow
     float time_step_;
     bool fixed_extent_;
     uint64_t next_index_ = 0;
     double record_milliseconds_ = 0;
-    std::chrono::steady_clock::time_point next_frame_; // when it is due, in a window
+    std::chrono::steady_clock::time_point next_frame_; // when the next frame is due, in a window
 };
 
 } // namespace voile::engine

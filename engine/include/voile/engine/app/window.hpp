@@ -1,4 +1,4 @@
-// Window: a GLFW window with its swapchain. Survives resizing and minimising.
+// Window: a GLFW window with its swapchain. Survives resizing and minimizing.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -13,10 +13,10 @@ struct GLFWwindow;
 namespace voile::engine
 {
 
-// True where a window can be opened (a display is there).
+// Returns true if a display is available.
 bool display_available();
 
-// What the instance needs for windows.
+// The instance extensions that windows need.
 std::vector<const char*> window_instance_extensions();
 
 class Window
@@ -27,12 +27,12 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Makes surface and swapchain; `slots` frames are in flight.
+    // Creates surface and swapchain; `slots` frames are in flight.
     void attach(const Device& device, uint32_t slots);
-    // Destroys them; the device must be idle and still alive.
+    // Destroys surface and swapchain. The device must be idle and still alive.
     void detach();
 
-    // Polls events. False once the user has closed the window.
+    // Polls events. Returns false once the user has closed the window.
     bool poll();
     [[nodiscard]] bool minimized() const;
     [[nodiscard]] VkExtent2D framebuffer_extent() const;
@@ -46,14 +46,15 @@ public:
         uint32_t index = 0;
     };
 
-    // The next image of the swapchain; none when it has to be made anew first (the caller skips this frame).
+    // Acquires the next image of the swapchain. Returns none if the swapchain must be recreated first; the caller skips
+    // this frame.
     std::optional<Target> acquire(uint32_t slot);
 
     // Records a blit of `source` (TRANSFER_SRC_OPTIMAL) onto the target and its transition for presentation.
     void record_blit(VkCommandBuffer cmd, const Image& source, const Target& target) const;
     void present(const Target& target);
 
-    // Drags of the left button (pixels) and the wheel's turns since the last call.
+    // Drags of the left button (pixels) and turns of the wheel since the last call.
     struct Input
     {
         double drag_x = 0;
@@ -72,8 +73,8 @@ private:
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};
     std::vector<VkImage> images_;
-    std::vector<VkSemaphore> acquired_; // one a slot
-    std::vector<VkSemaphore> rendered_; // one an image: presentation holds it until that image comes back
+    std::vector<VkSemaphore> acquired_; // one per slot
+    std::vector<VkSemaphore> rendered_; // one per image: presentation holds it until that image is acquired again
     Input input_;
     double cursor_x_ = 0;
     double cursor_y_ = 0;

@@ -1,5 +1,5 @@
-// A file that appears under its name only when it is complete: it is written beside it and renamed at the end. A signal
-// that ends the program removes what is unfinished (cleanup.hpp).
+// A file that appears under its name only when it is complete. It is written next to its name and renamed at the end.
+// If a signal ends the program, the unfinished file is removed (cleanup.hpp).
 #pragma once
 
 #include "voile/engine/assets/cleanup.hpp"
@@ -14,12 +14,12 @@
 namespace voile::engine
 {
 
-// The name that a file is written under until it is complete: in the same folder, so that the renaming is atomic. What
-// has that name is removed with the object.
+// The temporary name of a file until it is complete, in the same folder, so that the rename is atomic. The destructor
+// removes a file of that name.
 class TemporaryFile
 {
 public:
-    TemporaryFile() = default; // without a name
+    TemporaryFile() = default; // no name
     explicit TemporaryFile(const std::filesystem::path& target);
     ~TemporaryFile() { remove(); }
     TemporaryFile(TemporaryFile&& other) noexcept;
@@ -29,7 +29,7 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     void remove() noexcept;
-    // Gives it the target's name; what had that name before is replaced. Errors name the target.
+    // Renames the file to `target` and replaces an existing file. Errors name the target.
     gpu::Result<void> complete(const std::filesystem::path& target);
 
 private:
@@ -37,13 +37,13 @@ private:
     std::unique_ptr<Cleanup> cleanup_;
 };
 
-// A symbolic link is followed, so that the file it points to is replaced and not the link. Errors name the path.
+// Follows symbolic links, so that the file that a link points to is replaced and not the link. Errors name the path.
 gpu::Result<std::filesystem::path> resolve_target(const std::filesystem::path& path);
 
 class AtomicFile
 {
 public:
-    // Errors name the file and the system's reason. What is no regular file (/dev/stdout) is written directly.
+    // Errors name the file and the system's reason. A special file (/dev/stdout) is written directly.
     static gpu::Result<AtomicFile> create(const std::filesystem::path& path);
 
     ~AtomicFile(); // without commit(), nothing is left behind
@@ -52,12 +52,12 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // Writing after a failure does nothing; commit() reports the first one.
+    // Writing after a failure does nothing. commit() reports the first failure.
     void write(const void* data, size_t size);
     void write(std::string_view text) { write(text.data(), text.size()); }
     void seek(long offset);
 
-    // False once something could not be written.
+    // False once a write has failed.
     [[nodiscard]] bool good() const { return failure_ == 0; }
 
     gpu::Result<void> commit();
@@ -66,9 +66,9 @@ private:
     AtomicFile() = default;
     void discard() noexcept;
 
-    std::filesystem::path path_;   // as it was asked for, for messages
+    std::filesystem::path path_;   // as the caller gave it, for messages
     std::filesystem::path target_; // links followed
-    TemporaryFile temporary_;      // without a name: written directly
+    TemporaryFile temporary_;      // no name if the target is written directly
     std::FILE* file_ = nullptr;
     int failure_ = 0; // errno of the first failure
 };

@@ -1,4 +1,4 @@
-// What must not stay behind when a signal ends the program: unfinished files, processes that it started.
+// Cleanup actions for signals that end the program: they remove unfinished files and stop child processes.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,11 @@
 namespace voile::engine
 {
 
-// Registers an action for as long as it lives.
+// Registers an action for its lifetime.
 class Cleanup
 {
 public:
-    // The action runs in another thread, while the others still run. It may unlink and kill, and must not touch memory
+    // The action runs in another thread while the others still run. It may unlink and kill. It must not touch memory
     // that another thread writes.
     explicit Cleanup(std::function<void()> action);
     ~Cleanup();
@@ -22,8 +22,8 @@ private:
     std::list<std::function<void()>>::iterator entry_;
 };
 
-// Runs all actions, the latest first. From then on no Cleanup can be made or destroyed: the thread that tries waits for
-// the program's end. Call it right before that.
+// Runs all actions, the latest first. Afterwards no Cleanup can be made or destroyed: a thread that tries blocks until
+// the program ends. Call this right before the end.
 void run_cleanups();
 
 } // namespace voile::engine

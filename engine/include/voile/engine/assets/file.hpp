@@ -1,4 +1,4 @@
-// Whole files in and out, with the system's reason when it does not work.
+// Reads and writes whole files. Errors carry the system's reason.
 #pragma once
 
 #include "voile/gpu/result.hpp"
@@ -13,11 +13,11 @@ namespace voile::engine
 
 constexpr uint64_t k_largest_file = uint64_t{4} << 30; // bytes
 
-// Regular files alone: a pipe or a device may have no end. Errors: "PATH: cannot read: REASON", the reason in the words
-// of the system ("Is a directory"), "not a regular file" or "larger than N MiB".
+// Reads regular files only: a pipe or a device may have no end. Errors: "PATH: cannot read: REASON", the reason in the
+// words of the system ("Is a directory"), "not a regular file" or "larger than N MiB".
 gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes = k_largest_file);
 
-// As AtomicFile does: nobody ever sees half a file. The folder must exist.
+// Writes like AtomicFile: nobody sees half a file. The folder must exist.
 gpu::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace voile::engine

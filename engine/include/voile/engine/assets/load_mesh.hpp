@@ -1,4 +1,4 @@
-// Reading a mesh in any of the formats known.
+// Loads a mesh of any known format.
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
@@ -9,8 +9,8 @@
 namespace voile::engine
 {
 
-// Goes by the extension, in capitals or not: .obj as load_obj does, .ply as load_ply does. Errors: theirs, or another
-// extension.
+// Selects the format by the extension, in either case: .obj (load_obj) or .ply (load_ply). Errors: those of the loader,
+// or an unknown extension.
 gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
                             MeshVertices vertices = MeshVertices::corners);
 

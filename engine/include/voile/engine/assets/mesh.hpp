@@ -12,19 +12,19 @@ namespace voile::engine
 struct Mesh
 {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;             // one a position, unit length
-    std::vector<glm::vec2> texture_coordinates; // one a position; all zero when the file has none
+    std::vector<glm::vec3> normals;             // one per position, unit length
+    std::vector<glm::vec2> texture_coordinates; // one per position; all zero when the file has none
     std::vector<glm::uvec3> triangles;          // indices into positions, counter-clockwise seen from outside
 };
 
-// What becomes a vertex of a mesh that is loaded.
+// How the vertices of a loaded mesh are formed.
 enum class MeshVertices
 {
-    corners,   // each combination of position, texture coordinate and normal in use: for drawing
-    positions, // each position of the file, used or not, in its order: for what must hang together, as cloth does.
-               // Normals are computed; of several texture coordinates the first counts
-    faces, // as positions, and no triangle depends on where they are: polygons are cut from their first corner, none
-           // is dropped. No normals, no texture coordinates. For meshes that must have the faces of another
+    corners,   // one per combination of position, texture coordinate and normal in use: for drawing
+    positions, // one per position of the file, used or not, in file order: for connected meshes such as cloth. Normals
+               // are computed. A position with several texture coordinates keeps the first
+    faces, // like positions, and the triangulation does not depend on the positions: polygons are cut from their first
+           // corner, none is dropped. No normals, no texture coordinates. For meshes that share the faces of another
 };
 
 struct Bounds
@@ -35,13 +35,13 @@ struct Bounds
 
 Bounds bounds(const Mesh& mesh); // zero for a mesh without positions
 
-// What loading changed, for a reader who wonders why counts differ.
+// What loading changed. Explains counts that differ from the file.
 struct MeshReport
 {
     uint32_t polygons_triangulated = 0; // faces with more than three corners
-    uint32_t degenerate_triangles = 0;  // dropped: no height above 2^-22 of the mesh's largest coordinate
-    uint32_t duplicate_triangles = 0;   // dropped: the same three points as an earlier one, whichever way round
-    bool normals_computed = false;      // the file had none (or not for every corner)
+    uint32_t degenerate_triangles = 0;  // dropped: height at most 2^-22 of the mesh's largest coordinate
+    uint32_t duplicate_triangles = 0;   // dropped: same three points as an earlier one, in either winding
+    bool normals_computed = false;      // the file had none, or not for every corner
 };
 
 } // namespace voile::engine

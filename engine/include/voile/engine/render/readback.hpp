@@ -1,4 +1,4 @@
-// Readback: copies finished pictures into host memory, one buffer a frame slot, without a stall.
+// Readback: copies finished pictures into host memory, one buffer per frame slot, without a stall.
 #pragma once
 
 #include "voile/engine/assets/image_file.hpp"
@@ -21,7 +21,7 @@ public:
     // `image` must be in TRANSFER_SRC_OPTIMAL with its writes available to copies, as Renderer::record leaves it.
     void record(VkCommandBuffer cmd, const Image& image, uint32_t slot) const;
 
-    // The picture of `slot`; its submission must have completed.
+    // The picture of `slot`. Its submission must have completed.
     [[nodiscard]] Picture picture(uint32_t slot) const;
 
 private:

@@ -1,5 +1,5 @@
-// Renderer: draws a scene into an image. Sun shadow map, then one shaded pass with 4x MSAA, tone mapped as it is
-// shaded.
+// Renderer: draws a scene into an image. A sun shadow map, then one shaded pass with 4x MSAA. Tone mapping is part of
+// shading.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] const Image& color() const;
     [[nodiscard]] VkExtent2D extent() const;
 
-    // New targets for another size. The device must be idle.
+    // Recreates the targets in another size. The device must be idle.
     void resize(VkExtent2D extent);
 
 private:

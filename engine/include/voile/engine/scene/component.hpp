@@ -1,4 +1,4 @@
-// The component interface: three hooks, called by the frame loop in this order for every component of a scene.
+// The component interface: three hooks. The frame loop calls them in this order for every component of a scene.
 #pragma once
 
 #include "voile/gpu/recorder.hpp"
@@ -8,13 +8,13 @@
 namespace voile::engine
 {
 
-// What a frame is, for everyone who takes part in it. The time step is fixed: nothing here reads a clock.
+// The data of a frame for all components. The time step is fixed: no component reads a clock.
 struct FrameInfo
 {
     uint64_t index = 0;                    // frames since the start
     double time = 0;                       // s, at the start of this frame: index * time_step
     float time_step = 1.f / 60;            // s
-    uint32_t slot = 0;                     // which of the frames in flight, 0..slots-1; its previous use has completed
+    uint32_t slot = 0;                     // index of the frame in flight, 0..slots-1; its previous use has completed
     gpu::Timestamps* timestamps = nullptr; // null when passes are not timed
 };
 
@@ -47,12 +47,12 @@ inline Surface ground_surface()
     return surface;
 }
 
-// A triangle list drawn from separate vertex streams. Normals may come straight from a compute shader.
+// A triangle list drawn from separate vertex streams. A compute shader may write the normals.
 struct Drawable
 {
-    VkBuffer positions = VK_NULL_HANDLE;           // 16 bytes a vertex: x y z and a float that drawing ignores; m
-    VkBuffer normals = VK_NULL_HANDLE;             // 16 bytes a vertex: unit normal and padding
-    VkBuffer texture_coordinates = VK_NULL_HANDLE; // 8 bytes a vertex
+    VkBuffer positions = VK_NULL_HANDLE;           // 16 bytes per vertex: x y z (m) and an ignored float
+    VkBuffer normals = VK_NULL_HANDLE;             // 16 bytes per vertex: unit normal and padding
+    VkBuffer texture_coordinates = VK_NULL_HANDLE; // 8 bytes per vertex
     VkBuffer indices = VK_NULL_HANDLE;             // uint32
     VkDeviceSize position_offset = 0;              // bytes
     VkDeviceSize normal_offset = 0;                // bytes
@@ -64,11 +64,11 @@ struct Drawable
     const char* label = "mesh"; // shown in captures; a literal or a string that outlives the frame
 };
 
-// Straight lines that show what is no surface, over surfaces that they lie on. Only cameras draw them.
+// Straight lines, drawn over surfaces that they lie on. Used for debug drawing. Only camera views draw them.
 struct Lines
 {
-    VkBuffer from = VK_NULL_HANDLE; // 16 bytes a line: x y z (m) and a float that is ignored
-    VkBuffer to = VK_NULL_HANDLE;   // likewise the other end; with a length, the unit vector to it
+    VkBuffer from = VK_NULL_HANDLE; // 16 bytes per line: x y z (m) and an ignored float
+    VkBuffer to = VK_NULL_HANDLE;   // the other end, same layout; if `length` is set, the unit vector to it
     VkDeviceSize from_offset = 0;   // bytes
     VkDeviceSize to_offset = 0;     // bytes
     uint32_t count = 0;
@@ -79,23 +79,23 @@ struct Lines
     const char* label = "lines";
 };
 
-// Round dots, likewise.
+// Round dots. Only camera views draw them.
 struct Dots
 {
-    VkBuffer positions = VK_NULL_HANDLE; // 16 bytes a dot: x y z (m) and a float that is ignored
-    VkBuffer flags = VK_NULL_HANDLE;     // 16 bytes a dot; the last float is a sum of bits
+    VkBuffer positions = VK_NULL_HANDLE; // 16 bytes per dot: x y z (m) and an ignored float
+    VkBuffer flags = VK_NULL_HANDLE;     // 16 bytes per dot; the last float is a sum of bits
     VkDeviceSize position_offset = 0;    // bytes
     VkDeviceSize flag_offset = 0;        // bytes
     uint32_t count = 0;
-    uint32_t mask = 0; // shows those that have one of these bits; 0: all
+    uint32_t mask = 0; // draws the dots that have one of these bits; 0: all
     float size = 6;    // pixels
     glm::vec3 color{1.f};
     glm::mat4 model{1.f}; // world from model
     const char* label = "dots";
 };
 
-// One view of the scene being drawn: a shadow map's or the camera's. Implemented by the renderer, which owns
-// the pipelines; components say what to draw and never which pipeline draws it.
+// One view of the scene being drawn: the shadow map's or the camera's. The renderer implements it and owns the
+// pipelines. Components choose what to draw, never the pipeline.
 class View
 {
 public:
@@ -119,7 +119,7 @@ private:
     glm::mat4 clip_from_world_;
 };
 
-// Built from what it needs, cleaned up by its destructor.
+// The constructor acquires resources, the destructor releases them.
 class Component
 {
 public:
@@ -128,11 +128,11 @@ public:
     // Host work of the frame, before anything is recorded.
     virtual void update(const FrameInfo& /*frame*/) {}
 
-    // Records compute and transfer commands, outside rendering. What it writes must be visible to vertex input
-    // when it returns.
+    // Records compute and transfer commands, outside rendering. Its writes must be visible to vertex input when it
+    // returns.
     virtual void record_compute(VkCommandBuffer /*cmd*/, const FrameInfo& /*frame*/) {}
 
-    // Records draws, inside rendering; called once a view.
+    // Records draws, inside rendering. Called once per view.
     virtual void record_draw(VkCommandBuffer /*cmd*/, View& /*view*/) {}
 };
 

@@ -1,4 +1,4 @@
-// DrawnMesh: what the components that draw a mesh share. Where its vertices are is up to StaticMesh and DeformingMesh.
+// DrawnMesh: the common part of StaticMesh and DeformingMesh, which hold the vertices.
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
@@ -26,7 +26,7 @@ private:
 class DrawnMesh : public Component
 {
 public:
-    // Moves it, from the next frame that is recorded on.
+    // Sets the transform from the next recorded frame on.
     void set_model(const glm::mat4& world_from_model) { drawable_.model = world_from_model; }
 
     void record_draw(VkCommandBuffer cmd, View& view) override;

@@ -19,8 +19,8 @@ struct Camera
 
 struct Sun
 {
-    glm::vec3 direction{-0.55f, -0.75f, -0.3f}; // the way its light travels; need not be unit length
-    glm::vec3 irradiance{4.4f, 4.0f, 3.4f};     // linear; of a surface that faces it
+    glm::vec3 direction{-0.55f, -0.75f, -0.3f}; // direction of the light's travel; need not be unit length
+    glm::vec3 irradiance{4.4f, 4.0f, 3.4f};     // linear; of a surface that faces the sun
 };
 
 class Entity
@@ -30,7 +30,7 @@ public:
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    // Builds a component in place and returns it; the entity owns it.
+    // Builds a component in place and returns it. The entity owns it.
     template <typename T, typename... Arguments>
     T& add(Arguments&&... arguments)
     {
@@ -52,7 +52,7 @@ class Scene
 public:
     Camera camera;
     Sun sun;
-    // What the shadow map must cover and the ground fades around; m.
+    // Center of the area that the shadow map must cover and that the ground fades around; m.
     glm::vec3 focus{0, 1, 0};
     float focus_radius = 3;
 

@@ -8,11 +8,11 @@
 namespace voile::engine
 {
 
-// A mesh in device buffers, which any number of components may draw.
+// A mesh in device buffers. Any number of components may draw it.
 class MeshBuffers
 {
 public:
-    // Copies the mesh through `uploads`. StartupError when a buffer cannot be made.
+    // Copies the mesh through `uploads`. StartupError if a buffer cannot be made.
     MeshBuffers(UploadBatch& uploads, const Mesh& mesh);
     void attach(Drawable& drawable) const;
 
@@ -27,7 +27,7 @@ class StaticMesh : public DrawnMesh
 public:
     StaticMesh(std::shared_ptr<const MeshBuffers> buffers, const Surface& surface, std::string label = "mesh",
                const glm::mat4& model = glm::mat4(1.f));
-    // With buffers of its own.
+    // Owns its buffers.
     StaticMesh(UploadBatch& uploads, const Mesh& mesh, const Surface& surface, std::string label = "mesh",
                const glm::mat4& model = glm::mat4(1.f));
 
