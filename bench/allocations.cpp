@@ -1,4 +1,4 @@
-// operator new and delete, counted. The array and nothrow forms call these.
+// Replaces operator new and delete and counts the calls. The array and nothrow forms call these.
 #include "allocations.hpp"
 
 #include <cstdlib>

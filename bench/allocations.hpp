@@ -1,4 +1,4 @@
-// A count of heap allocations: operator new is replaced in this program.
+// Counts heap allocations. Replaces operator new in this program.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace bench
 {
 
-// How often the calling thread has called operator new so far. The driver's own calls of malloc are not counted.
+// The calls of operator new by the calling thread so far. The driver's own calls of malloc are not counted.
 uint64_t allocations();
 
 } // namespace bench

@@ -1,4 +1,4 @@
-// Cases: the reference scene, sheets of the drape scene's fabric, and many cloths against one.
+// Cases: the reference scene, sheets of the drape scene's fabric, and a hundred cloths beside one of the same size.
 #include "cases.hpp"
 
 #include "heart.hpp"
@@ -59,7 +59,7 @@ Cloths add_reference_scene(voile::Solver& solver)
     return add_reference_cloth<128>(solver);
 }
 
-// A 10 x 10 field, a spacing apart.
+// A field of 10 x 10 cloths, a spacing apart.
 Cloths add_hundred_cloths(voile::Solver& solver)
 {
     constexpr uint32_t k_along = 10;
@@ -90,27 +90,27 @@ Cloths add_verlet_sheet(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(grid))};
 }
 
-// The sheet as a mesh of triangles, cut as the solver cuts a grid.
+// The sheet as a triangle mesh, with the diagonals of the solver's grids.
 voile::ClothId add_mesh_sheet(voile::Solver& solver, bool shuffled, voile::BendingModel bending)
 {
     constexpr uint32_t k_side = 128;
     const voile::GridCloth grid = drape_grid(k_side);
-    std::vector<uint32_t> place(size_t{k_side} * k_side);
-    std::iota(place.begin(), place.end(), 0u);
-    if (shuffled) // as a file may have its vertices in any order
-        std::shuffle(place.begin(), place.end(), std::mt19937(1));
-    std::vector<glm::vec3> positions(place.size());
+    std::vector<uint32_t> order(size_t{k_side} * k_side);
+    std::iota(order.begin(), order.end(), 0u);
+    if (shuffled) // files may have their vertices in any order
+        std::shuffle(order.begin(), order.end(), std::mt19937(1));
+    std::vector<glm::vec3> positions(order.size());
     std::vector<glm::uvec3> triangles;
     for (uint32_t row = 0; row < k_side; ++row)
         for (uint32_t column = 0; column < k_side; ++column)
         {
             const uint32_t corner = row * k_side + column;
             const auto along = [&](uint32_t i) { return grid.width * (static_cast<float>(i) / (k_side - 1) - 0.5f); };
-            positions[place[corner]] = {along(column), 0.85f, along(row)};
+            positions[order[corner]] = {along(column), 0.85f, along(row)};
             if (row + 1 == k_side || column + 1 == k_side)
                 continue;
-            triangles.emplace_back(place[corner], place[corner + k_side], place[corner + 1]);
-            triangles.emplace_back(place[corner + 1], place[corner + k_side], place[corner + k_side + 1]);
+            triangles.emplace_back(order[corner], order[corner + k_side], order[corner + 1]);
+            triangles.emplace_back(order[corner + 1], order[corner + k_side], order[corner + k_side + 1]);
         }
     voile::MeshCloth mesh;
     mesh.positions = positions;
@@ -128,7 +128,7 @@ Cloths add_mesh_sheet(voile::Solver& solver)
         add_mesh_sheet(solver, shuffled, isometric ? voile::BendingModel::isometric : voile::BendingModel::springs)};
 }
 
-// The sheet of 128 x 128 with one thing more, to see what that costs.
+// The sheet of 128 x 128 with one additional feature, to measure the feature's cost.
 template <void (*change)(voile::Fabric&)>
 Cloths add_changed_sheet(voile::Solver& solver)
 {
@@ -161,10 +161,10 @@ Cloths add_icosphere(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
-// As a scan is: no triangle lies in its neighbor's plane.
+// Rough like a scan: no triangle lies in its neighbor's plane.
 Cloths add_rough_sphere(voile::Solver& solver)
 {
-    constexpr float k_roughness = 0.004f; // m, either way; edges are 15 mm long
+    constexpr float k_roughness = 0.004f; // m, in both directions; edges are 15 mm long
     voile::engine::Mesh mesh = case_icosphere(6);
     std::mt19937 random(1);
     for (glm::vec3& p : mesh.positions)
@@ -173,7 +173,7 @@ Cloths add_rough_sphere(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
-// A sheet eight times as thick as the triangles are long.
+// A sheet eight times as thick as the triangles' edges are long.
 Cloths add_thick_sheet(voile::Solver& solver)
 {
     add_mesh(solver, "icosphere", case_icosphere(8));
@@ -182,14 +182,14 @@ Cloths add_thick_sheet(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(grid))};
 }
 
-// And on a box, over whose edges it hangs.
+// The sheet on a box, hanging over its edges.
 Cloths add_box(voile::Solver& solver)
 {
     add_mesh(solver, "box", voile::engine::make_box({-0.6f, -1.2f, -0.6f}, {0.6f, 0.8f, 0.6f}));
     return {voile::engine::take(solver.add_cloth(drape_grid(128)))};
 }
 
-// Held by its first row, which moves; all other vertices tethered to it, or on a leash.
+// The first row is pinned and moves. All other vertices have a tether to it, or a max-distance constraint.
 template <bool tethers>
 Cloths add_held_sheet(voile::Solver& solver)
 {
@@ -232,7 +232,7 @@ constexpr Case k_cases[] = {
     {"reference-free", "the reference cloth, 128 x 128, falls freely", add_reference_cloth<128>},
     {"reference-contact", "the reference scene at 0.7 s: heart and ground, nearest point", add_reference_scene,
      k_nearest, k_contact_frames, true},
-    {"reference-contact-normal-ray", "the same with rays along the vertex normals", add_reference_scene, k_ray,
+    {"reference-contact-normal-ray", "contact by rays along the vertex normals", add_reference_scene, k_ray,
      k_contact_frames, true},
     {"reference-draped", "the reference scene at 2.5 s: on the heart and on the ground, nearest point",
      add_reference_scene, k_nearest, k_draped_frames, true},
@@ -240,23 +240,23 @@ constexpr Case k_cases[] = {
     {"grid-256", "256 x 256", add_drape_sheet<256>},
     {"grid-512", "512 x 512", add_drape_sheet<512>},
     {"grid-1024", "1024 x 1024", add_drape_sheet<1024>},
-    {"grid-128", "128 x 128; the following have one thing more", add_drape_sheet<128>},
-    {"verlet-128", "velocity Verlet in place of RK4", add_verlet_sheet, k_nearest, 0, false, k_interleaved, 0, 0, true},
-    {"isometric-128", "bending by the isometric model in place of springs", add_changed_sheet<bend_isometrically>},
+    {"grid-128", "128 x 128; the next cases add one feature each", add_drape_sheet<128>},
+    {"verlet-128", "velocity Verlet instead of RK4", add_verlet_sheet, k_nearest, 0, false, k_interleaved, 0, 0, true},
+    {"isometric-128", "isometric bending instead of springs", add_changed_sheet<bend_isometrically>},
     {"air-128", "air drag", add_changed_sheet<feel_air>},
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,
      0.3f},
     {"strain-limit-128", "a strain limit of 5 %, once a frame", add_changed_sheet<limit_strain>},
-    {"tethers-128", "a row of pins, and a tether to it for every other vertex", add_held_sheet<true>},
-    {"leashes-128", "a row of pins, and a leash for every other vertex", add_held_sheet<false>},
+    {"tethers-128", "a row of pins, a tether for every other vertex", add_held_sheet<true>},
+    {"max-distance-128", "a row of pins, a max-distance constraint for every other vertex", add_held_sheet<false>},
     {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
-    {"mesh-128-compact", "its lists one after the other", add_mesh_sheet<false, false>, k_nearest, 0, false,
+    {"mesh-128-compact", "its lists of springs not interleaved", add_mesh_sheet<false, false>, k_nearest, 0, false,
      voile::MeshLayout::compact, 0, 0, false, 12},
     {"mesh-128-shuffled", "its vertices in random order", add_mesh_sheet<true, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
-    {"mesh-128-isometric", "bending by the isometric model", add_mesh_sheet<false, true>, k_nearest, 0, false,
-     k_interleaved, 0, 0, false, 18},
+    {"mesh-128-isometric", "isometric bending", add_mesh_sheet<false, true>, k_nearest, 0, false, k_interleaved, 0, 0,
+     false, 18},
     {"icosphere-1280", "the sheet of 128 x 128 after 1.5 s on a sphere of 1,280 triangles", add_icosphere<3>, k_nearest,
      k_sphere_frames, true, k_interleaved, 0, 0, false, 0, 3},
     {"icosphere-20480", "of 20,480", add_icosphere<5>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0, false, 0,
@@ -265,9 +265,9 @@ constexpr Case k_cases[] = {
      0, 7},
     {"icosphere-1310720", "of 1,310,720", add_icosphere<8>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0,
      false, 0, 8},
-    {"box", "on a box of 12 triangles, whose edges are tested too", add_box, k_nearest, k_sphere_frames, true},
-    {"rough-sphere", "on a sphere of 81,920 triangles with a roughness of 4 mm, whose edges are tested too",
-     add_rough_sphere, k_nearest, k_sphere_frames, true},
+    {"box", "on a box of 12 triangles, with feature contact", add_box, k_nearest, k_sphere_frames, true},
+    {"rough-sphere", "on a sphere of 81,920 triangles with a roughness of 4 mm, with feature contact", add_rough_sphere,
+     k_nearest, k_sphere_frames, true},
     {"thick-sheet", "30 mm thick on a sphere of 1,310,720 triangles of 4 mm", add_thick_sheet, k_nearest,
      k_sphere_frames, true},
     {"capsules-1", "the drape scene's sheet falls freely, 20 m from a capsule", add_far_capsules<1>},

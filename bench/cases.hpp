@@ -1,4 +1,4 @@
-// The benchmark's cases: what is put into a solver, and how far it runs before it is measured.
+// The benchmark's cases: the contents of a solver, and how far it runs before the measurement.
 #pragma once
 
 #include "voile/solver.hpp"
@@ -17,20 +17,20 @@ struct Case
 {
     const char* name = nullptr;
     const char* purpose = nullptr; // one line
-    // Adds everything; the cloths added. StartupError with the solver's message.
+    // Adds everything and returns the added cloths. StartupError with the solver's message.
     std::vector<voile::ClothId> (*build)(voile::Solver& solver) = nullptr;
     voile::ContactMethod method = voile::ContactMethod::nearest_point;
-    uint32_t frames_before = 0; // of 1/60 s, simulated before anything is measured
-    bool in_contact = false;    // vertices must touch a collider then, or the case measures something else
+    uint32_t frames_before = 0; // frames of 1/60 s, simulated before the measurement
+    bool in_contact = false;    // vertices must touch a collider then; the case is an error otherwise
     voile::MeshLayout layout = voile::MeshLayout::interleaved;
     float wind = 0; // m/s along x
-    float gust = 0; // of the wind
+    float gust = 0; // strength of the gusts, a fraction of the wind
     bool verlet = false;
     uint32_t lists = 0;                  // entries of a mesh vertex's list of springs
-    std::optional<uint32_t> icosphere{}; // subdivisions of the one that the drape scene's sheet lies on
+    std::optional<uint32_t> icosphere{}; // subdivisions of the icosphere below the drape scene's sheet
 };
 
-// That sphere, of radius 0.8 m.
+// The icosphere of a case, radius 0.8 m.
 voile::engine::Mesh case_icosphere(uint32_t subdivisions);
 
 std::span<const Case> cases();
@@ -38,7 +38,7 @@ std::span<const Case> cases();
 // The drape scene's cloth (samples/scenes/drape.json): 2.4 m square, side x side vertices, no air.
 voile::GridCloth drape_grid(uint32_t side);
 
-// Null if there is none of that name.
+// Returns null if no case has this name.
 const Case* find_case(std::string_view name);
 
 } // namespace bench

@@ -1,5 +1,5 @@
 #version 460
-// Copies one vec4 a thread, neighbors next to each other: what a kernel can move at best. Reads: source. Writes:
+// Copies one vec4 per thread, neighbors side by side: the highest bandwidth a kernel can reach. Reads: source. Writes:
 // destination.
 layout(local_size_x_id = 0) in;
 

@@ -1,4 +1,4 @@
-// Device probe: medians of a few runs after one that warms up.
+// Device probe: medians of a few runs after a warm-up.
 #include "device_probe.hpp"
 
 #include "cloth_bench_shaders.hpp"
@@ -23,16 +23,15 @@ double median_time(TimedQueue& queue, const TimedQueue::Record& record)
     return quantile(times, 0.5);
 }
 
-// Far larger than any cache, so that it is memory that is measured. The faster of a kernel and of vkCmdCopyBuffer: a
-// software device copies faster by the latter; a driver may give it to a copy engine that is slower than its shader
-// cores.
+// Copies far more than any cache holds, to measure memory. Takes the faster of a kernel and vkCmdCopyBuffer: a software
+// device is faster with the latter, and a driver may map it to a copy engine that is slower than the shader cores.
 double copy_bandwidth(TimedQueue& queue)
 {
     constexpr uint32_t k_group = 256;
     constexpr VkDeviceSize k_group_bytes = VkDeviceSize{16} * k_group;
     const voile::gpu::Context& context = queue.context();
     const VkDeviceSize wanted = queue.device().is_cpu() ? VkDeviceSize{128} << 20 : VkDeviceSize{1} << 30;
-    // One group a dispatch's x: 65,535 of them are what every device takes.
+    // One workgroup per unit of the dispatch's x. Every device accepts 65,535.
     const VkDeviceSize groups = std::min<VkDeviceSize>(std::min(wanted, context.max_buffer_bytes) / k_group_bytes,
                                                        context.limits.maxComputeWorkGroupCount[0]);
     const VkDeviceSize bytes = groups * k_group_bytes;
@@ -45,7 +44,7 @@ double copy_bandwidth(TimedQueue& queue)
     };
     const voile::gpu::Buffer source = buffer("copy source");
     const voile::gpu::Buffer destination = buffer("copy destination");
-    // Written once: pages that were never touched may all be the same page of zeros.
+    // The source is written once: untouched pages may all map to the same page of zeros.
     queue.run(
         [&](VkCommandBuffer cmd)
         {

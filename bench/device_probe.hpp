@@ -1,4 +1,4 @@
-// What the device can do at best: how fast it copies, and what a dispatch costs that does nothing.
+// The device's limits: the bandwidth of a copy and the cost of an empty dispatch.
 #pragma once
 
 #include "timed_queue.hpp"

@@ -123,8 +123,8 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     Positions x;
     for (uint32_t frame = 0; frame < k_frames; ++frame)
     {
-        // The host looks at the state between frames, and the device's clocks fall while it waits: the frame runs once
-        // unmeasured in a second scene, so that it is measured as in a row of frames.
+        // The host reads the state between frames, and the device lowers its clocks while it waits. The frame first
+        // runs unmeasured in a second scene, so that it is measured as in a continuous run.
         const auto warm_up = [&](VkCommandBuffer cmd) { voile::engine::take(other.solver.record(cmd, step)); };
         const double time =
             queue.time([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
@@ -146,7 +146,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     }
     const std::vector<double> stretches = structural_stretches(x, item.side);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
-    result.deep_share = share_deeper(x, heart, 0.005);
+    result.deep_fraction = share_deeper(x, heart, 0.005);
     result.gpu_median = quantile(times, 0.5);
     result.gpu_p95 = quantile(times, 0.95);
     return result;

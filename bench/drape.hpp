@@ -1,4 +1,4 @@
-// The drape scene, frame by frame: the scene on which peers were timed, with the conditions that make a run count.
+// The drape scene, frame by frame: the scene on which peers were timed, with the conditions of a valid run.
 #pragma once
 
 #include "passes.hpp"
@@ -26,19 +26,19 @@ struct DrapeMeasurement
 {
     uint32_t vertices = 0;
     uint32_t triangles = 0;
-    uint32_t substeps = 0;   // of a frame
-    uint32_t dispatches = 0; // of a frame
-    double gpu_median = 0;   // ms a frame of Solver::record
+    uint32_t substeps = 0;   // per frame
+    uint32_t dispatches = 0; // per frame
+    double gpu_median = 0;   // ms per frame of Solver::record
     double gpu_p95 = 0;      // ms
     // The conditions.
     double stretch_99 =
         0; // the largest over all frames of the 99 % quantile of l / L - 1 of the structural springs; < 0.12
-    double last_stretch = 0; // largest l / L - 1 of the structural springs after the last frame; < 0.15
-    double deep_share = 0;   // of the vertices deeper than 5 mm in the heart after the last frame; <= 0.001
-    double height = 0;       // m, mean after frame 30; < 0.30
+    double last_stretch = 0;  // largest l / L - 1 of the structural springs after the last frame; < 0.15
+    double deep_fraction = 0; // of the vertices deeper than 5 mm in the heart after the last frame; <= 0.001
+    double height = 0;        // m, mean after frame 30; < 0.30
     [[nodiscard]] bool valid() const
     {
-        return stretch_99 < 0.12 && last_stretch < 0.15 && deep_share <= 0.001 && height < 0.30;
+        return stretch_99 < 0.12 && last_stretch < 0.15 && deep_fraction <= 0.001 && height < 0.30;
     }
 };
 

@@ -1,5 +1,5 @@
 #version 460
-// Nothing: what is left of a dispatch is its cost. The binding is there because every kernel has a set bound.
+// Does nothing, to measure the cost of a dispatch. The binding exists because every kernel has a descriptor set bound.
 // Reads and writes nothing.
 layout(local_size_x_id = 0) in;
 

@@ -1,4 +1,4 @@
-// Spheres of 20 * 4^n triangles, and what a query of their hierarchy visits.
+// Spheres of 20 * 4^n triangles, and the number of nodes that a query of their hierarchy visits.
 #include "icosphere.hpp"
 
 #include "geometry/bvh.hpp"
@@ -27,7 +27,7 @@ voile::engine::Mesh make_icosahedron()
             mesh.positions.push_back(glm::normalize(glm::vec3(a, b, 0)));
             mesh.positions.push_back(glm::normalize(glm::vec3(b, 0, a)));
         }
-    // The faces are the triples of vertices at the edge's length from each other.
+    // The faces are the triples of vertices whose distances equal the edge length.
     const float edge = 2 / glm::length(glm::vec3(0, 1, k_golden));
     const auto joined = [&](uint32_t i, uint32_t j)
     { return std::abs(glm::distance(mesh.positions[i], mesh.positions[j]) - edge) < 1e-3f; };
@@ -86,15 +86,15 @@ voile::engine::Mesh make_icosphere(const glm::vec3& center, float radius, uint32
     return mesh;
 }
 
-double node_visits(const voile::engine::Mesh& mesh, std::span<const glm::vec4> positions, float reach)
+double node_visits(const voile::engine::Mesh& mesh, std::span<const glm::vec4> positions, float radius)
 {
     const voile::Bvh bvh = voile::build_bvh(mesh.positions, mesh.triangles);
     uint64_t visits = 0;
     std::vector<uint32_t> stack;
     for (const glm::vec4& p : positions)
     {
-        const glm::vec3 min = glm::vec3(p) - reach;
-        const glm::vec3 max = glm::vec3(p) + reach;
+        const glm::vec3 min = glm::vec3(p) - radius;
+        const glm::vec3 max = glm::vec3(p) + radius;
         stack.assign(1, 0);
         while (!stack.empty())
         {

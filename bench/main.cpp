@@ -1,4 +1,4 @@
-// cloth_bench: what the solver costs on a device, one line a case. Without a window.
+// cloth_bench: measures what the solver costs on a device, one line per case. Opens no window.
 #include "add_mesh.hpp"
 #include "cases.hpp"
 #include "device_probe.hpp"
@@ -22,7 +22,7 @@ struct Options
     bool list_devices = false;
     std::string device;
     std::string csv;
-    uint32_t repetitions = 0; // 0: by device
+    uint32_t repetitions = 0; // 0: depends on the device
     uint32_t workgroup = voile::SolverOptions().workgroup_size;
     bool passes = false;
 };
@@ -37,14 +37,14 @@ void declare(CLI::App& app, Options& options)
     app.add_flag("--list-devices", options.list_devices, "List the devices and stop");
     app.add_option("--device", options.device,
                    "Device by its index or a part of its name; default: a discrete GPU, "
-                   "else what there is")
+                   "else any usable one")
         ->type_name("INDEX|NAME");
-    app.add_option("--csv", options.csv, "Append a row a case to this file; keep one file a machine")
+    app.add_option("--csv", options.csv, "Append one row per case to this file; keep one file per machine")
         ->type_name("FILE");
     app.add_option("--repeat", options.repetitions, "Repetitions of each measurement; default: 100, on CPU devices 20")
         ->type_name("N")
         ->check(CLI::Range(1u, k_most));
-    app.add_option("--workgroup", options.workgroup, "Threads of a workgroup, a power of two; default: the solver's")
+    app.add_option("--workgroup", options.workgroup, "Threads per workgroup, a power of two; default: the solver's")
         ->type_name("N");
     app.add_flag("--passes", options.passes, "Print the time of each pass before the row of a case of the solver");
 }
@@ -57,7 +57,7 @@ struct Chosen
     std::vector<const bench::AddCase*> adds;
 };
 
-// All that are named; without a name all, the drape scene only on a GPU: a CPU device would take hours over it.
+// All named cases. Without names all, but the drape scene only on a GPU: a CPU device would take hours.
 Chosen choose(const std::vector<std::string>& names, bool cpu)
 {
     Chosen chosen;
@@ -72,7 +72,7 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
         else if (const bench::AddCase* add = bench::find_add_case(name))
             chosen.adds.push_back(add);
         else
-            throw voile::engine::StartupError("--case " + name + ": there is no such case; --list shows them");
+            throw voile::engine::StartupError("--case " + name + ": no such case; --list shows them");
     }
     if (!names.empty())
         return chosen;
@@ -110,7 +110,7 @@ void list_devices()
 
 void run(const Options& options)
 {
-    (void)choose(options.names, false); // an unknown name is told before a device is opened
+    (void)choose(options.names, false); // reports an unknown name before a device is opened
     std::optional<bench::CsvFile> csv;
     if (!options.csv.empty())
         csv = voile::engine::take(bench::CsvFile::open(options.csv));
@@ -157,7 +157,7 @@ void run(const Options& options)
         bench::print_add_row(*item, bench::measure_add(device, *item));
 }
 
-// CLI11's own words run over several lines.
+// CLI11's messages span several lines.
 std::string first_line(const std::string& text)
 {
     return text.substr(0, text.find('\n'));

@@ -1,4 +1,4 @@
-// Measurement of a case. Every repetition starts from the same state, so that all do the same work.
+// Measures a case. Every repetition starts from the same state, so that all do the same work.
 #include "measure.hpp"
 
 #include "allocations.hpp"
@@ -20,20 +20,20 @@ namespace
 
 constexpr float k_frame = 1.f / 60; // s
 
-// Bytes that the passes move, every value that a vertex owns counted once a pass: the neighbors' values that a gather
-// reads again, the few bytes of cloths and patches, and the colliders' hierarchy are taken to come from the caches. A
-// value is a vec4 of 16 bytes (buffer table in voile/solver.hpp); "state" and "stage" are two of them, x and v.
-// A residual is half of one, and belongs to its positions.
+// The model of the bytes that the passes move. Every value that a vertex owns counts once per pass. The neighbors'
+// values that a gather reads again, the few bytes of cloths and patches, and the colliders' hierarchy are assumed to
+// come from the caches. A value is a vec4 of 16 bytes; "state" and "stage" are two of them, x and v. A residual is half
+// of one and belongs to its positions.
 //   stage 1   reads state                          writes stage A        2.5 + 2.5 = 5
 //   stage 2   reads stage A, state                 writes stage B        5 + 2.5   = 7.5
 //   stage 3   reads stage B, state                 writes stage C        5 + 2.5   = 7.5
 //   stage 4   reads stage C, state, v of A and B   writes the proposal   7 + 2.5   = 9.5
-//   Verlet    reads x, v, predicted v              writes the same       3.5 + 3.5 = 7, in place of the stages
+//   Verlet    reads x, v, predicted v              writes the same       3.5 + 3.5 = 7, instead of the stages
 //   contact   reads proposed x and v, earlier x    nothing, in free fall             3
-//   normals   reads positions                      writes normals        1.5 + 1   = 2.5, once a frame
-// A mesh's vertex reads its record and its list of springs as well, 16 bytes each, in every evaluation of the forces.
-// Edits, holds, tethers and the strain limit are not counted. What fits a cache need not reach memory: the share of the
-// copy bandwidth can then exceed 100 %.
+//   normals   reads positions                      writes normals        1.5 + 1   = 2.5, once per frame
+// A mesh vertex also reads its record and its list of springs, 16 bytes each, in every evaluation of the forces. Edits,
+// holds, tethers and the strain limit are not counted. Data that fits a cache need not reach memory, so the fraction of
+// the copy bandwidth can exceed 100 %.
 constexpr double k_value = 16;
 constexpr double k_rk4 = (5 + 7.5 + 7.5 + 9.5) * k_value;
 constexpr double k_verlet = 7 * k_value;
@@ -48,17 +48,17 @@ double bytes_a_substep(const voile::Solver& solver, const Case& item, uint32_t s
     return a_vertex * solver.vertex_count();
 }
 
-// Substeps that are timed: the whole frame on a GPU. A CPU device would take minutes over the finest grids.
+// The number of timed substeps: the whole frame on a GPU. A CPU device would take minutes over the finest grids.
 uint32_t measured_substeps(const voile::engine::Device& device, const voile::Solver& solver, uint32_t substeps)
 {
     constexpr uint32_t k_vertices_on_cpu = 1u << 19;
-    constexpr uint32_t k_fewest = 4; // the normals pass, once, must not count for much
+    constexpr uint32_t k_fewest = 4; // the one normals pass must not dominate
     if (!device.is_cpu())
         return substeps;
     return std::min(substeps, std::max(k_fewest, k_vertices_on_cpu / solver.vertex_count()));
 }
 
-// The positions and velocities of all cloths, kept on the device.
+// The positions and velocities of all cloths, saved on the device.
 class Snapshot
 {
 public:
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    // Whatever wrote the buffers before, in this submission or an earlier one.
+    // Waits for all earlier writes of the buffers, in this submission or an earlier one.
     void record_wait(VkCommandBuffer cmd) const
     {
         voile::gpu::Recorder(context_, cmd)
@@ -133,7 +133,7 @@ void check_finite(const Case& item, const voile::Statistics& state, const char* 
                                           " vertices are not finite " + when);
 }
 
-// Runs the case up to where it is measured; the vertices that touch a collider there.
+// Runs the case up to the measurement. Returns the number of vertices that touch a collider.
 uint32_t advance(TimedQueue& queue, voile::Solver& solver, const Case& item)
 {
     for (uint32_t i = 0; i < item.frames_before; ++i)
@@ -184,7 +184,7 @@ void time_recording(TimedQueue& queue, voile::Solver& solver, uint32_t repetitio
     result.record_median = quantile(times, 0.5);
 }
 
-// Of the query that takes the thickness to every side, as traversals do that find no list of candidates.
+// Measures the query with the thickness to every side, which traversals without a candidate list make.
 double measure_visits(TimedQueue& queue, const voile::Solver& solver, voile::ClothId cloth, uint32_t subdivisions)
 {
     const voile::VertexStreams streams = solver.vertices(cloth);

@@ -1,4 +1,4 @@
-// Refit cases. Repetitions need no state of their own: a refit of the same vertices does the same work.
+// Refit cases. Repetitions need no restored state: a refit of the same vertices does the same work.
 #include "refit_case.hpp"
 
 #include "colliders/refit.hpp"
@@ -35,7 +35,7 @@ struct Sheet
     std::vector<glm::uvec3> triangles;
 };
 
-glm::vec4 place(uint32_t column, uint32_t row, float time)
+glm::vec4 position_at(uint32_t column, uint32_t row, float time)
 {
     const auto x = 0.01f * static_cast<float>(column);
     const auto z = 0.01f * static_cast<float>(row);
@@ -56,8 +56,8 @@ Sheet make_sheet(const RefitCase& item)
         for (uint32_t column = 0; column <= item.columns; ++column)
         {
             const uint32_t corner = row * across + column;
-            sheet.positions[order[corner]] = place(column, row, 0);
-            sheet.positions[vertices + order[corner]] = place(column, row, 0.05f);
+            sheet.positions[order[corner]] = position_at(column, row, 0);
+            sheet.positions[vertices + order[corner]] = position_at(column, row, 0.05f);
             if (row == item.rows || column == item.columns)
                 continue;
             const uint32_t next = order[corner + 1];
@@ -68,13 +68,13 @@ Sheet make_sheet(const RefitCase& item)
     return sheet;
 }
 
-// Bytes that must be moved, each once: the slots and both places of every vertex read, every box written, and read
-// again where the next dispatch goes on from it. A vertex's six gathers are taken to come from the caches.
-double bytes_moved(const voile::PaddedTree& tree, const Sheet& sheet, uint32_t levels_a_dispatch)
+// Bytes that must be moved, each once: the slots and both positions of every vertex read, every box written, and the
+// boxes that the next dispatch reads again. A vertex's six gathers are assumed to come from the caches.
+double bytes_moved(const voile::PaddedTree& tree, const Sheet& sheet, uint32_t levels_per_dispatch)
 {
     double boxes = static_cast<double>(tree.boxes());
-    for (uint32_t level = tree.levels; level > levels_a_dispatch;)
-        boxes += std::exp2(level -= levels_a_dispatch);
+    for (uint32_t level = tree.levels; level > levels_per_dispatch;)
+        boxes += std::exp2(level -= levels_per_dispatch);
     return static_cast<double>(tree.leaves.size() * sizeof(voile::shared::PaddedLeaf)) +
            static_cast<double>(sheet.positions.size() * sizeof(glm::vec4)) + boxes * sizeof(voile::shared::PaddedBox);
 }
@@ -156,7 +156,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
             .build = std::chrono::duration<double, std::milli>(end - begin).count(),
             .gpu_median = quantile(times, 0.5),
             .gpu_p95 = quantile(times, 0.95),
-            .bytes = bytes_moved(tree, sheet, kernels.levels_a_dispatch)};
+            .bytes = bytes_moved(tree, sheet, kernels.levels_per_dispatch)};
 }
 
 } // namespace bench

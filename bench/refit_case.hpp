@@ -1,4 +1,4 @@
-// The refit of a deforming mesh's hierarchy, alone.
+// Measures the refit of a deforming mesh's hierarchy.
 #pragma once
 
 #include "device_probe.hpp"
@@ -29,17 +29,17 @@ struct RefitMeasurement
     uint32_t vertices = 0;
     uint32_t triangles = 0;
     uint32_t dispatches = 0;
-    double build = 0;      // ms of the host to build the tree, once
-    double gpu_median = 0; // microseconds a refit
+    double build = 0;      // host ms to build the tree, once
+    double gpu_median = 0; // microseconds per refit
     double gpu_p95 = 0;    // microseconds
-    double bytes = 0;      // a refit, by the model in refit_case.cpp
+    double bytes = 0;      // per refit, by the model in refit_case.cpp
 };
 
-// The least a refit can take: its bytes at the copy's bandwidth and its dispatches as if they did nothing.
+// The lower bound of a refit: its bytes at the copy's bandwidth plus its dispatches as if they were empty.
 // Microseconds.
 double refit_floor(const RefitMeasurement& measurement, const DeviceProbe& probe);
 
-// StartupError when the root's box is not the box of all vertices.
+// StartupError if the root's box is not the box of all vertices.
 RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_t repetitions);
 
 } // namespace bench

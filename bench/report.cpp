@@ -17,7 +17,7 @@ constexpr const char* k_columns =
     "dispatches_per_frame,substeps_measured,repetitions,contacts,gpu_us_per_substep_median,gpu_us_per_substep_p95,"
     "bytes_per_substep,bandwidth_share,record_us_per_frame_median,record_allocations";
 
-// RFC 4180: in quotes, a quote doubled. Device names contain commas.
+// RFC 4180: the text is quoted and quotes are doubled. Device names contain commas.
 std::string quoted(const std::string& text)
 {
     std::string result = "\"";
@@ -30,16 +30,16 @@ std::string quoted(const std::string& text)
     return result + '"';
 }
 
-double share_of_copy(double bytes, double microseconds, const DeviceProbe& probe)
+double fraction_of_copy(double bytes, double microseconds, const DeviceProbe& probe)
 {
     return bytes / (microseconds * 1e-6) / probe.copy_bandwidth;
 }
 
 } // namespace
 
-double bandwidth_share(const Measurement& measurement, const DeviceProbe& probe)
+double bandwidth_fraction(const Measurement& measurement, const DeviceProbe& probe)
 {
-    return share_of_copy(measurement.bytes, measurement.gpu_median, probe);
+    return fraction_of_copy(measurement.bytes, measurement.gpu_median, probe);
 }
 
 void print_device(const voile::engine::DeviceInfo& device, const DeviceProbe& probe)
@@ -53,9 +53,9 @@ void print_device(const voile::engine::DeviceInfo& device, const DeviceProbe& pr
 void print_header()
 {
     std::printf("%-28s %8s %9s %8s %10s %10s %10s %10s %9s %9s %6s\n", "", "", "", "substeps", "dispatches", "GPU us",
-                "a substep", "MB moved", "bandwidth", "record us", "heap");
-    std::printf("%-28s %8s %9s %8s %10s %10s %10s %10s %9s %9s %6s\n", "case", "vertices", "triangles", "a frame",
-                "a frame", "median", "p95", "a substep", "share", "a frame", "allocs");
+                "/substep", "MB moved", "bandwidth", "record us", "heap");
+    std::printf("%-28s %8s %9s %8s %10s %10s %10s %10s %9s %9s %6s\n", "case", "vertices", "triangles", "/frame",
+                "/frame", "median", "p95", "/substep", "fraction", "/frame", "allocs");
     std::fflush(stdout);
 }
 
@@ -63,9 +63,9 @@ void print_row(const Case& item, const Measurement& m, const DeviceProbe& probe)
 {
     std::printf("%-28s %8u %9u %8u %10u %10.1f %10.1f %10.3f %8.1f%% %9.1f %6" PRIu64, item.name, m.vertices,
                 m.triangles, m.substeps, m.dispatches, m.gpu_median, m.gpu_p95, m.bytes * 1e-6,
-                100 * bandwidth_share(m, probe), m.record_median, m.record_allocations);
+                100 * bandwidth_fraction(m, probe), m.record_median, m.record_allocations);
     if (m.visits > 0)
-        std::printf("  %.1f nodes a traversal", m.visits);
+        std::printf("  %.1f nodes per traversal", m.visits);
     std::printf("\n");
     std::fflush(stdout);
 }
@@ -85,14 +85,14 @@ void print_drape_row(const DrapeCase& item, const DrapeMeasurement& m)
 {
     std::printf("%-20s %8u %8u %10u %9.3f %9.3f %9.2f %% %7.2f %% %5.2f %% %6.3f m  %s\n", item.name, m.vertices,
                 m.substeps, m.dispatches, m.gpu_median, m.gpu_p95, 100 * m.stretch_99, 100 * m.last_stretch,
-                100 * m.deep_share, m.height, m.valid() ? "yes" : "NO");
+                100 * m.deep_fraction, m.height, m.valid() ? "yes" : "NO");
     std::fflush(stdout);
 }
 
 void print_refit_header()
 {
     std::printf("\nThe refit of a deforming mesh's hierarchy. The floor is its bytes at the copy's bandwidth and its\n"
-                "dispatches as if they did nothing.\n\n");
+                "dispatches as if they were empty.\n\n");
     std::printf("%-20s %8s %9s %10s %10s %10s %9s %10s %9s %9s\n", "case", "vertices", "triangles", "dispatches",
                 "median us", "p95 us", "MB moved", "floor us", "bandwidth", "build ms");
     std::fflush(stdout);
@@ -102,7 +102,7 @@ void print_refit_row(const RefitCase& item, const RefitMeasurement& m, const Dev
 {
     std::printf("%-20s %8u %9u %10u %10.1f %10.1f %9.3f %10.1f %8.1f%% %9.1f\n", item.name, m.vertices, m.triangles,
                 m.dispatches, m.gpu_median, m.gpu_p95, m.bytes * 1e-6, refit_floor(m, probe),
-                100 * share_of_copy(m.bytes, m.gpu_median, probe), m.build);
+                100 * fraction_of_copy(m.bytes, m.gpu_median, probe), m.build);
     std::fflush(stdout);
 }
 
@@ -146,7 +146,7 @@ voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device
     row << quoted(device.name) << ',' << quoted(device.driver) << ',' << probe.copy_bandwidth << ','
         << probe.empty_dispatch << ',' << item.name << ',' << m.vertices << ',' << m.triangles << ',' << m.substeps
         << ',' << m.dispatches << ',' << m.measured << ',' << repetitions << ',' << m.contacts << ',' << m.gpu_median
-        << ',' << m.gpu_p95 << ',' << m.bytes << ',' << bandwidth_share(m, probe) << ',' << m.record_median << ','
+        << ',' << m.gpu_p95 << ',' << m.bytes << ',' << bandwidth_fraction(m, probe) << ',' << m.record_median << ','
         << m.record_allocations << '\n';
     return append(row.str());
 }
@@ -172,7 +172,7 @@ voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device
     row << quoted(device.name) << ',' << quoted(device.driver) << ',' << probe.copy_bandwidth << ','
         << probe.empty_dispatch << ',' << item.name << ',' << m.vertices << ',' << m.triangles << ",1," << m.dispatches
         << ",1," << repetitions << ",," << m.gpu_median << ',' << m.gpu_p95 << ',' << m.bytes << ','
-        << share_of_copy(m.bytes, m.gpu_median, probe) << ",,\n";
+        << fraction_of_copy(m.bytes, m.gpu_median, probe) << ",,\n";
     return append(row.str());
 }
 

@@ -41,15 +41,15 @@ double TimedQueue::time(const Record& record, const Record& before)
 
 void TimedQueue::record_only(const Record& record)
 {
-    record(frames_.begin().cmd); // the next begin resets what was never submitted
+    record(frames_.begin().cmd); // the next begin resets commands that were never submitted
 }
 
-double quantile(std::vector<double> values, double share)
+double quantile(std::vector<double> values, double fraction)
 {
     if (values.empty())
         return 0;
     std::sort(values.begin(), values.end());
-    const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
+    const auto rank = static_cast<size_t>(std::ceil(fraction * static_cast<double>(values.size())));
     return values[std::clamp<size_t>(rank, 1, values.size()) - 1];
 }
 

@@ -1,4 +1,4 @@
-// TimedQueue: commands submitted and waited for one at a time, with the GPU's time between two timestamps.
+// TimedQueue: submits commands and waits for them, one at a time, with the GPU time between two timestamps.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -28,7 +28,7 @@ public:
     // Microseconds from the end of everything in `before` to the end of everything in `record`.
     double time(const Record& record, const Record& before = {});
 
-    // Records and throws the commands away.
+    // Records the commands and discards them.
     void record_only(const Record& record);
 
 private:
@@ -37,7 +37,7 @@ private:
     voile::gpu::Timestamps timestamps_;
 };
 
-// The smallest value that at least `share` of the values do not exceed (nearest rank). 0 for no values.
-double quantile(std::vector<double> values, double share);
+// The smallest value that at least `fraction` of the values do not exceed (nearest rank). 0 for no values.
+double quantile(std::vector<double> values, double fraction);
 
 } // namespace bench

@@ -1,4 +1,4 @@
-# Everything comes from the system. Where a distribution ships sources without a CMake config, the target is made here.
+# All dependencies come from the system. The target is made here if a distribution ships sources without a CMake config.
 find_package(Vulkan 1.3.204 REQUIRED)
 find_package(glm REQUIRED)
 find_package(Threads REQUIRED)
@@ -17,8 +17,8 @@ if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
 endif()
 
 if(VOILE_BUILD_ENGINE)
-    # volk, which the engine loads Vulkan with: a static library where the distribution has one, else built from volk.c
-    # (Debian 12 ships the two sources alone). The module does without: volk defines every function of Vulkan as a variable,
+    # The engine loads Vulkan with volk: a static library if the distribution has one, else built from volk.c (Debian 12
+    # ships only the two sources). The module does not use volk: volk defines every function of Vulkan as a variable,
     # and a program that links Vulkan would call those.
     find_package(volk CONFIG QUIET)
     if(NOT TARGET volk::volk)

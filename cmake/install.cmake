@@ -1,4 +1,4 @@
-# The CMake package `voile`: targets voile::gpu and voile::cloth, and, where it was built, voile::engine and
+# The CMake package `voile`: the targets voile::gpu and voile::cloth, and, if they were built, voile::engine and
 # voile::cloth_component.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(VOILE_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/voile)
 set(VOILE_INSTALLED voile_gpu voile_cloth)
 set(VOILE_HEADERS modules/gpu/include/ modules/cloth/include/)
-# Targets that were made here because the distribution has no CMake config for them travel along.
+# Targets that were made here, because the distribution has no CMake config for them, are installed too.
 foreach(made voile_volk voile_vma)
     set(${made}_MADE OFF)
     if(TARGET ${made})

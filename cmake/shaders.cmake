@@ -2,7 +2,7 @@
 #
 # Compiles each shader of `folder` with glslangValidator (includes tracked by a depfile), checks it with spirv-val and
 # embeds it: the target gets <target>_shaders.hpp with `extern const std::span<const uint32_t> k_<stem>_<stage>;` in the
-# namespace given.
+# given namespace.
 set(VOILE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_shader.cmake)
 
 function(voile_add_shaders)

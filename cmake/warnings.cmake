@@ -1,4 +1,4 @@
-# voile_options: what every target of the project is compiled with. Interface only; not passed on to users.
+# voile_options: the compiler options of every target of the project. Interface only. Users do not inherit them.
 add_library(voile_options INTERFACE)
 target_compile_options(voile_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
 if(VOILE_WERROR)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Configures and builds the release preset in build/release; what is up to date is left alone. Arguments are the targets
-# (default: everything). The output goes to a log, which is shown where something fails.
+# Configures and builds the release preset in build/release; up-to-date files are kept. Arguments are the targets
+# (default: everything). The output goes to a log, which is shown if something fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p build
@@ -14,7 +14,7 @@ quietly() {
   }
 }
 
-# Memory bounds the jobs beside cores: a compiler takes up to 1 GiB.
+# Memory also bounds the number of jobs: a compiler takes up to 1 GiB.
 memory=$(awk '/MemAvailable/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null || echo 4)
 cores=$(nproc 2>/dev/null || echo 2)
 jobs=$((memory < cores ? (memory < 1 ? 1 : memory) : cores))

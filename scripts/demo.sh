@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and shows the reference scene: in a window where there is a display, else as a film,
+# Installs missing packages, builds, and shows the reference scene: in a window if there is a display, else as a film,
 # pictures and statistics of its first 5 seconds in out/demo.
 #
 #   scripts/demo.sh                    the window, or the film without a display
 #   scripts/demo.sh --headless         the film
-#   scripts/demo.sh --scene drape ...  another scene; everything else goes to the viewer as it is
+#   scripts/demo.sh --scene drape ...  another scene; other arguments go to the viewer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Packs the tests of build/release into one archive, to run them on another machine: one with a GPU, say, that has neither
-# a compiler nor the packages. Build first (scripts/build.sh). The other machine needs bash, tar with xz, glibc and
+# Packs the tests of build/release into one archive, to run them on another machine, such as one with a GPU but without
+# a compiler and the packages. Build first (scripts/build.sh). The other machine needs bash, tar with xz, glibc and
 # libstdc++ as new as this one's, and a Vulkan driver with its loader.
 #
 #   scripts/pack_tests.sh [FILE]    default: build/tests.tar.xz
@@ -37,14 +37,14 @@ trap 'rm -rf "$work"' EXIT
 pack=$work/voile_tests
 mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples}
 
-# The tests that ctest knows: a build folder keeps programs of tests that are no more.
+# The tests that ctest knows: a build folder keeps programs of deleted tests.
 mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
 for program in "${tests[@]}" viewer hello_cloth; do
   [ -x "$programs/$program" ] || fail "$programs/$program is not built; run scripts/build.sh"
   strip --strip-all -o "$pack/bin/$program" "$programs/$program"
 done
 
-# Libraries, less those of the C and C++ runtimes, which every machine has.
+# Libraries without the C and C++ runtimes, which every machine has.
 for program in "$pack"/bin/*; do
   ldd "$program"
 done | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | sort -u |

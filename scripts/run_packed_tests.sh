@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs the tests of a pack (scripts/pack_tests.sh), in whatever folder it lies, on the machine's Vulkan driver, with
-# validation and synchronization validation. Runs them with ctest where it is installed, else by itself, as many at a time
-# as there are cores. What the machine lacks the means for is skipped with the reason. The exit code is 0 if none failed.
+# Runs the tests of a pack (scripts/pack_tests.sh), in any folder, on the machine's Vulkan driver, with validation and
+# synchronization validation. Uses ctest if it is installed, else runs as many tests at a time as there are cores. Tests
+# that the machine cannot run are skipped with the reason. The exit code is 0 if none failed.
 #
 #   run.sh               all tests
 #   run.sh -R contact    the tests whose names have this in them; -E leaves out, -j N: how many at a time
@@ -30,7 +30,7 @@ seconds_each=300
 export LD_LIBRARY_PATH="$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 export VK_LAYER_PATH="$here/layers"
 export VOILE_TEST_SOURCES="$here/sources"
-export LP_NUM_THREADS="${LP_NUM_THREADS:-1}" # as scripts/test.sh; real drivers do not read it
+export LP_NUM_THREADS="${LP_NUM_THREADS:-1}" # like scripts/test.sh; real drivers ignore it
 unset DISPLAY WAYLAND_DISPLAY
 
 [ -f version ] && printf 'version: %s\n' "$(cat version)"
@@ -39,7 +39,7 @@ bin/viewer --list-devices || { printf 'run: without a device there is nothing to
 
 command -v ffmpeg >/dev/null 2>&1 || printf 'ffmpeg is not installed: tests of films are skipped\n'
 
-# Left out of packs, with the reason.
+# Tests left out of packs, with the reason.
 not_packed=(
   'window: frames on a virtual display (needs a display)'
   'capture: the frame in RenderDoc (needs RenderDoc)'
@@ -47,7 +47,7 @@ not_packed=(
   'consumer: find_package (needs a compiler)'
 )
 
-# All tests, one a line: its program, a tab, its name.
+# All tests, one per line: program, tab, name.
 list_tests() {
   local program
   for program in bin/test_*; do
@@ -55,7 +55,7 @@ list_tests() {
   done
 }
 
-# doctest takes commas for separators.
+# doctest splits filters at commas.
 filter_of() { printf '%s' "${1//,/\\,}"; }
 
 with_ctest() {
@@ -77,7 +77,7 @@ with_ctest() {
   ctest --parallel "$jobs" --output-on-failure ${only:+-R "$only"} ${but:+-E "$but"}
 }
 
-# One test on its own: prints its line and keeps its output.
+# Runs one test, prints its line and keeps its output.
 run_one() {
   local program=${1%%$'\t'*} name=${1#*$'\t'} number=$2 status=0 result=Passed start=$EPOCHREALTIME
   local log=$3/$number

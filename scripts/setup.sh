@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what Voile builds and runs with, on Debian 12 (apt). Debian 13 has packages of these names but for RenderDoc; neither
-# it nor Ubuntu 24.04 was tried. Without apt it says what to install. Does nothing when everything is there.
+# Installs the packages that Voile needs to build and run, on Debian 12 (apt). Debian 13 has packages of these names
+# except RenderDoc's; neither it nor Ubuntu 24.04 was tried. Without apt it prints what to install. Does nothing if
+# everything is installed.
 #
 #   scripts/setup.sh            installs what is missing
 #   scripts/setup.sh --check    only says what is missing; exit code 1 if anything is
@@ -42,7 +43,7 @@ as_root() {
 
 installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
 
-# A package that a release of the distribution may not have (RenderDoc) is not worth failing for.
+# A release may lack a package such as RenderDoc. That is no reason to fail.
 optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc | xvfb | xauth) true ;; *) false ;; esac; }
 
 available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
@@ -60,7 +61,7 @@ missing_packages() {
   has_vma || printf 'libvulkan-memory-allocator-dev\n'
 }
 
-# Those that this release has, as far as its package lists tell.
+# The missing packages that this release has, according to its package lists.
 missing_optional_packages() {
   local package
   for package in "${packages[@]}"; do

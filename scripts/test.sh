@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests. Needs no display and no GPU.
+# Installs missing packages, builds, and runs the tests. Needs no display and no GPU.
 #
 #   scripts/test.sh                all tests
 #   scripts/test.sh --quick        some cases of every subject (tests/quick_cases.cmake), in under 3 minutes on two cores
 #   scripts/test.sh --help         prints this
-#   scripts/test.sh [--quick] ...  everything else goes to ctest, e.g. -R contact
+#   scripts/test.sh [--quick] ...  other arguments go to ctest, e.g. -R contact
 #
 # The exit code is ctest's.
 set -euo pipefail
@@ -27,7 +27,7 @@ done
 scripts/setup.sh
 scripts/build.sh
 
-# Tests run beside each other, one a core. A software device that took all cores in each of them would only wait for itself.
+# One test per core runs at a time. A software device that used all cores in each test would only wait for the others.
 export LP_NUM_THREADS="${LP_NUM_THREADS:-1}"
 SECONDS=0
 status=0

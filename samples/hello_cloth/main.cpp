@@ -1,5 +1,5 @@
-// The shortest complete program: a cloth falls on a sphere. With a display it opens a window; without, it simulates one
-// second and writes hello_cloth.png.
+// The shortest complete program: a cloth falls on a sphere. With a display it opens a window. Without one it simulates
+// one second and writes hello_cloth.png.
 #include "voile/cloth_component.hpp"
 
 #include "voile/engine/app/app.hpp"
@@ -21,7 +21,7 @@ void run(bool headless)
     scene.focus = {0, 0.5f, 0};
     scene.focus_radius = 2;
 
-    // The world holds the solver; colliders are added to it, sheets of cloth live in it.
+    // The world owns the solver. Colliders are added to the world, and sheets of cloth live in it.
     auto& world = scene.add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
     world.add_collider(voile::SphereCollider{.center = {0, 0.5f, 0}, .radius = 0.5f});
     world.add_collider(voile::PlaneCollider{});

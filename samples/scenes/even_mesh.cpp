@@ -1,4 +1,4 @@
-// Even triangles: the box, the moving of vertices, the flipping of edges.
+// Even triangles: the start from a box, moving vertices, flipping edges.
 #include "even_mesh.hpp"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ private:
     std::map<std::tuple<int, int, int>, uint32_t> indices_;
 };
 
-// Lloyd's step: every vertex to the mean of its triangles' middles, the larger ones pulling more.
+// Lloyd's step: moves every vertex to the mean of its triangles' centers, weighted by area.
 void relax(Points& points, const Triangles& triangles, const std::vector<bool>& is_fixed, const Projection& project)
 {
     Points sums(points.size(), glm::dvec3(0.));
@@ -101,7 +101,7 @@ double cotangent_at(const Points& points, uint32_t at, uint32_t b, uint32_t c)
     return glm::dot(u, v) / glm::length(glm::cross(u, v));
 }
 
-// Where a directed edge a -> b starts: triangle 3 t + corner. The triangle across has b -> a.
+// The start of each directed edge a -> b: triangle 3 t + corner. The triangle across has b -> a.
 using Edges = std::unordered_map<uint64_t, uint32_t>;
 
 uint64_t edge_key(uint32_t a, uint32_t b)
@@ -118,8 +118,8 @@ Edges edges_of(const Triangles& triangles)
     return edges;
 }
 
-// Turns the edge from a corner of the triangle to the next if the angles opposite to it add up to more than 180
-// degrees, which makes the sum of their cotangents negative, and no edge joins the opposite vertices yet.
+// Flips the edge from a corner of the triangle to the next if the angles opposite to it add up to more than 180
+// degrees, which makes the sum of their cotangents negative, and if no edge joins the opposite vertices yet.
 bool flip(const Points& points, Triangles& triangles, Edges& edges, uint32_t t, int c)
 {
     const uint32_t a = triangles[t][c];
@@ -128,7 +128,7 @@ bool flip(const Points& points, Triangles& triangles, Edges& edges, uint32_t t, 
     const uint32_t across = edges.at(edge_key(b, a));
     const uint32_t other = across / 3;
     const uint32_t right = triangles[other][static_cast<int>((across + 2 - 3 * other) % 3)];
-    constexpr double k_round = 1e-6; // not back and forth where four vertices are on a circle
+    constexpr double k_round = 1e-6; // avoids flipping back and forth between four vertices on a circle
     if (cotangent_at(points, left, a, b) + cotangent_at(points, right, a, b) >= -k_round ||
         edges.contains(edge_key(left, right)) || edges.contains(edge_key(right, left)))
         return false;

@@ -1,4 +1,4 @@
-// An icosahedron, its faces cut in four, and its soft twin.
+// An icosahedron with its faces split in four, and its soft counterpart.
 #include "gem.hpp"
 
 #include <array>
@@ -69,7 +69,7 @@ voile::engine::Mesh make_gem()
 voile::engine::Mesh make_jelly(double seconds)
 {
     const double around = 2 * std::numbers::pi * seconds;
-    const auto height = static_cast<float>(0.83 + 0.17 * std::cos(around / 1.6)); // of the gem's
+    const auto height = static_cast<float>(0.83 + 0.17 * std::cos(around / 1.6)); // fraction of the gem's
     const auto sway = static_cast<float>(0.35 * std::sin(around / 2.5));          // 1/m
     voile::engine::Mesh mesh = make_gem();
     for (glm::vec3& p : mesh.positions)

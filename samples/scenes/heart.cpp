@@ -15,20 +15,20 @@ namespace
 constexpr glm::dvec3 k_box_min{3.385, 1.507, 5.958};
 constexpr glm::dvec3 k_box_max{6.615, 4.534, 8.042};
 
-// The reference heart is an ellipsoid whose columns along y are pushed up the more the further out they are, with a
-// cleft pressed into the top and the depth swelling with the height. The constants are fitted to the scene's widths and
-// depths; at the end the mesh is stretched by a few hundredths to fill the box.
+// The reference heart is an ellipsoid whose columns along y are pushed up, the farther out the more. A cleft is pressed
+// into the top, and the depth swells with the height. The constants are fitted to the scene's widths and depths. At the
+// end the mesh is stretched by a few hundredths to fill the box.
 constexpr double k_half_width = 1.615;
 constexpr double k_half_height = 1.6283;
 constexpr double k_half_depth = 1.042;
 constexpr double k_rise = 0.2312;       // slope of the columns' push, far from the middle
 constexpr double k_rounding = 0.4805;   // half-width over which the push is rounded in the middle
-constexpr double k_upward_bow = 0.0787; // the part of the push that is quadratic
+constexpr double k_upward_bow = 0.0787; // the quadratic part of the push
 constexpr double k_cleft = 0.8916;      // depth pressed into the top
 constexpr double k_cleft_width = 0.7237;
-constexpr double k_swell = 0.2471; // of the depth, with height
+constexpr double k_swell = 0.2471; // growth of the depth with height
 constexpr double k_swell_square = 0.5096;
-constexpr double k_middle = 1.4599; // height around which the depth swells, above the ellipsoid's bottom, less its half
+constexpr double k_middle = 1.4599; // height around which the depth swells, from the ellipsoid's bottom, minus its half
 
 double push(double x)
 {
@@ -46,13 +46,13 @@ double swell(double y)
     return 1. + k_swell * t + k_swell_square * t * t;
 }
 
-// The cleft takes nothing from the bottom (s = -1) and all from the top (s = 1).
+// The cleft has no effect at the bottom (s = -1) and its full effect at the top (s = 1).
 double height_of(double x, double s)
 {
     return push(x) + k_half_height * s - cleft(x) * 0.25 * (1. + s) * (1. + s);
 }
 
-// The inverse of height_of in s, by Newton: it grows with s, and its curve is slight.
+// The inverse of height_of in s, by Newton's method: it grows with s, and its curvature is small.
 double column_of(double x, double y)
 {
     double s = (y - push(x)) / k_half_height;
@@ -83,7 +83,7 @@ void stretch_to_box(voile::engine::Mesh& mesh, const glm::dvec3& min, const glm:
         p = glm::clamp(min + (glm::dvec3(p) - from) / size * (max - min), min, max);
 }
 
-// Along the unit vector u the drape heart's equation, its cube root taken, is q r^2 - c r^(5/3) - 1 = 0, which has one
+// Along the unit vector u the cube root of the drape heart's equation is q r^2 - c r^(5/3) - 1 = 0, which has one
 // positive root: the heart is star-shaped around the origin.
 glm::dvec3 drape_from_space(const glm::dvec3& p)
 {

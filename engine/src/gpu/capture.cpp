@@ -1,4 +1,4 @@
-// Capture: finds RenderDoc's library and talks to its in-application interface.
+// Capture: loads RenderDoc's library and calls its in-application interface.
 #include "voile/engine/gpu/capture.hpp"
 
 #include "voile/engine/gpu/device.hpp"
@@ -18,7 +18,7 @@ namespace voile::engine
 namespace
 {
 
-// Already loaded when started from RenderDoc's UI; else from the usual places (Debian keeps it in a folder of its own).
+// Already loaded if started from RenderDoc's UI, else loaded from the usual folders (Debian has one of its own).
 void* open_library()
 {
     if (void* library = dlopen("librenderdoc.so", RTLD_NOW | RTLD_NOLOAD))

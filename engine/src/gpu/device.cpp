@@ -126,7 +126,7 @@ int preference(VkPhysicalDeviceType type)
     }
 }
 
-// The index that `wanted` names: a number, or part of a device's name. Usable devices come first by preference().
+// Finds the device that `wanted` names: by index or part of the name. Usable devices come first by preference().
 size_t find_device(const std::vector<DeviceInfo>& infos, const std::string& wanted)
 {
     size_t index = 0;
@@ -193,7 +193,7 @@ Device::Device(const DeviceOptions& options)
     }
     catch (...)
     {
-        release(); // a destructor does not run for an object that was not finished
+        release(); // no destructor runs if the constructor throws
         throw;
     }
 }

@@ -1,4 +1,4 @@
-// A submission of its own for each copy.
+// Copies device buffers to the host, one submission per copy.
 #include "voile/engine/gpu/download.hpp"
 
 #include "voile/engine/gpu/frames.hpp"

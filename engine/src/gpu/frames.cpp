@@ -33,7 +33,7 @@ FrameRing::FrameRing(const Device& device, uint32_t slots) : device_(device), sl
 FrameRing::~FrameRing()
 {
     const gpu::Context& context = device_.context();
-    // A lost device answers with an error and has nothing left to wait for.
+    // A lost device returns an error and has no work to wait for.
     (void)context.fn.vkDeviceWaitIdle(context.device());
     for (const Slot& slot : slots_)
     {
@@ -62,7 +62,7 @@ void FrameRing::submit(const Frame& frame, VkSemaphore acquired, VkSemaphore ren
     const gpu::Context& context = device_.context();
     const Slot& slot = slots_[frame.slot];
     check(context.fn.vkEndCommandBuffer(frame.cmd), "command buffer");
-    // Reset only here: a frame that fails before it is submitted leaves its fence signalled, and nobody waits for ever.
+    // Reset only here: a frame that fails before its submission leaves its fence signaled, so nobody waits forever.
     check(context.fn.vkResetFences(context.device(), 1, &slot.fence), "fence");
 
     VkSemaphoreSubmitInfoKHR wait_info{};

@@ -1,4 +1,4 @@
-// Owned: a handle of the device that is destroyed with its owner.
+// Owned: a device handle that its owner destroys.
 #pragma once
 
 #include "voile/gpu/vulkan.hpp"

@@ -1,4 +1,4 @@
-// Validation: how it is switched on, in older and newer versions of the layer.
+// Validation: enables older and newer versions of the layer.
 #include "voile/engine/gpu/validation.hpp"
 
 #include "voile/engine/gpu/device.hpp"
@@ -19,7 +19,7 @@ namespace
 constexpr const char* k_layer = "VK_LAYER_KHRONOS_validation";
 constexpr VkValidationFeatureEnableEXT k_synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
 
-// The version of Vulkan that the installed layer was made for; 0: there is none.
+// The Vulkan version of the installed layer; 0 without a layer.
 uint32_t layer_version()
 {
     uint32_t count = 0;
@@ -31,15 +31,15 @@ uint32_t layer_version()
     return layer != layers.end() ? layer->specVersion : 0;
 }
 
-// From this version on the layer compares the command buffers of a submission by itself, and looks at what shaders
-// access through descriptors only on request, by VK_EXT_layer_settings.
+// From this version on the layer compares the command buffers of a submission by default. It checks shader accesses
+// through descriptors only on request, by VK_EXT_layer_settings.
 constexpr uint32_t k_layer_with_settings = VK_MAKE_API_VERSION(0, 1, 3, 290);
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
 {
     std::string message = data->pMessage;
-    const char* name = data->pMessageIdName; // newer layers leave it out of the text
+    const char* name = data->pMessageIdName; // newer layers omit it from the text
     if (name != nullptr && message.find(name) == std::string::npos)
         message = std::string(name) + ": " + message;
     static_cast<ValidationLog*>(user)->add(std::move(message));
@@ -90,7 +90,7 @@ ValidationRequest::ValidationRequest(ValidationLog& log)
     features_.pEnabledValidationFeatures = &k_synchronization;
     if (version < k_layer_with_settings)
     {
-        // Comparing the command buffers of a submission is switched on by the environment alone.
+        // Only the environment enables the comparison of a submission's command buffers.
         setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
         return;
     }

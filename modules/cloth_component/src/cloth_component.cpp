@@ -18,7 +18,7 @@ ClothWorld::ClothWorld(const engine::Device& device, uint32_t slots, const Solve
 
 void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& frame)
 {
-    // The slot's previous frame has completed: what it uploaded from, and what that replaced, can go.
+    // The slot's previous frame has completed: its staging memory and the buffers that it replaced can be freed.
     uploads_[frame.slot] = Upload();
     if (solver_.needs_upload())
         uploads_[frame.slot] = engine::take(solver_.record_upload(cmd));

@@ -81,7 +81,7 @@ void Buffer::flush() const
 Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceSize bytes, VkBufferUsageFlags usage,
                              Memory memory)
 {
-    constexpr VkDeviceSize k_smallest = 16; // a descriptor must have a buffer to point to
+    constexpr VkDeviceSize k_smallest = 16; // a descriptor needs a buffer
     const VkDeviceSize size = std::max(bytes, k_smallest);
     if (size > context.max_buffer_bytes)
         return Error{std::string("buffer \"") + name + "\" needs " + size_text(size) + ", the device binds at most " +

@@ -1,4 +1,4 @@
-// Context: reads functions and limits from the host's handles; names; result texts.
+// Context: reads functions and limits from the host's handles, names objects, converts results to text.
 #include "voile/gpu/context.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Result<Context> create_context(const Handles& handles)
     context.device_type = properties.deviceType;
     context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits);
 
-    // An instance without VK_EXT_debug_utils answers null; labels and names are then no-ops.
+    // An instance without VK_EXT_debug_utils returns null. Labels and names then do nothing.
     context.set_object_name =
         instance_function<PFN_vkSetDebugUtilsObjectNameEXT>(handles, "vkSetDebugUtilsObjectNameEXT");
     context.begin_label = instance_function<PFN_vkCmdBeginDebugUtilsLabelEXT>(handles, "vkCmdBeginDebugUtilsLabelEXT");

@@ -1,4 +1,4 @@
-// DeviceFunctions: looks every function up by its name.
+// DeviceFunctions: loads each function by name.
 #include "voile/gpu/functions.hpp"
 
 #include <string>

@@ -14,7 +14,7 @@ constexpr char32_t k_no_character = 0xffffffff;
 struct Character
 {
     std::string_view bytes;
-    char32_t code; // k_no_character: a byte that is no UTF-8
+    char32_t code; // k_no_character: a byte that is not UTF-8
 };
 
 bool is_continuation(char byte)
@@ -22,7 +22,7 @@ bool is_continuation(char byte)
     return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
-// The bytes of a character that begins with this one; 1 for those that begin none.
+// The length in bytes of a character that begins with this byte; 1 if none does.
 size_t length_of(unsigned char first)
 {
     return first < 0xc2 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 1;
@@ -36,7 +36,7 @@ Character take_character(std::string_view& text)
     for (size_t i = 1; i < length; ++i)
     {
         if (i == text.size() || !is_continuation(text[i]))
-            length = 1; // and no character
+            length = 1; // not a character
         else
             code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3fu);
     }

@@ -1,4 +1,4 @@
-// Timestamps: two queries a pass, summed by name when they are read.
+// Timestamps: two queries per pass, summed by name when they are read.
 #include "voile/gpu/timestamps.hpp"
 
 #include <algorithm>

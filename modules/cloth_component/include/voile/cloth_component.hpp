@@ -1,4 +1,4 @@
-// The cloth module as components of the engine: the only code that knows both.
+// The cloth module as components of the engine. No other code knows both.
 #pragma once
 
 #include "voile/solver.hpp"
@@ -13,18 +13,18 @@
 namespace voile::component
 {
 
-// Owns the solver and records its passes: one of these a scene, added before the Sheets that use it. All sheets share
-// it, so that they share dispatches.
+// Owns the solver and records its passes. A scene has one, added before the Sheets that use it. All sheets share it and
+// its dispatches.
 class ClothWorld : public engine::Component
 {
 public:
-    // `slots`: frames in flight. StartupError when the device lacks what the module needs.
+    // `slots`: frames in flight. StartupError if the device does not meet the module's requirements.
     ClothWorld(const engine::Device& device, uint32_t slots, const SolverOptions& options = {});
 
     [[nodiscard]] Solver& solver() { return solver_; }
 
-    // Gravity, wind and substeps of every step; duration and time are the frame's. May be changed between frames. A
-    // frame whose step the solver refuses ends in StartupError.
+    // Gravity, wind and substeps of every step. Duration and time are the frame's. May be changed between frames. If
+    // the solver refuses a step, the frame throws StartupError.
     Step step;
     bool collect_statistics = false; // reduce statistics each frame, into the frame's slot
 
@@ -39,10 +39,10 @@ public:
 
 private:
     Solver solver_;
-    std::vector<Upload> uploads_; // one a slot
+    std::vector<Upload> uploads_; // one per slot
 };
 
-// Draws one cloth from the very buffers that the solver writes.
+// Draws one cloth from the buffers that the solver writes.
 class Sheet : public engine::Component
 {
 public:
@@ -64,8 +64,8 @@ private:
     uint32_t index_count_ = 0;
 };
 
-// A two-sided woven surface in the given colors (linear), for a cloth whose longer side is `size` m: its check repeats
-// ten times along it, whatever the scale of the scene.
+// A two-sided woven surface in the given colors (linear), for a cloth whose longer side is `size` m. Its check repeats
+// ten times along that side at any scale of the scene.
 engine::Surface fabric_surface(const glm::vec3& color, const glm::vec3& back_color, float size);
 
 } // namespace voile::component

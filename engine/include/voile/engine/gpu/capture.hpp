@@ -10,8 +10,8 @@ namespace voile::engine
 class Capture
 {
 public:
-    // `path_template`: where captures go, without extension. StartupError naming what to install if RenderDoc is not
-    // there.
+    // `path_template`: the path of captures, without extension. StartupError if RenderDoc is missing; it names the
+    // package to install.
     explicit Capture(const std::string& path_template);
 
     void begin();

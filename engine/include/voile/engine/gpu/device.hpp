@@ -1,4 +1,4 @@
-// Device: the instance, the chosen physical device, the logical device and VMA, made once at start-up.
+// Device: the instance, the physical device, the logical device and VMA, made once at start-up.
 #pragma once
 
 #include "voile/engine/gpu/validation.hpp"
@@ -22,7 +22,7 @@ struct DeviceOptions
 {
     std::string device;      // index or part of a name, as `list_devices` prints them; empty: the best one
     bool validation = false; // validation and synchronization validation; StartupError if the layer is missing
-    std::vector<const char*> instance_extensions; // what a window needs (GLFW names them); empty when headless
+    std::vector<const char*> instance_extensions; // required by windows (GLFW lists them); empty when headless
     bool swapchain = false;                       // VK_KHR_swapchain
 };
 
@@ -76,7 +76,8 @@ private:
     gpu::Context context_;
 };
 
-// Waits for the device when its scope ends, also by an exception: declared after what frames in flight write into.
+// Waits for the device at the end of its scope, also after an exception. Declare it after the objects that frames in
+// flight write.
 class IdleGuard
 {
 public:

@@ -1,4 +1,4 @@
-// Copies of device buffers on the host, for the end of a run and for tests: they wait for the device.
+// Copies device buffers to the host, at the end of a run and for tests. The calls wait for the device.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -10,8 +10,8 @@
 namespace voile::engine
 {
 
-// `bytes` bytes from `offset` on, of a buffer with TRANSFER_SRC usage whose writers have been submitted. Waits for all
-// work of the device. StartupError when memory runs out or the device is lost.
+// Returns `bytes` bytes from `offset`. The buffer must have TRANSFER_SRC usage and its writers must be submitted. Waits
+// for all work of the device. StartupError if memory runs out or the device is lost.
 std::vector<std::byte> download(const Device& device, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes);
 
 template <typename T>

@@ -1,4 +1,4 @@
-// FrameRing: frames in flight. One primary command buffer and one fence a frame.
+// FrameRing: frames in flight. One primary command buffer and one fence per frame.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -28,7 +28,7 @@ public:
     // Ends and submits. With semaphores: waits for `acquired` before color output, signals `rendered`.
     void submit(const Frame& frame, VkSemaphore acquired = VK_NULL_HANDLE, VkSemaphore rendered = VK_NULL_HANDLE);
 
-    // Waits for the submission of `slot` (returns at once if there was none).
+    // Waits for the submission of `slot`. Returns at once if there was none.
     void wait(uint32_t slot) const;
     void wait_all() const;
 

@@ -20,7 +20,7 @@ class Image
 {
 public:
     Image() = default;
-    Image(const gpu::Context& context, const ImageDescription& description); // StartupError when it cannot be made
+    Image(const gpu::Context& context, const ImageDescription& description); // StartupError if it cannot be made
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;

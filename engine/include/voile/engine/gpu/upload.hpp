@@ -1,4 +1,4 @@
-// UploadBatch: host data on its way into device buffers. Copies are recorded into a command buffer of the caller's.
+// UploadBatch: copies host data into device buffers. The caller's command buffer records the copies.
 #pragma once
 
 #include "voile/gpu/recorder.hpp"
@@ -9,14 +9,14 @@
 namespace voile::engine
 {
 
-// Collects copies, records them all with one barrier to vertex input and compute reads, and keeps the staging memory:
-// it must live until that command buffer has completed.
+// Collects copies, records them all with one barrier to vertex input and compute reads, and owns the staging memory.
+// The batch must live until that command buffer has completed.
 class UploadBatch
 {
 public:
     explicit UploadBatch(const gpu::Context& context) : context_(context) {}
 
-    // A new device buffer holding `bytes` once the batch has run. StartupError when it cannot be made.
+    // Returns a new device buffer that holds `bytes` once the batch has run. StartupError if it cannot be made.
     gpu::Buffer buffer(const char* name, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
 
     template <typename T>

@@ -1,4 +1,4 @@
-// Validation: the Khronos layer with synchronization validation, and the log of what it says.
+// Validation: the Khronos layer with synchronization validation, and the log of its messages.
 #pragma once
 
 #include "voile/gpu/vulkan.hpp"
@@ -12,7 +12,7 @@
 namespace voile::engine
 {
 
-// Counts and keeps what the validation layer says. Messages may arrive on any thread.
+// Counts and keeps the messages of the validation layer. They may arrive on any thread.
 class ValidationLog
 {
 public:
@@ -28,7 +28,7 @@ private:
     std::vector<std::string> messages_;
 };
 
-// What an instance's creation chain needs to switch validation on. Must outlive vkCreateInstance.
+// The instance creation chain that enables validation. Must outlive vkCreateInstance.
 class ValidationRequest
 {
 public:
@@ -37,7 +37,7 @@ public:
     ValidationRequest(const ValidationRequest&) = delete;
     ValidationRequest& operator=(const ValidationRequest&) = delete;
 
-    // Adds layer and chain to `info`, and to `extensions` what the chain needs.
+    // Adds layer and chain to `info`, and the extensions that the chain needs to `extensions`.
     void apply(VkInstanceCreateInfo& info, std::vector<const char*>& extensions) const;
 
     [[nodiscard]] const VkDebugUtilsMessengerCreateInfoEXT& messenger() const { return messenger_; }

@@ -1,4 +1,4 @@
-// Context: the borrowed handles that everything in this library works on, with a device table of its own.
+// Context: borrowed handles, and the device functions and limits read from them.
 #pragma once
 
 #include "voile/gpu/functions.hpp"
@@ -7,7 +7,7 @@
 namespace voile::gpu
 {
 
-// Handles that the host owns. All must outlive whatever is made from them.
+// Handles of the host. They must outlive all objects made from them.
 struct Handles
 {
     VkInstance instance = VK_NULL_HANDLE;
@@ -50,7 +50,7 @@ void set_name(const Context& context, VkObjectType type, Handle object, const ch
     set_name(context, type, reinterpret_cast<uint64_t>(object), name);
 }
 
-// "VK_ERROR_DEVICE_LOST" and so on; the number for results that this list does not know.
+// Returns "VK_ERROR_DEVICE_LOST" and so on, or the number of an unknown result.
 std::string to_string(VkResult result);
 
 } // namespace voile::gpu

@@ -6,7 +6,7 @@
 namespace voile::gpu
 {
 
-// Those of buffers, kernels, command buffers and timestamps, which every device has.
+// The functions of buffers, kernels, command buffers and timestamps. Every device has them.
 #define VOILE_COMPUTE_FUNCTIONS(use)                                                                                   \
     use(vkAllocateDescriptorSets);                                                                                     \
     use(vkCmdBindDescriptorSets);                                                                                      \
@@ -40,7 +40,7 @@ namespace voile::gpu
     use(vkGetQueryPoolResults);                                                                                        \
     use(vkUpdateDescriptorSets);
 
-// Those of the engine's submissions, pictures and windows.
+// The functions of the engine's submissions, pictures and windows.
 #define VOILE_ENGINE_FUNCTIONS(use)                                                                                    \
     use(vkAcquireNextImageKHR);                                                                                        \
     use(vkAllocateCommandBuffers);                                                                                     \
@@ -89,7 +89,7 @@ struct DeviceFunctions
 #undef VOILE_DECLARE_FUNCTION
 };
 
-// Null where the device does not have a function. What an extension brought and a later version of Vulkan took over is
+// Loads the functions; null if the device lacks one. A function of an extension that a later Vulkan version promoted is
 // found by either name.
 DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);
 

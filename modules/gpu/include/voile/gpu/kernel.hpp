@@ -63,8 +63,8 @@ public:
 
     static Result<BindingPool> create(const Context& context, uint32_t max_sets, uint32_t max_buffers);
 
-    // Binds `buffers` (one a binding, in order, whole) for `kernel`. The set lives as long as the pool. Error where the
-    // pool's sets or buffers are used up, whatever the driver has beyond them.
+    // Binds `buffers` (one per binding, in order, whole) for `kernel`. The set lives as long as the pool. Error if the
+    // pool's sets or buffers are used up, even if the driver has more.
     Result<VkDescriptorSet> bind(const Kernel& kernel, std::initializer_list<VkBuffer> buffers);
 
 private:

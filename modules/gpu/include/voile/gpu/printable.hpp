@@ -1,4 +1,4 @@
-// Names and other text from files, fit for messages.
+// Makes names and other text from files safe for messages.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace voile::gpu
 {
 
-// The text for one line of a message on a terminal. At most `most` bytes, cut between characters, and "..." after it
-// where something was left out. A '?' stands for each control character, byte that is no UTF-8, and character that
+// Returns text for one line of a message on a terminal. At most `most` bytes, cut between characters, with "..."
+// appended if it was cut. A '?' replaces each control character, each byte that is not UTF-8, and each character that
 // changes the direction of text or ends a line.
 std::string printable(std::string_view text, size_t most = 80);
 

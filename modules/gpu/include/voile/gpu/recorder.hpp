@@ -1,4 +1,4 @@
-// Recorder: where compute passes are recorded. The helper that dispatches owns the barrier.
+// Recorder: records compute passes. A dispatch also records its barrier.
 #pragma once
 
 #include "voile/gpu/kernel.hpp"
@@ -23,8 +23,8 @@ private:
     uint32_t pass_ = 0;
 };
 
-// Whether a dispatch is followed by its barrier. `unordered` is for a dispatch that touches nothing that the
-// next one touches: the barrier then comes with the next ordered one.
+// Whether a barrier follows a dispatch. Use `unordered` if the next dispatch accesses none of this one's data. The
+// barrier then follows the next ordered dispatch.
 enum class Ordering
 {
     ordered,
@@ -34,8 +34,9 @@ enum class Ordering
 class Recorder
 {
 public:
-    // Called after each dispatch with the command buffer so far; returns the one to go on in. Tests split a
-    // frame into one command buffer a dispatch this way: validation then sees hazards that it cannot see inside one.
+    // Called after each dispatch with the current command buffer. Returns the command buffer to continue in. Tests use
+    // it to record one command buffer per dispatch: validation then sees hazards that it misses within one command
+    // buffer.
     using Split = VkCommandBuffer (*)(void* user, VkCommandBuffer cmd);
 
     Recorder(const Context& context, VkCommandBuffer cmd, Timestamps* timestamps = nullptr)
@@ -62,8 +63,8 @@ public:
         dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
     }
 
-    // The same with the workgroups that `sizes` holds at `offset` (bytes), three words; an earlier dispatch may have
-    // written them, if a barrier has made them visible to indirect commands.
+    // Like dispatch, with the workgroup counts that `sizes` holds at `offset` (bytes), three words. An earlier dispatch
+    // may have written them, if a barrier has made them visible to indirect commands.
     void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
                            std::span<const std::byte> push);
 
@@ -85,9 +86,9 @@ public:
 
 private:
     void bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push);
-    // Within the pass: where waiting costs something, it is the pass's cost, and some devices only finish here.
+    // Inside the timed pass: waiting belongs to the pass's cost, and some devices only finish here.
     void compute_barrier();
-    void finish_dispatch(); // counts it, and splits
+    void finish_dispatch(); // counts it and splits the command buffer
 
     const Context& context_;
     VkCommandBuffer cmd_;

@@ -1,5 +1,5 @@
-// Result<T>: a value or the reason why there is none. Nothing but std::bad_alloc is thrown across a module's boundary;
-// the object whose call threw it may then only be destroyed.
+// Result<T>: a value, or the reason why there is none. Only std::bad_alloc is thrown across a module's boundary.
+// Afterwards the object whose call threw may only be destroyed.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace voile::gpu
 {
 
-// Says what was wrong with which input (file, line, index, value), in one line without a full stop.
+// Names the faulty input (file, line, index, value) and the reason, in one line without a full stop.
 struct Error
 {
     std::string message;

@@ -13,12 +13,12 @@ namespace voile::gpu
 // The time of one pass name, summed over all its dispatches in a frame.
 struct PassTime
 {
-    std::string_view name; // the label given while recording; must point to a string that lives on (a literal)
+    std::string_view name; // the label given while recording; must point to a permanent string (a literal)
     double milliseconds = 0;
 };
 
-// One query pool a frame slot. begin_frame, any number of begin/end pairs, and, once the slot's submission
-// has completed, read. Recording never allocates: a pass beyond the capacity is counted in dropped().
+// One query pool per frame slot. Call begin_frame, any number of begin/end pairs, and read once the slot's submission
+// has completed. Recording never allocates: a pass beyond the capacity is counted in dropped().
 class Timestamps
 {
 public:
@@ -45,7 +45,7 @@ private:
     struct Slot
     {
         VkQueryPool pool = VK_NULL_HANDLE;
-        std::vector<const char*> names; // one a pass recorded
+        std::vector<const char*> names; // one per recorded pass
     };
 
     void release();
