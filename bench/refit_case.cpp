@@ -156,7 +156,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
             .build = std::chrono::duration<double, std::milli>(end - begin).count(),
             .gpu_median = quantile(times, 0.5),
             .gpu_p95 = quantile(times, 0.95),
-            .bytes = bytes_moved(tree, sheet, kernels.levels_per_dispatch)};
+            .bytes = bytes_moved(tree, sheet, kernels.levels_a_dispatch)};
 }
 
 } // namespace bench

@@ -30,38 +30,38 @@ quick(test_assets)
 quick(test_bvh)
 quick(test_contact
     "a substep with planes and spheres equals their formulas"
-    "what comes round an edge of a mesh is neither drawn into it nor stopped"
+    "a vertex that passes around an edge of a mesh is neither pulled in nor stopped"
     "friction of a pair is the geometric mean of both sides"
     "friction holds stiff cloth on triangles"
-    "a vertex pressed between two sheets closer than the thickness comes out of neither"
-    "no path crosses a formula solid, however fast, flat and thin, and none that misses it is stopped"
-    "lists of near triangles change no bit of what contact finds"
+    "a vertex pressed between two sheets closer than the thickness passes through neither"
+    "no path crosses an analytic solid, however fast, flat or thin, and no path that misses it is stopped"
+    "lists of near triangles change no bit of contact"
     "a round mesh has no features, a box of triangles has 12 edges and 8 corners")
 quick(test_edits
-    "a material changes while the cloth hangs, in the same buffers"
-    "a material that does not fit the cloth is refused, and the old one stays"
-    "a cloth is put back to its start, moved at once and given a velocity"
-    "a snapshot brings the state back to the bit, also by way of the host"
+    "a material changes while the cloth hangs, without new buffers"
+    "a material that does not fit the cloth is refused, and the old one is kept"
+    "a cloth is reset, teleported and given a velocity"
+    "a snapshot restores the state to the bit, also through the host"
     "a cloth at its strain limit hangs still")
-quick(test_energy "a crumpled free cloth stays where it is")
+quick(test_energy "the center of mass of a crumpled free cloth stays at rest")
 quick(test_fabric
-    "the air drags and lifts a tilted plate by 1/2 rho C |u| u along its normal and across it"
-    "10 km from the origin cloth hangs as it does there, and comes to rest, and at 100 km it is finite"
+    "air drags and lifts a tilted plate by 1/2 rho C |u| u along and across its normal"
+    "cloth 10 km from the origin hangs and rests as at the origin, and 100 km from it stays finite"
     "a plate that falls face on reaches its terminal speed"
-    "every preset is found by its name, valid, and on a grid of its own stretch and shear")
+    "every preset is found by name, is valid, and keeps its stretch and shear on a grid")
 quick(test_frame)
 quick(test_hard_contacts
     "the three long edges of a needle pass through the triangle that it pierces"
-    "a sheet that lies in a box is as deep as it is"
-    "a strip that hangs through an open ground sticks out at its shorter end")
+    "the depth of a sheet in a box is exact"
+    "the depth of a strip through an open ground is its shorter end")
 quick(test_hazards)
 quick(test_hello_cloth)
 quick(test_holds
-    "pins follow an anchor exactly, with its velocity, and stop with it"
-    "pins change at run time, and what is let go falls"
-    "a leash keeps a vertex near a moving place, a backstop in front of it"
-    "tethers measure the way over the cloth"
-    "holds and tethers refuse bad input, and nothing changes"
+    "pins follow an anchor exactly, move with its velocity, and stop with it"
+    "pins change at run time, and released vertices fall"
+    "a max-distance constraint keeps a vertex near a moving point, a backstop in front of it"
+    "tethers measure distances along the cloth"
+    "attachments and tethers refuse bad input, and nothing changes"
     "vertices are attached to a collider's surface")
 quick(test_integration
     "a short trajectory follows the reference"
@@ -70,54 +70,54 @@ quick(test_integration
 quick(test_lifetime
     "a default-constructed id names nothing, and ids compare"
     "an upload and a snapshot may outlive their solver"
-    "lifetime checks end the program where something goes while its commands run"
-    "a device that has what requirements() lists is enough for the default options"
-    "each limit of a device has its line"
+    "lifetime checks end the program if an object is destroyed while its commands run"
+    "a device that meets requirements() is enough for the default options"
+    "each limit of a device has an error message"
     "a step out of range is refused by name, and nothing is recorded"
-    "pins come to rest and go on with their anchor while an upload is due"
+    "pins rest and move with their anchor while an upload is due"
     "statistics in flight survive an upload")
 quick(test_membrane
-    "warp and weft follow the texture coordinates, and turn with the mesh where there are none")
+    "warp and weft follow the texture coordinates, or rotate with a mesh that has none")
 quick(test_mesh_cloth
-    "a cantilever of isometric bending sags alike as mesh and as grid"
-    "a mesh that cannot be a cloth is refused by name, and the solver stays as it was")
+    "a cantilever with isometric bending sags equally as a mesh and as a grid"
+    "a mesh that cannot be a cloth is refused by name, and the solver is unchanged")
 quick(test_moving_colliders
-    "an upload in the middle keeps a deformed mesh as it is"
-    "what a deforming collider cannot take is refused"
-    "what a collider cannot do is refused and changes nothing"
-    "cloth meets the colliders of its layers alone")
+    "an upload preserves a deformed mesh"
+    "invalid input of a deforming collider is refused"
+    "invalid input of a collider is refused and changes nothing"
+    "cloth touches only the colliders of its layers")
 quick(test_physics
-    "the period of a spring pair, with either integrator"
+    "a spring pair swings with its exact period under either integrator"
     "a falling plate reaches its terminal speed all over")
 quick(test_recovery
-    "a small cloth comes out of the inside of a ball of 20,736 triangles"
-    "inside is told right at edges, at corners and in slivers")
+    "a small cloth leaves the inside of a ball of 20,736 triangles"
+    "the inside test is right at edges, at corners and in slivers")
 quick(test_model)
 quick(test_refit)
 quick(test_renderer)
 quick(test_scene_meshes)
 quick(test_stability
-    "damping of springs that fall into one line is as stable as in a plane"
-    "two slivers in a small mesh are still few, and many are the mesh's own")
+    "damping of springs folded into one line is as stable as in a plane"
+    "two slivers in a small mesh are softened, many slivers are not")
 quick(test_static_friction)
 quick(test_statistics
     "vertices under a surface are counted, and the deepest is measured"
-    "inside a mesh is where it winds around a vertex, at any depth"
-    "values that are not finite are counted, and do not spoil the other sums")
+    "a vertex is inside a mesh if the mesh winds around it, at any depth"
+    "values that are not finite are counted and do not spoil the other sums")
 quick(test_verlet
     "a Verlet step of one and of several substeps equals the double-precision reference"
-    "a short Verlet trajectory follows the reference, of a grid and of meshes"
+    "a short Verlet trajectory of a grid and of meshes follows the reference"
     "a Verlet cloth with contact stays above the surface")
 quick(test_viewer
-    "a pipe in place of a scene or a mesh keeps no signal waiting, and is refused"
-    "a cloth is noted when it is softened first, and not again"
+    "a pipe instead of a scene or a mesh is refused and delays no signal"
+    "a cloth is noted when it is first softened, and not again"
     "a mesh that cannot be used is named with its line and the reason"
-    "a scene that cannot be used is named with its place and the reason"
+    "a scene that cannot be used is named with its path and the reason"
     "options that cannot be used are named"
-    "without Vulkan there is one line that says so"
+    "a run without Vulkan prints one line that says so"
     "validation messages make the exit code 2"
-    "a point cache holds every frame, several cloths get a file each"
-    "a scene of meshes, moving pins, tethers and gusts runs, and what is odd about a mesh is told"
+    "a point cache holds every frame, and each of several cloths gets a file"
+    "a scene of meshes, moving pins, tethers and gusts runs, and irregularities of a mesh are reported"
     "a run without frames has the state of the start"
     "the jelly scene runs at a coarse resolution, and its cloth stays outside")
 quick(test_viewer_parts)

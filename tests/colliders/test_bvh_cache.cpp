@@ -32,7 +32,7 @@ uint64_t bytes_of(const voile::Bvh& bvh)
 
 } // namespace
 
-TEST_CASE("a mesh that is asked for again is not built again, and what comes is what building gives")
+TEST_CASE("a cached hierarchy is not built again and equals a newly built one")
 {
     voile::BvhCache cache(k_plenty);
     const voile::engine::Mesh mesh = sphere(1);
@@ -47,32 +47,32 @@ TEST_CASE("a mesh that is asked for again is not built again, and what comes is 
     CHECK(cache.counts().bytes == bytes_of(*first));
 }
 
-TEST_CASE("any change of a mesh is built anew")
+TEST_CASE("any change of a mesh causes a rebuild")
 {
     voile::BvhCache cache(k_plenty);
     const voile::engine::Mesh mesh = sphere(1);
     (void)get(cache, mesh);
     voile::engine::Mesh changed = mesh;
-    SUBCASE("a coordinate in its last bit")
+    SUBCASE("the last bit of a coordinate")
     {
         float& x = changed.positions[changed.triangles.back().z].x;
         x = std::nextafter(x, 2.f);
     }
-    SUBCASE("a zero of the other sign")
+    SUBCASE("the sign of a zero")
     {
         changed.positions[changed.triangles[0].x].x = 0.f;
         (void)get(cache, changed);
         changed.positions[changed.triangles[0].x].x = -0.f;
     }
-    SUBCASE("a triangle turned")
+    SUBCASE("a flipped triangle")
     {
         std::swap(changed.triangles[5].y, changed.triangles[5].z);
     }
-    SUBCASE("a triangle less")
+    SUBCASE("one triangle fewer")
     {
         changed.triangles.pop_back();
     }
-    SUBCASE("two triangles exchanged")
+    SUBCASE("two triangles swapped")
     {
         std::swap(changed.triangles[3], changed.triangles[40]);
     }
@@ -83,7 +83,7 @@ TEST_CASE("any change of a mesh is built anew")
     CHECK(same_bits(*bvh, voile::build_bvh(changed.positions, changed.triangles)));
 }
 
-TEST_CASE("what is found is compared with the mesh, should two keys be equal")
+TEST_CASE("a cache hit compares the whole mesh, in case two keys are equal")
 {
     const voile::engine::Mesh mesh = sphere(1);
     const voile::Bvh bvh = voile::build_bvh(mesh.positions, mesh.triangles);
@@ -99,7 +99,7 @@ TEST_CASE("what is found is compared with the mesh, should two keys be equal")
     CHECK_FALSE(voile::built_from(bvh, shorter.positions, shorter.triangles));
 }
 
-TEST_CASE("the cache keeps to its limit and lets go of what was used longest ago")
+TEST_CASE("the cache keeps its limit and evicts the least recently used hierarchy")
 {
     const voile::engine::Mesh meshes[] = {sphere(1), sphere(2), sphere(3)};
     const uint64_t one = bytes_of(voile::build_bvh(meshes[0].positions, meshes[0].triangles));
@@ -124,7 +124,7 @@ TEST_CASE("the cache keeps to its limit and lets go of what was used longest ago
     CHECK(same_bits(*kept, voile::build_bvh(meshes[0].positions, meshes[0].triangles))); // whoever has it keeps it
 }
 
-TEST_CASE("several threads may ask at once, while others change the limit")
+TEST_CASE("several threads may query the cache while others change its limit")
 {
     voile::BvhCache cache(k_plenty);
     const std::vector<voile::engine::Mesh> meshes{sphere(1), sphere(2), sphere(3), sphere(4)};
@@ -153,7 +153,7 @@ TEST_CASE("several threads may ask at once, while others change the limit")
     CHECK(cache.counts().builds + cache.counts().hits == k_threads * k_rounds);
 }
 
-TEST_CASE("colliders of all solvers share a cache, and a changed vertex or scale builds anew")
+TEST_CASE("colliders of all solvers share one cache, and a changed vertex or scale causes a rebuild")
 {
     voile::BvhCache& cache = voile::bvh_cache();
     voile::set_hierarchy_cache_limit(0);

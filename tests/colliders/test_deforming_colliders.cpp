@@ -54,7 +54,7 @@ voile::engine::Mesh bowl(float radius, float closing)
 
 } // namespace
 
-TEST_CASE("a mesh whose vertices all move alike does what a rigid one does")
+TEST_CASE("a mesh whose vertices all move alike acts like a rigid one")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, -0.4f, 0}, 0.4f, 16);
     constexpr uint32_t k_frames = 5; // the first touch is in the fourth
@@ -94,7 +94,7 @@ TEST_CASE("a mesh whose vertices all move alike does what a rigid one does")
             CHECK(glm::distance(glm::vec3(ends[way][i]), glm::vec3(ends[0][i])) < 1e-3f);
 }
 
-TEST_CASE("a surface that flows carries what lies on it by friction")
+TEST_CASE("friction on a flowing surface carries cloth along")
 {
     // A ground of 40 x 40 cells that is stretched along x: a point at x moves with the velocity x / 4 a second.
     voile::engine::Mesh ground;
@@ -136,7 +136,7 @@ TEST_CASE("a surface that flows carries what lies on it by friction")
     CHECK(std::abs(harness.positions(id)[12].x - 0.5f) < 2.5e-3f);
 }
 
-TEST_CASE("vertices that a buffer on the GPU holds deform a collider as those of the host do")
+TEST_CASE("vertices in a GPU buffer deform a collider like vertices from the host")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 12);
     struct Vertex // as an engine's skinning may write it
@@ -183,7 +183,7 @@ TEST_CASE("vertices that a buffer on the GPU holds deform a collider as those of
     CHECK(std::memcmp(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(glm::vec4)) == 0);
 }
 
-TEST_CASE("a bowl that closes keeps the cloth in it")
+TEST_CASE("a closing bowl keeps the cloth inside")
 {
     for (const float speed : {1.f, 6.f}) // closings a second: the rim moves at up to 7 m/s
     {
@@ -215,7 +215,7 @@ TEST_CASE("a bowl that closes keeps the cloth in it")
     }
 }
 
-TEST_CASE("an upload in the middle keeps a deformed mesh as it is")
+TEST_CASE("an upload preserves a deformed mesh")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(1);
     ClothHarness harness;
@@ -232,7 +232,7 @@ TEST_CASE("an upload in the middle keeps a deformed mesh as it is")
         CHECK(p.y > 0.5f);
 }
 
-TEST_CASE("what is inside a deforming mesh is counted before the first step, and after an upload")
+TEST_CASE("vertices inside a deforming mesh are counted before the first step and after an upload")
 {
     ClothHarness harness;
     voile::GridCloth grid = flat_sheet(3, 0.2f, 0);
@@ -251,7 +251,7 @@ TEST_CASE("what is inside a deforming mesh is counted before the first step, and
     CHECK(harness.statistics().deepest_penetration == doctest::Approx(0.3f).epsilon(1e-6));
 }
 
-TEST_CASE("what a deforming collider cannot take is refused")
+TEST_CASE("invalid input of a deforming collider is refused")
 {
     ClothHarness harness;
     voile::Solver& solver = harness.solver;

@@ -86,7 +86,7 @@ private:
 
 } // namespace
 
-TEST_CASE("a hundred colliders far away change nothing, to the bit")
+TEST_CASE("a hundred distant colliders change no bit of the result")
 {
     Scene alone(false);
     Scene crowded(true);

@@ -31,7 +31,7 @@ std::vector<voile::Collider> all_kinds(const voile::engine::Mesh& ball)
 
 } // namespace
 
-TEST_CASE("a collider that comes up to the cloth does what the cloth that comes down to it does")
+TEST_CASE("a collider that rises to the cloth acts like a cloth that falls on the collider")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, -0.4f, 0}, 0.4f, 16);
     const glm::vec3 velocity(0.4f, 3, -0.2f); // m/s, of the collider
@@ -68,7 +68,7 @@ TEST_CASE("a collider that comes up to the cloth does what the cloth that comes 
     }
 }
 
-TEST_CASE("a turning table carries a patch round with it")
+TEST_CASE("a turning table carries a patch of cloth around")
 {
     // 0.5 rad/s at 0.3 m: the centripetal acceleration, 0.075 m/s^2, is far below mu g.
     const voile::engine::Mesh ground = voile::engine::make_ground(2);
@@ -147,7 +147,7 @@ TEST_CASE("a ball shot through a curtain carries it along")
         }
 }
 
-TEST_CASE("cloth that is held by a collider goes with it, however far it jumps")
+TEST_CASE("cloth attached to a collider follows it, however far it jumps")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.3f, 0}, 0.3f, 16);
     ClothHarness harness;
@@ -180,7 +180,7 @@ TEST_CASE("cloth that is held by a collider goes with it, however far it jumps")
     CHECK(harness.statistics().kinetic_energy < 1);
 }
 
-TEST_CASE("a spinning mesh under a sheet drags it round and is never entered")
+TEST_CASE("a spinning mesh drags the sheet on it around, and no vertex enters it")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.4f, 0}, 0.4f, 12); // a faceted one
     const auto distance = voile::engine::take(voile::MeshDistance::create(collider(ball)));
@@ -209,7 +209,7 @@ TEST_CASE("a spinning mesh under a sheet drags it round and is never entered")
     CHECK(turning > 0.5);
 }
 
-TEST_CASE("cloth meets the colliders of its layers alone")
+TEST_CASE("cloth touches only the colliders of its layers")
 {
     ClothHarness harness;
     std::vector<voile::ClothId> ids;
@@ -233,7 +233,7 @@ TEST_CASE("cloth meets the colliders of its layers alone")
     CHECK(harness.positions(ids[3])[0].y < -4);
 }
 
-TEST_CASE("a mesh pushes to the side that it is told")
+TEST_CASE("a mesh pushes cloth to the chosen side")
 {
     // A cloth inside a ball: a mesh with two sides keeps it in, one with one side lets it out. A cloth that falls on
     // the back of an open ground: with one side it goes through.
@@ -268,7 +268,7 @@ TEST_CASE("a mesh pushes to the side that it is told")
     }
 }
 
-TEST_CASE("the boxes of a hierarchy cover the mesh at every level, and lie within those above")
+TEST_CASE("the boxes of each level of a hierarchy cover the mesh and lie within their parents")
 {
     ClothHarness harness;
     const voile::engine::Mesh ball = voile::engine::make_sphere({1, 2, 3}, 0.5f, 8);
@@ -302,7 +302,7 @@ TEST_CASE("the boxes of a hierarchy cover the mesh at every level, and lie withi
     CHECK(above.size() >= ball.triangles.size() / 4); // the leaves
 }
 
-TEST_CASE("what a collider cannot do is refused and changes nothing")
+TEST_CASE("invalid input of a collider is refused and changes nothing")
 {
     ClothHarness harness;
     voile::Solver& solver = harness.solver;

@@ -206,7 +206,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL find_function(VkInstance instance, cons
 
 } // namespace
 
-TEST_CASE("a collider larger than the device's buffers is refused, and the others go on")
+TEST_CASE("a collider larger than the device's buffers is refused, and the others keep working")
 {
     voile::gpu::Handles handles = tests::device().context().handles;
     handles.get_instance_proc_addr = find_function;
@@ -227,7 +227,7 @@ TEST_CASE("a collider larger than the device's buffers is refused, and the other
     CHECK(solver.needs_upload());
 }
 
-TEST_CASE("cloth rests on odd balls")
+TEST_CASE("cloth rests on irregular balls")
 {
     const std::vector<Drop> drops = {
         {.name = "inside-out", .mesh = turned(ball())},
@@ -248,7 +248,7 @@ TEST_CASE("cloth rests on odd balls")
     }
 }
 
-TEST_CASE("cloth rests on the parts of a mesh, of which some are inside-out or hollow")
+TEST_CASE("cloth rests on a mesh with inside-out and hollow parts")
 {
     const std::vector<Drop> drops = {
         {.name = "in a cavity", .mesh = hollow_ball_and_ball()},
@@ -274,7 +274,7 @@ TEST_CASE("cloth rests on the parts of a mesh, of which some are inside-out or h
     }
 }
 
-TEST_CASE("cloth rests on odd grounds")
+TEST_CASE("cloth rests on irregular grounds")
 {
     const voile::engine::Mesh plain = voile::engine::make_ground(1);
     const glm::uvec3 first = plain.triangles[0];
@@ -305,7 +305,7 @@ TEST_CASE("cloth rests on odd grounds")
     }
 }
 
-TEST_CASE("meshes that are no surface are refused with the reason")
+TEST_CASE("meshes that form no surface are refused with a reason")
 {
     ClothHarness harness;
     const auto refused = [&](const voile::engine::Mesh& mesh)

@@ -204,7 +204,7 @@ bool same_bits(const std::vector<PaddedBox>& a, const std::vector<PaddedBox>& b)
 
 } // namespace
 
-TEST_CASE("every triangle stands in exactly one slot of a padded tree that is no repeat")
+TEST_CASE("every triangle has exactly one slot of a padded BVH that is not a repeat")
 {
     for (const uint32_t count : k_counts)
     {
@@ -232,7 +232,7 @@ TEST_CASE("every triangle stands in exactly one slot of a padded tree that is no
     }
 }
 
-TEST_CASE("triangles that all lie in one place are halved too")
+TEST_CASE("identical triangles are split evenly, too")
 {
     const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<glm::uvec3> triangles(100, {0, 1, 2});
@@ -245,7 +245,7 @@ TEST_CASE("triangles that all lie in one place are halved too")
         CHECK(found[t] == t);
 }
 
-TEST_CASE_FIXTURE(RefitFixture, "a refit equals the recursive union, box for box, to the bit")
+TEST_CASE_FIXTURE(RefitFixture, "a refit equals the recursive union of boxes to the bit")
 {
     for (const uint32_t count : k_counts)
     {
@@ -269,7 +269,8 @@ TEST_CASE_FIXTURE(RefitFixture, "a refit equals the recursive union, box for box
     }
 }
 
-TEST_CASE_FIXTURE(RefitFixture, "a refit follows vertices that change, and two of the same are equal to the bit")
+TEST_CASE_FIXTURE(RefitFixture,
+                  "a refit follows changed vertices, and two refits of the same vertices are equal to the bit")
 {
     const Soup soup = random_soup(1000);
     const voile::PaddedTree tree = voile::build_padded_tree(soup.positions, soup.triangles);
@@ -289,7 +290,7 @@ TEST_CASE_FIXTURE(RefitFixture, "a refit follows vertices that change, and two o
     }
 }
 
-TEST_CASE_FIXTURE(RefitFixture, "a traversal hands on every triangle whose box the query reaches, once")
+TEST_CASE_FIXTURE(RefitFixture, "a traversal visits every triangle whose box overlaps the query exactly once")
 {
     // No more triangles: a query that reaches them all must end within the 65,535 iterations, of all its loops
     // together, after which llvmpipe ends a shader's loops.

@@ -50,7 +50,7 @@ TEST_CASE("bounds enclose all positions")
     CHECK(voile::engine::bounds(mesh).max == glm::vec3(1, 5, 3));
 }
 
-TEST_CASE("a capsule and a box are closed, wound outwards and have the volume that they should")
+TEST_CASE("a capsule and a box are closed, wound outward and have the right volume")
 {
     const glm::vec3 from(1, 2, 3);
     const glm::vec3 to(1.6f, 2, 3.8f);
@@ -76,7 +76,7 @@ TEST_CASE("a capsule and a box are closed, wound outwards and have the volume th
     }
 }
 
-TEST_CASE("a sphere is round, wound outwards and has radial normals")
+TEST_CASE("a sphere is round, wound outward and has radial normals")
 {
     const glm::vec3 center(1, 2, 3);
     voile::engine::Mesh sphere = voile::engine::make_sphere(center, 2.f);
@@ -105,7 +105,7 @@ TEST_CASE("the ground is a square that faces up")
     }
 }
 
-TEST_CASE("polygons are cut within their outline")
+TEST_CASE("polygons are triangulated within their outline")
 {
     check_cut({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, 1.); // a square
     check_cut({{0, 0, 0}, {1, 0, 3}, {2, 0, 0}, {1, 0, 1}}, 2.); // a dart, whose shorter diagonal lies outside
@@ -128,7 +128,7 @@ TEST_CASE("polygons are cut within their outline")
         8.);
 }
 
-TEST_CASE("a polygon keeps its corners' order whichever way it looks")
+TEST_CASE("triangulation keeps the winding of a polygon in any plane")
 {
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.f, 1.f})
@@ -147,7 +147,7 @@ TEST_CASE("a polygon keeps its corners' order whichever way it looks")
         }
 }
 
-TEST_CASE("a polygon that crosses itself or has no area still gives all triangles")
+TEST_CASE("a polygon that crosses itself or has no area still gives n - 2 triangles")
 {
     CHECK(cut({{0, 0, 0}, {1, 0, 1}, {1, 0, 0}, {0, 0, 1}}).triangles.size() == 2);
     CHECK(cut({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}).triangles.size() == 3);
@@ -232,7 +232,7 @@ double area_of(const std::vector<glm::vec3>& corners)
 
 } // namespace
 
-TEST_CASE("of all ears the one with the shortest cut goes first, also where outlines touch, cross or lie on a line")
+TEST_CASE("the ear with the shortest cut is clipped first, also if outlines touch, cross or lie on a line")
 {
     std::mt19937 random(1);
     const auto up_to = [&](uint32_t most) { return std::uniform_int_distribution<uint32_t>(0, most)(random); };
@@ -251,7 +251,7 @@ TEST_CASE("of all ears the one with the shortest cut goes first, also where outl
     }
 }
 
-TEST_CASE("a face of very many corners takes no time to speak of")
+TEST_CASE("a face of 20,000 corners is triangulated quickly")
 {
     const auto start = std::chrono::steady_clock::now();
     std::mt19937 random(2);
@@ -303,7 +303,7 @@ TEST_CASE("a dome and a tube make a capsule")
     CHECK(voile::engine::turn_to({0, 0, 1}) * glm::vec3(0, 1, 0) == glm::vec3(0, 0, 1));
 }
 
-TEST_CASE("normals do not depend on how a face is cut, nor on triangles without area")
+TEST_CASE("normals do not depend on the triangulation of a face or on triangles without area")
 {
     std::vector<glm::dvec3> sums;
     const voile::engine::Mesh box = voile::engine::make_box({0, 0, 0}, {1, 2, 3});

@@ -54,7 +54,7 @@ double angular_velocity(const std::vector<glm::vec4>& x, const std::vector<glm::
 
 } // namespace
 
-TEST_CASE("a lump with ears that spins under a sheet turns it and is never entered")
+TEST_CASE("a spinning lump with ears turns the sheet on it, and no vertex enters it")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(48);
     REQUIRE(lump.triangles.size() > 5000);

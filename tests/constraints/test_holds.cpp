@@ -41,7 +41,7 @@ std::string message(const voile::Result<void>& result)
 
 } // namespace
 
-TEST_CASE("pins follow an anchor exactly, with its velocity, and stop with it")
+TEST_CASE("pins follow an anchor exactly, move with its velocity, and stop with it")
 {
     for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
@@ -95,7 +95,7 @@ TEST_CASE("pins follow an anchor exactly, with its velocity, and stop with it")
     }
 }
 
-TEST_CASE("pins change at run time, and what is let go falls")
+TEST_CASE("pins change at run time, and released vertices fall")
 {
     ClothHarness harness;
     voile::GridCloth grid = sheet(6);
@@ -122,7 +122,7 @@ TEST_CASE("pins change at run time, and what is let go falls")
     CHECK(harness.positions(id)[35].y < height - 0.05f);
 }
 
-TEST_CASE("more holds than there was room for need an upload, and then hold")
+TEST_CASE("attachments beyond the capacity need an upload and then hold")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(10)));
@@ -141,7 +141,7 @@ TEST_CASE("more holds than there was room for need an upload, and then hold")
         CHECK(glm::vec3(harness.positions(id)[i]) == glm::vec3(x[i]));
 }
 
-TEST_CASE("a spring holds a vertex at m g / k below its place")
+TEST_CASE("a spring holds a vertex at m g / k below its target")
 {
     for (const float stiffness : {5.f, 5000.f}) // the second far beyond what the substep bears explicitly
     {
@@ -165,7 +165,7 @@ TEST_CASE("a spring holds a vertex at m g / k below its place")
     }
 }
 
-TEST_CASE("a leash keeps a vertex near a moving place, a backstop in front of it")
+TEST_CASE("a max-distance constraint keeps a vertex near a moving point, a backstop in front of it")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(12)));
@@ -230,7 +230,7 @@ TEST_CASE("tethers keep a soft hanging cloth at its length")
     }
 }
 
-TEST_CASE("tethers measure the way over the cloth")
+TEST_CASE("tethers measure distances along the cloth")
 {
     // Pinned at one corner: the far corner is a diagonal away, over a triangulated grid too.
     ClothHarness harness;
@@ -249,7 +249,7 @@ TEST_CASE("tethers measure the way over the cloth")
     CHECK(hangs > diagonal * 0.97);
 }
 
-TEST_CASE("holds and tethers refuse bad input, and nothing changes")
+TEST_CASE("attachments and tethers refuse bad input, and nothing changes")
 {
     ClothHarness harness;
     voile::GridCloth grid = sheet(4);

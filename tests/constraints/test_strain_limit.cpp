@@ -114,7 +114,7 @@ TEST_CASE("the strain limit keeps momentum and center of mass of a free cloth")
     }
 }
 
-TEST_CASE("what turns under a strain limit loses angular momentum no faster than material.hpp says")
+TEST_CASE("a spinning cloth under a strain limit loses angular momentum no faster than material.hpp says")
 {
     constexpr double k_turn = 6; // rad/s
     voile::Fabric soft = voile::cotton();

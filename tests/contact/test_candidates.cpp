@@ -93,14 +93,14 @@ voile::Statistics compare(const Shot& shot, float rounding)
 
 } // namespace
 
-TEST_CASE("lists of near triangles change no bit of what contact finds")
+TEST_CASE("lists of near triangles change no bit of contact")
 {
     const voile::Statistics most = compare({.thickness = 0.005f, .speed = 3, .rings = 48}, 0);
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices == 0);
 }
 
-TEST_CASE("where more triangles are near than a list holds, nothing is lost")
+TEST_CASE("an overflowed list of near triangles loses no contact")
 {
     // What traverses the hierarchy in every substep is a second instance of the same code; a compiler may round it in
     // another order, and touch a substep earlier (an H200's: 5e-6 m).
@@ -110,7 +110,7 @@ TEST_CASE("where more triangles are near than a list holds, nothing is lost")
 }
 
 // Within the thickness lie hundreds of triangles, but few of them nearer than cloth at rest is: those a list can hold.
-TEST_CASE("cloth at rest that is far thicker than triangles are long has lists of them")
+TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists of near triangles")
 {
     voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 240); // edges of 4 mm and less
     for (glm::vec3& p : ball.positions)
@@ -130,7 +130,7 @@ TEST_CASE("cloth at rest that is far thicker than triangles are long has lists o
 
 // The balls of all lists are to be as wide as the collider goes in a substep, then, and have thousands of triangles;
 // and the next larger float is farther than such lists tell distances apart.
-TEST_CASE("a collider that is carried off by hundreds of meters in a step leaves lists behind that come to an end")
+TEST_CASE("a list of near triangles ends when its collider moves by hundreds of meters in a step")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(160);
     ClothHarness harness({.feature_contact = false, .recovery = false});
@@ -154,7 +154,7 @@ TEST_CASE("a collider that is carried off by hundreds of meters in a step leaves
 }
 
 // The lists of cloth at rest are old, and were made for what is near by the thickness that it had.
-TEST_CASE("cloth at rest that becomes thicker rises by as much, on triangles that no list had")
+TEST_CASE("cloth at rest that becomes thicker rises by the added thickness, on triangles outside its lists")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(96);
     ClothHarness harness({.feature_contact = false});

@@ -190,7 +190,7 @@ TEST_CASE("a substep with planes and spheres equals their formulas")
     }
 }
 
-TEST_CASE("what comes round an edge of a mesh is neither drawn into it nor stopped")
+TEST_CASE("a vertex that passes around an edge of a mesh is neither pulled in nor stopped")
 {
     const voile::engine::Mesh box = voile::engine::make_box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
     ClothHarness harness({.feature_contact = false});
@@ -211,7 +211,7 @@ TEST_CASE("what comes round an edge of a mesh is neither drawn into it nor stopp
     CHECK(glm::distance(glm::vec3(harness.positions(id)[0]), from + way) < 1e-6f);
 }
 
-TEST_CASE("a sheet that drapes over a mesh never enters it")
+TEST_CASE("a sheet draped over a mesh never enters it")
 {
     const voile::engine::Mesh sphere = voile::engine::make_sphere({0, 0.5f, 0}, 0.5f, 24);
     const auto distance = voile::engine::take(voile::MeshDistance::create(collider(sphere)));
@@ -242,7 +242,7 @@ TEST_CASE("a sheet that drapes over a mesh never enters it")
     }
 }
 
-TEST_CASE("nothing goes through a surface, however fast")
+TEST_CASE("no vertex passes through a surface, however fast")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(5);
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.3f, 0}, 0.3f, 16);
@@ -267,7 +267,7 @@ TEST_CASE("nothing goes through a surface, however fast")
     }
 }
 
-TEST_CASE("a patch on an incline slides as far as Coulomb's law says, or stays")
+TEST_CASE("a patch on an incline slides or sticks by Coulomb's law")
 {
     constexpr double k_angle = 3.14159265358979 / 6;
     const glm::vec3 normal(static_cast<float>(std::sin(k_angle)), static_cast<float>(std::cos(k_angle)), 0);
@@ -351,7 +351,7 @@ TEST_CASE("two runs with contact are equal to the bit")
     CHECK(std::memcmp(states[1].data(), states[3].data(), states[1].size() * sizeof(glm::vec4)) == 0);
 }
 
-TEST_CASE("a vertex pressed between two sheets closer than the thickness comes out of neither")
+TEST_CASE("a vertex pressed between two sheets closer than the thickness passes through neither")
 {
     // Two open sheets 2 cm apart, a cloth of thickness 3 cm driven between them: each pushes it through the other.
     voile::engine::Mesh gap = voile::engine::make_ground(2, 0);

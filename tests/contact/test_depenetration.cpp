@@ -204,7 +204,7 @@ voile::engine::Mesh ellipsoid(const glm::dvec3& radii, uint32_t flats, uint32_t 
 
 } // namespace
 
-TEST_CASE("what starts inside a solid leaves it at 2 m/s at most, in one piece")
+TEST_CASE("cloth that starts inside a solid leaves it at 2 m/s at most, in one piece")
 {
     const Start starts[] = {{"in the middle", 12, 0.9f, {0.01f, -0.01f, 0.02f}, 0, 5e-3f},
                             {"within", 6, 0.15f, {0.03f, -0.1f, -0.02f}, 0.3f, 5e-3f},
@@ -262,7 +262,7 @@ Observed watch(ClothHarness& harness, const std::array<voile::ClothId, 2>& sheet
 } // namespace
 
 // Both were shot out: one part of the sheet went out on one side, the rest on the other, until springs tore it.
-TEST_CASE("a tilted sheet that a solid stands through comes out on one side")
+TEST_CASE("a tilted sheet that a solid pierces comes out on one side")
 {
     const glm::vec3 axis = glm::normalize(glm::vec3(-0.2291f, 0.2864f, -0.9303f));
     voile::GridCloth across_box = tests::flat_sheet(13, 1, 0);
@@ -299,7 +299,7 @@ TEST_CASE("a tilted sheet that a solid stands through comes out on one side")
 }
 
 // As a character is made of: capsules that overlap, a head in a helmet. One solid held what another let go (664 m/s).
-TEST_CASE("cloth inside solids that overlap comes out of all of them in one piece")
+TEST_CASE("cloth inside overlapping solids leaves all of them in one piece")
 {
     using voile::Collider;
     const voile::engine::Mesh ball = ellipsoid({0.35, 0.35, 0.35}, 16, 10);
@@ -358,7 +358,7 @@ TEST_CASE("cloth inside solids that overlap comes out of all of them in one piec
 }
 
 // What hooked around their edges was stretched until it snapped free.
-TEST_CASE("edges of a solid do not hold back a sheet that comes out of it")
+TEST_CASE("edges of a solid do not catch a sheet that leaves it")
 {
     voile::GridCloth on_box = tests::flat_sheet(8, 1, 0);
     on_box.rows = 13;

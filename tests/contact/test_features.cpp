@@ -55,7 +55,7 @@ Count count(const voile::engine::Mesh& mesh)
 
 } // namespace
 
-TEST_CASE("the flats of a cylinder are no edges, though they reach its rims")
+TEST_CASE("the flats of a cylinder are no feature edges, though they extend to its rims")
 {
     // Across 5 cm of it normals turn by 2.9 degrees on either side; 10.2 would count.
     const Count found = count(prism(0.5, 64));
@@ -64,14 +64,14 @@ TEST_CASE("the flats of a cylinder are no edges, though they reach its rims")
     CHECK(found.corners > 64);
 }
 
-TEST_CASE("all edges of a thin rod stand out, however little each of them turns")
+TEST_CASE("all edges of a thin rod are feature edges, however small their angles")
 {
     const Count found = count(prism(0.01, 32)); // 11 degrees an edge
     CHECK(found.along >= 32);
     CHECK(found.corners >= 2);
 }
 
-TEST_CASE("the edges of a prism stand out where the angle is sharp, its flats' diagonals never")
+TEST_CASE("the sharp edges of a prism are feature edges, the diagonals of its flats never")
 {
     const Count found = count(prism(0.5, 6));
     CHECK(found.along == 6);
@@ -145,7 +145,7 @@ float farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 
 } // namespace
 
-TEST_CASE("edges of a collider hold cloth alike, however many threads share what is around a vertex")
+TEST_CASE("edges of a collider hold cloth equally for any number of feature threads")
 {
     for (const bool mesh : {false, true})
     {
@@ -165,7 +165,7 @@ TEST_CASE("edges of a collider hold cloth alike, however many threads share what
     }
 }
 
-TEST_CASE("enumerators of the options that do not exist are refused")
+TEST_CASE("options with an invalid enumerator are refused")
 {
     const auto refused = [](const voile::SolverOptions& options)
     {
@@ -178,7 +178,7 @@ TEST_CASE("enumerators of the options that do not exist are refused")
           "SolverOptions: mesh_layout is 2, must be compact or interleaved");
 }
 
-TEST_CASE("threads that share what is around a vertex are as many as a workgroup may have, and a power of two")
+TEST_CASE("feature threads are a power of two of at most the workgroup size")
 {
     for (const uint32_t threads : {3u, 128u})
     {

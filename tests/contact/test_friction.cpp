@@ -45,7 +45,7 @@ TEST_CASE("friction holds stiff cloth on triangles")
     CHECK(speed < 1e-3f); // what rests is told to rest: no kick of gravity and springs that contact has not answered
 }
 
-TEST_CASE("friction holds coarse cloth that a ball bears between its vertices")
+TEST_CASE("friction holds coarse cloth that a ball supports between its vertices")
 {
     // Few of its vertices touch. Most belong to several triangles that lie on the ball. It crept by 2 mm/s and slid
     // off.

@@ -91,7 +91,7 @@ Scene at_length(Scene scene)
 
 } // namespace
 
-TEST_CASE("cloth shot at two triangles, a square meter together")
+TEST_CASE("cloth shot at two triangles of one square meter in all")
 {
     shoot(pair_of_triangles("square of 1 m", 1));
 }
@@ -106,7 +106,7 @@ TEST_CASE("cloth shot at the point of a needle")
     shoot(upright_needle());
 }
 
-TEST_CASE("cloth shot at a needle that lies in its way")
+TEST_CASE("cloth shot at a horizontal needle")
 {
     shoot(lying_needle());
 }

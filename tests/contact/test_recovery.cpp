@@ -113,7 +113,7 @@ void comes_out(ClothHarness& harness, voile::ClothId id, const voile::MeshDistan
 
 } // namespace
 
-TEST_CASE("a sheet that a solid stands through comes out of it and rests")
+TEST_CASE("a sheet that a solid pierces leaves it and comes to rest")
 {
     struct Case
     {
@@ -149,7 +149,7 @@ TEST_CASE("a sheet that a solid stands through comes out of it and rests")
         }
 }
 
-TEST_CASE("a small cloth comes out of the inside of a ball of 20,736 triangles")
+TEST_CASE("a small cloth leaves the inside of a ball of 20,736 triangles")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 72);
     const auto exact = voile::engine::take(voile::MeshDistance::create(collider(ball)));
@@ -167,7 +167,7 @@ TEST_CASE("a small cloth comes out of the inside of a ball of 20,736 triangles")
     }
 }
 
-TEST_CASE("a mesh cloth comes off a sharp spire, and out of parts that lie in each other")
+TEST_CASE("a mesh cloth leaves a sharp spire and nested parts")
 {
     const voile::engine::Mesh parts = joined(voile::engine::make_box({-0.3f, -0.2f, -0.3f}, {0.1f, 0.2f, 0.3f}),
                                              voile::engine::make_sphere({0.1f, 0, 0}, 0.25f, 12));
@@ -198,7 +198,7 @@ TEST_CASE("a mesh cloth comes off a sharp spire, and out of parts that lie in ea
     }
 }
 
-TEST_CASE("a collider that is added over a resting cloth, and a cloth that is moved into one")
+TEST_CASE("cloth leaves a collider added over it or one that it is moved into")
 {
     const voile::engine::Mesh box = voile::engine::make_box({-0.25f, -0.1f, -0.25f}, {0.25f, 0.1f, 0.25f});
     const auto exact = voile::engine::take(voile::MeshDistance::create(collider(box)));
@@ -234,7 +234,7 @@ TEST_CASE("a collider that is added over a resting cloth, and a cloth that is mo
     }
 }
 
-TEST_CASE("cloth comes out of solids that move, turn and deform meanwhile")
+TEST_CASE("cloth leaves solids that move, turn and deform meanwhile")
 {
     const voile::engine::Mesh box = voile::engine::make_box({-0.2f, -0.15f, -0.2f}, {0.2f, 0.15f, 0.2f});
     for (const bool deforms : {false, true})
@@ -270,7 +270,7 @@ TEST_CASE("cloth comes out of solids that move, turn and deform meanwhile")
     }
 }
 
-TEST_CASE("a solid that jumps away leaves what was inside it, and does not throw it")
+TEST_CASE("a solid that jumps away does not throw the cloth that was inside")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(10, 0.1f, {0, 0, 0})));
@@ -283,7 +283,7 @@ TEST_CASE("a solid that jumps away leaves what was inside it, and does not throw
     CHECK(fastest(harness.velocities(id)) < 3); // m/s; measured: 0.7
 }
 
-TEST_CASE("pins, other layers and what has two sides stay inside")
+TEST_CASE("pins, cloth of other layers and cloth in two-sided meshes stay inside")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 12);
     struct Case
@@ -320,7 +320,7 @@ TEST_CASE("pins, other layers and what has two sides stay inside")
     }
 }
 
-TEST_CASE("no way out leads under the ground")
+TEST_CASE("depenetration never leads below the ground")
 {
     // Half of the ball is below, and cloth lies nearer to its bottom than to its top.
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 16);
@@ -341,7 +341,7 @@ TEST_CASE("no way out leads under the ground")
     }
 }
 
-TEST_CASE("inside is told right at edges, at corners and in slivers")
+TEST_CASE("the inside test is right at edges, at corners and in slivers")
 {
     // Points on lines along the axes through vertices and the middles of edges, where a line meets several triangles at
     // once, and points near to them, up to a few roundings. What is inside moves.
@@ -407,7 +407,7 @@ TEST_CASE("inside is told right at edges, at corners and in slivers")
         }
 }
 
-TEST_CASE("recovery is recorded only where a solid is, and is the same to the bit in every run")
+TEST_CASE("depenetration is recorded only with a solid, and is equal to the bit in every run")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 12);
     voile::MeshCollider two_sided = collider(ball);

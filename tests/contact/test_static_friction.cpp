@@ -110,14 +110,14 @@ void check_incline(float side, uint32_t cells, float spacing, uint32_t vertices)
 
 } // namespace
 
-TEST_CASE("every preset holds and slips within 1 % of the incline's tangent")
+TEST_CASE("every preset sticks and slips within 1 % of the incline's tangent")
 {
     for (const float spacing : {0.02f, 0.01f, 0.005f})
         for (const float side : {0.f, 2.f, 40.f})
             check_incline(side, side > 10 ? 8 : 12, spacing, spacing > 0.01f ? 6 : 9);
 }
 
-TEST_CASE("static friction holds on a collider that moves evenly as on one at rest")
+TEST_CASE("static friction holds on a collider of constant velocity as on one at rest")
 {
     struct Way
     {

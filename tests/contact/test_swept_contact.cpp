@@ -249,7 +249,7 @@ private:
 
 } // namespace
 
-TEST_CASE("no path crosses a formula solid, however fast, flat and thin, and none that misses it is stopped")
+TEST_CASE("no path crosses an analytic solid, however fast, flat or thin, and no path that misses it is stopped")
 {
     const Solid solids[] = {
         plate("plate of 0.1 mm", 1e-4f),  plate("plate of 2 mm", 2e-3f), plate("plate of 5 cm", 0.05f),

@@ -29,7 +29,7 @@ std::string message(const fs::path& path, uint64_t most = voile::engine::k_large
 
 } // namespace
 
-TEST_CASE("only regular files are read, and no more of them than may be")
+TEST_CASE("only regular files are read, and only up to the size limit")
 {
     const TestFolder folder;
     const std::string fifo = (folder / "pipe.obj").string();
@@ -55,7 +55,7 @@ TEST_CASE("only regular files are read, and no more of them than may be")
               .starts_with("Name:")); // a size of 0, and yet it has bytes
 }
 
-TEST_CASE("text from a file is made fit for one line of a terminal")
+TEST_CASE("text from a file becomes one printable line")
 {
     CHECK(voile::gpu::printable("Gräfin \xe2\x82\xac \xf0\x9f\xa7\xb5") == "Gräfin \xe2\x82\xac \xf0\x9f\xa7\xb5");
     CHECK(voile::gpu::printable("\x1b[31mred\r\n\t\x7f") == "?[31mred????");
@@ -82,7 +82,7 @@ TEST_CASE("text from a file is made fit for one line of a terminal")
     CHECK(path.size() == 243);
 }
 
-TEST_CASE("messages about a mesh show nothing of it raw")
+TEST_CASE("messages about a mesh show no raw bytes of the file")
 {
     const TestFolder folder;
     const std::string odd = "\x1b[2J" + std::string(300000, 'e');
@@ -121,7 +121,7 @@ TEST_CASE("a link to a pipe, as /dev/stdout may be, is written directly")
     ::close(ends[1]);
 }
 
-TEST_CASE("a file is there as a whole or not at all")
+TEST_CASE("a file is written completely or not at all")
 {
     const TestFolder folder;
     const fs::path path = folder.write("a.txt", "before");

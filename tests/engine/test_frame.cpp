@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-TEST_CASE("no heap allocation in a frame after the first ones")
+TEST_CASE("frames after the first few allocate nothing on the heap")
 {
     // Without validation: the layer's allocations would count.
     voile::engine::App app({.extent = {64, 36}, .headless = true, .timestamps = true});

@@ -38,7 +38,7 @@ std::string save_message(const std::filesystem::path& path, const voile::engine:
 
 } // namespace
 
-TEST_CASE("a picture comes back from PNG as it was")
+TEST_CASE("a picture survives a round trip through PNG")
 {
     const TestFolder folder;
     for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(1, 300), glm::uvec2(333, 2), glm::uvec2(64, 48)})
@@ -63,7 +63,7 @@ TEST_CASE("alpha is dropped when saving")
           std::vector<uint8_t>{10, 20, 30, 255, 40, 50, 60, 255});
 }
 
-TEST_CASE("a file that is no PNG is named with the reason")
+TEST_CASE("a file that is not a PNG is named with the reason")
 {
     const TestFolder folder;
     const std::string missing = (folder / "gone.png").string();
@@ -76,7 +76,7 @@ TEST_CASE("a file that is no PNG is named with the reason")
     CHECK(load_message(text).starts_with(text + ": not a readable PNG: "));
 }
 
-TEST_CASE("a PNG cut off anywhere is refused in one line with a reason")
+TEST_CASE("a PNG truncated anywhere is refused in one line with a reason")
 {
     const TestFolder folder;
     REQUIRE(voile::engine::save_png(folder / "a.png", make_picture(16, 16)));
@@ -109,7 +109,7 @@ TEST_CASE("a PNG with a damaged header is refused")
     }
 }
 
-TEST_CASE("a picture that makes no sense is not saved")
+TEST_CASE("an invalid picture is not saved")
 {
     const TestFolder folder;
     const std::string path = (folder / "a.png").string();
@@ -119,7 +119,7 @@ TEST_CASE("a picture that makes no sense is not saved")
     CHECK(folder.is_empty());
 }
 
-TEST_CASE("the longest side that can be asked for can be saved")
+TEST_CASE("a picture with the longest allowed side can be saved")
 {
     const TestFolder folder;
     const voile::engine::Picture picture = make_picture(16384, 1);

@@ -68,7 +68,7 @@ TEST_CASE("a triangle")
     CHECK(loaded.report.duplicate_triangles == 0);
 }
 
-TEST_CASE("polygons are cut, concave ones within their outline")
+TEST_CASE("polygons are triangulated, concave ones within their outline")
 {
     const Loaded loaded = load("v 0 0 0\nv 1 0 3\nv 2 0 0\nv 1 0 1\n"            // a dart
                                "v 5 0 0\nv 5 0 1\nv 6 0 1\nv 6 0 0\n"            // a square
@@ -80,7 +80,7 @@ TEST_CASE("polygons are cut, concave ones within their outline")
     CHECK(loaded.mesh.normals == std::vector<glm::vec3>(13, {0, 1, 0}));
 }
 
-TEST_CASE("a polygon of more corners than fit in a byte")
+TEST_CASE("a polygon may have more corners than fit in a byte")
 {
     constexpr int k_corners = 300;
     std::string text;
@@ -96,19 +96,19 @@ TEST_CASE("a polygon of more corners than fit in a byte")
     CHECK(total_area(loaded.mesh) == tests::close_to(3.14159, 3e-4));
 }
 
-TEST_CASE("negative indices count back from the line they stand on")
+TEST_CASE("negative indices count back from their line")
 {
     const Loaded loaded = load(k_triangle + "f -3 -2 -1\nv 5 0 0\nv 5 0 1\nv 6 0 0\nf -3 -2 -1\n");
     CHECK(loaded.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {3, 4, 5}});
     CHECK(loaded.mesh.positions[4] == glm::vec3(5, 0, 1));
 }
 
-TEST_CASE("a face may refer to what comes later")
+TEST_CASE("a face may refer to later vertices")
 {
     CHECK(load("f 1 2 3\n" + k_triangle).mesh.triangles.size() == 1);
 }
 
-TEST_CASE("texture coordinates and normals, in all forms of a corner")
+TEST_CASE("texture coordinates and normals are read in all forms of a corner")
 {
     const std::string lists = k_triangle + "vt 0.5 0.25\nvt 1 0\nvn 0 2 0\nvn 1 0 0\n";
     const Loaded both = load(lists + "f 1/1/1 2/2/1 3/1/1\n");
@@ -130,7 +130,7 @@ TEST_CASE("texture coordinates and normals, in all forms of a corner")
     CHECK(load(lists + "vn 0 0 0\nf 1//2 2//2 3//3\n").mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
 }
 
-TEST_CASE("a normal too long for its square to be a float")
+TEST_CASE("a normal may be so long that its square overflows a float")
 {
     const Loaded loaded = load(k_triangle + "vn 0 1e30 0\nf 1//1 2//1 3//1\n");
     CHECK(loaded.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
@@ -150,7 +150,7 @@ TEST_CASE("positions that no triangle uses are left out")
 }
 
 TEST_CASE(
-    "vertices by position: the file's own, in its order, whatever texture coordinates and normals the corners have")
+    "vertices by position are the file's own in its order, whatever texture coordinates and normals the corners have")
 {
     const TestFolder folder;
     // Two triangles that share an edge but no texture coordinate and no normal; a vertex that nothing uses.
@@ -169,7 +169,7 @@ TEST_CASE(
     CHECK(std::abs(mesh.value().normals[0].y) == 1);
 }
 
-TEST_CASE("line ends, blanks, comments, continued lines, weights, colors, a byte order mark")
+TEST_CASE("line ends, blanks, comments, continued lines, weights, colors and a byte order mark are accepted")
 {
     const voile::engine::Mesh plain = load(k_triangle + "f 1 2 3\n").mesh;
     for (const std::string& text : {
@@ -188,7 +188,7 @@ TEST_CASE("line ends, blanks, comments, continued lines, weights, colors, a byte
     }
 }
 
-TEST_CASE("objects and groups become one mesh, and what is no mesh is ignored")
+TEST_CASE("objects and groups become one mesh, and other statements are ignored")
 {
     const Loaded loaded = load("mtllib gone.mtl\no one\n" + k_triangle +
                                "g a b\nusemtl red\ns 1\nf 1 2 3\no two\ng\ns off\nv 1 0 1\nl 1 2\np 1\nf 3 2 4\n");
@@ -211,14 +211,14 @@ TEST_CASE("degenerate and duplicate triangles are dropped and counted")
     CHECK(loaded.report.duplicate_triangles == 3);
 }
 
-TEST_CASE("a thin triangle is kept, one within rounding is not")
+TEST_CASE("a thin triangle is kept unless its height is within rounding")
 {
     CHECK(load("v 0 0 0\nv 1 0 0\nv 0.5 0.00001 0\nf 1 2 3\n").mesh.triangles.size() == 1);
     CHECK(message("v 0 0 0\nv 1 0 0\nv 0.5 0.0000001 0\nf 1 2 3\n") == "FILE: no triangles left, all 1 are degenerate");
     CHECK(load("v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n").mesh.triangles.size() == 1); // small is not thin
 }
 
-TEST_CASE("computed normals do not depend on how a flat face is cut")
+TEST_CASE("computed normals do not depend on the triangulation of a flat face")
 {
     // A cube's corner: three faces, one of them cut in two at the corner.
     const Loaded loaded =
@@ -288,7 +288,7 @@ TEST_CASE("an error names the file, the line and the reason")
     CHECK(message("v \x01 0 0\n") == "FILE:1: '?' is not a number");
 }
 
-TEST_CASE("the first faulty line is the one named")
+TEST_CASE("the error names the first faulty line")
 {
     CHECK(message("v 0 0 x\nv 0 y 0\n") == "FILE:1: 'x' is not a number");
 }
@@ -298,7 +298,7 @@ TEST_CASE("a number too small for a double is zero")
     CHECK(load("v 1e-999 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n").mesh.positions[0] == glm::vec3(0));
 }
 
-TEST_CASE("a file that holds no mesh")
+TEST_CASE("a file without a mesh is refused")
 {
     CHECK(message("") == "FILE: file is empty");
     CHECK(message(" \r\n\t\n") == "FILE: file is empty");
@@ -308,14 +308,14 @@ TEST_CASE("a file that holds no mesh")
     CHECK(message(std::string("v 0\0 0 0\n", 9)) == "FILE: not a text file, byte 3 is zero");
 }
 
-TEST_CASE("a file cut off in the middle of a line")
+TEST_CASE("a file truncated in the middle of a line is refused")
 {
     CHECK(message("v 0 0 0\nv 0 0 1\nv 1 0") == "FILE:3: vertex has 2 coordinates, needs 3");
     CHECK(message(k_triangle + "f 1 2") == "FILE:4: face has 2 corners, needs 3");
     CHECK(message(k_triangle + "f 1 2 3\nv 1 0 -") == "FILE:5: '-' is not a number");
 }
 
-TEST_CASE("a file that cannot be read is named with the system's reason")
+TEST_CASE("an unreadable file is named with the system's reason")
 {
     const TestFolder folder;
     const std::string missing = (folder / "gone.obj").string();
@@ -325,7 +325,7 @@ TEST_CASE("a file that cannot be read is named with the system's reason")
     CHECK(voile::engine::load_obj(directory).error().message == directory + ": cannot read: Is a directory");
 }
 
-TEST_CASE("a mesh comes back from OBJ with every float and index as it was")
+TEST_CASE("a mesh survives a round trip through OBJ with every float and index")
 {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-10.f, 10.f);
@@ -344,7 +344,7 @@ TEST_CASE("a mesh comes back from OBJ with every float and index as it was")
     CHECK(loaded.value().triangles == mesh.triangles);
 }
 
-TEST_CASE("a mesh that makes no sense is not saved")
+TEST_CASE("an invalid mesh is not saved")
 {
     const TestFolder folder;
     const std::string path = (folder / "a.obj").string();
@@ -390,7 +390,7 @@ TEST_CASE("saving replaces the file and leaves nothing else")
 }
 
 // VOILE_TEST_MESHES names a folder of OBJ files from elsewhere; without it there is nothing to test.
-TEST_CASE("meshes found in the wild load")
+TEST_CASE("meshes of other sources load")
 {
     const char* meshes = std::getenv("VOILE_TEST_MESHES");
     if (meshes == nullptr)

@@ -106,7 +106,7 @@ TEST_CASE("a binary triangle")
     CHECK(loaded.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
 }
 
-TEST_CASE("line ends, blank lines, comments")
+TEST_CASE("line ends, blank lines and comments are accepted")
 {
     const std::string text = "ply\nformat ascii 1.0\ncomment made by hand\nobj_info none\nelement vertex 3\n" +
                              k_vertex_properties + "element face 1\n" + k_face_properties +
@@ -118,7 +118,7 @@ TEST_CASE("line ends, blank lines, comments")
     CHECK(load(crlf).mesh.positions == k_positions);
 }
 
-TEST_CASE("other elements and properties are skipped, faces may come first, coordinates in any order")
+TEST_CASE("other elements and properties are skipped, and the order of elements and coordinates is free")
 {
     const std::string announced = " 1.0\nelement camera 2\nproperty list uchar short view\nproperty double zoom\n"
                                   "element nothing 3\n"
@@ -190,7 +190,7 @@ TEST_CASE("a big-endian file is the same mesh as a little-endian one, in every t
     CHECK(message("ply\nformat binary_big_endian" + announced + little).starts_with("FILE: "));
 }
 
-TEST_CASE("a header of very many elements and properties takes no time to speak of")
+TEST_CASE("a header of very many elements and properties is read quickly")
 {
     const auto start = std::chrono::steady_clock::now();
     std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n" + k_vertex_properties;
@@ -213,7 +213,7 @@ TEST_CASE("a header of very many elements and properties takes no time to speak 
     CHECK(elapsed.count() < 10);
 }
 
-TEST_CASE("every integer type counts and indexes")
+TEST_CASE("every integer type works for counts and indices")
 {
     for (const std::string count : {"char", "uchar", "short", "ushort", "int", "uint", "int8", "uint32"})
         for (const std::string index : {"int8", "uint8", "int16", "uint16", "int32", "uint32", "char", "uint"})
@@ -236,7 +236,7 @@ TEST_CASE("every integer type counts and indexes")
         }
 }
 
-TEST_CASE("PLY faces are cut and cleaned as those of OBJ are")
+TEST_CASE("PLY faces are triangulated and cleaned like those of OBJ")
 {
     const std::string vertices = "0 0 0\n1 0 3\n2 0 0\n1 0 1\n0.5 0 0\n"; // a dart, and a point on the x axis
     const Loaded loaded = load(ascii(5, 4, vertices + "4 0 1 2 3\n3 0 4 2\n3 0 1 3\n3 3 1 0\n"));
@@ -248,7 +248,7 @@ TEST_CASE("PLY faces are cut and cleaned as those of OBJ are")
     CHECK(total_area(loaded.mesh) == tests::close_to(2., 1e-7));
 }
 
-TEST_CASE("a fault in a PLY header is named with its line")
+TEST_CASE("an error in a PLY header names its line")
 {
     CHECK(message("") == "FILE: file is empty");
     CHECK(message("solid\n") == "FILE:1: not a PLY file, the first line is not 'ply'");
@@ -280,7 +280,7 @@ TEST_CASE("a fault in a PLY header is named with its line")
           "FILE:4: list 'vertex_index' is counted or indexed by double, needs an integer type");
 }
 
-TEST_CASE("a PLY file without a mesh")
+TEST_CASE("a PLY file without a mesh is refused")
 {
     const std::string start = "ply\nformat ascii 1.0\n";
     CHECK(message(start + "end_header\n") == "FILE: no vertices");
@@ -294,7 +294,7 @@ TEST_CASE("a PLY file without a mesh")
     CHECK(message(ascii(3, 2, k_triangle + "3 0 0 1\n3 1 1 1\n")) == "FILE: no triangles left, all 2 are degenerate");
 }
 
-TEST_CASE("a fault in an ASCII body is named with its line")
+TEST_CASE("an error in an ASCII body names its line")
 {
     CHECK(message(ascii(3, 1, "0 0 0\n0 0\n")) == "FILE:11: vertex has too few values");
     CHECK(message(ascii(3, 1, "0 0 0\n0 0 1 7\n")) == "FILE:11: vertex has too many values, '7' is left over");
@@ -315,7 +315,7 @@ TEST_CASE("a fault in an ASCII body is named with its line")
     CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n\n \nmore\n")) == "FILE:16: something follows the last face");
 }
 
-TEST_CASE("an ASCII body cut off")
+TEST_CASE("a truncated ASCII body is refused")
 {
     CHECK(message(ascii(3, 1, "0 0 0\n0 0 1\n")) == "FILE:11: file ends before vertex 3 of 3 is complete");
     CHECK(message(ascii(3, 1, "0 0 0\n0 0")) == "FILE:11: vertex has too few values");
@@ -323,7 +323,7 @@ TEST_CASE("an ASCII body cut off")
     CHECK(message(ascii(2147483647, 1, k_triangle)) == "FILE:12: file ends before vertex 4 of 2147483647 is complete");
 }
 
-TEST_CASE("a fault in a binary body is named with the vertex or face")
+TEST_CASE("an error in a binary body names the vertex or face")
 {
     const auto face = [](int32_t last) { return join(uint8_t{3}, int32_t{0}, int32_t{1}, last); };
     CHECK(message(binary(k_binary_triangle + face(3))) ==
@@ -340,7 +340,7 @@ TEST_CASE("a fault in a binary body is named with the vertex or face")
     CHECK(message(binary(k_binary_triangle + face(2) + "\n")) == "accepted");
 }
 
-TEST_CASE("a binary body cut off anywhere")
+TEST_CASE("a binary body truncated anywhere is refused")
 {
     const std::string body = k_binary_triangle + join(uint8_t{3}, int32_t{0}, int32_t{1}, int32_t{2});
     for (size_t length = 0; length < body.size(); ++length)
@@ -352,7 +352,7 @@ TEST_CASE("a binary body cut off anywhere")
     }
 }
 
-TEST_CASE("a PLY file that cannot be read is named with the system's reason")
+TEST_CASE("an unreadable PLY file is named with the system's reason")
 {
     const TestFolder folder;
     const std::string missing = (folder / "gone.ply").string();
@@ -362,7 +362,7 @@ TEST_CASE("a PLY file that cannot be read is named with the system's reason")
     CHECK(voile::engine::load_ply(directory).error().message == directory + ": cannot read: Is a directory");
 }
 
-TEST_CASE("the extension says which format a mesh is in")
+TEST_CASE("the extension selects the format of a mesh")
 {
     const TestFolder folder;
     const std::string obj = "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3 1\n";

@@ -133,7 +133,7 @@ TEST_CASE("a sphere is lit from the sun's side, and its shadow falls on the othe
     CHECK(between >= 1);
 }
 
-TEST_CASE("a two-sided sheet shows its colors on their sides")
+TEST_CASE("a two-sided sheet shows a color on each side")
 {
     for (const bool from_above : {true, false})
     {
@@ -214,7 +214,7 @@ void look_at_plane(Stage& stage)
 
 } // namespace
 
-TEST_CASE("lines go from end to end, as wide as they are told, and hide behind surfaces")
+TEST_CASE("lines have the given ends and width, and surfaces hide them")
 {
     Stage stage;
     look_at_plane(stage);
@@ -247,7 +247,7 @@ TEST_CASE("lines go from end to end, as wide as they are told, and hide behind s
     CHECK_FALSE(is_red(moved, 120, 45));
 }
 
-TEST_CASE("dots are round, of one size, and show those whose flags are asked for")
+TEST_CASE("dots are round, have one size, and show only the requested flags")
 {
     Stage stage;
     look_at_plane(stage);
@@ -308,7 +308,7 @@ TEST_CASE("the golden picture")
     CHECK(difference(black, expected.value()) > 4 * k_tolerance);
 }
 
-TEST_CASE("another size gives the same picture in that size")
+TEST_CASE("a resized renderer draws the scene in its new size")
 {
     Stage stage;
     add_ground(stage);

@@ -51,7 +51,7 @@ double largest_difference(const std::vector<glm::dvec3>& a, const std::vector<gl
 
 } // namespace
 
-TEST_CASE("the air drags and lifts a tilted plate by 1/2 rho C |u| u along its normal and across it")
+TEST_CASE("air drags and lifts a tilted plate by 1/2 rho C |u| u along and across its normal")
 {
     voile::Fabric fabric;
     fabric.areal_density = 0.2f;
@@ -86,7 +86,7 @@ TEST_CASE("the air drags and lifts a tilted plate by 1/2 rho C |u| u along its n
     }
 }
 
-TEST_CASE("gusts have the strength that they are given, and depend on place and time alone")
+TEST_CASE("gusts have the given strength and depend only on position and time")
 {
     ClothHarness harness;
     const voile::ClothId fine = voile::engine::take(harness.solver.add_cloth(dust(129, 64)));
@@ -129,7 +129,7 @@ TEST_CASE("gusts have the strength that they are given, and depend on place and 
     CHECK(largest_difference(wind_over(harness, large, step), start) < 2.5e-5);
 }
 
-TEST_CASE("in gusts RK4 keeps its fourth order, velocity Verlet its second")
+TEST_CASE("RK4 keeps fourth order in gusts, velocity Verlet second order")
 {
     const auto blown = [](voile::Integrator integrator, uint32_t substeps)
     {
@@ -157,7 +157,7 @@ TEST_CASE("in gusts RK4 keeps its fourth order, velocity Verlet its second")
     }
 }
 
-TEST_CASE("gusts are as smooth 16 km from the origin as at it")
+TEST_CASE("gusts are as smooth 16 km from the origin as at the origin")
 {
     // m/s, the largest second difference along rows of vertices 1 cm apart.
     const auto roughness = [](const glm::vec3& place)

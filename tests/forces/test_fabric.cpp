@@ -104,7 +104,7 @@ TEST_CASE("a plate that falls face on reaches its terminal speed")
     }
 }
 
-TEST_CASE("a strip between two holds hangs in a catenary")
+TEST_CASE("a strip held at both ends hangs in a catenary")
 {
     struct Row
     {
@@ -188,7 +188,7 @@ TEST_CASE("a hanging strip swings with the periods of a chain")
     }
 }
 
-TEST_CASE("every preset is found by its name, valid, and on a grid of its own stretch and shear")
+TEST_CASE("every preset is found by name, is valid, and keeps its stretch and shear on a grid")
 {
     for (const char* name : {"silk", "cotton", "wool", "denim", "leather"})
     {

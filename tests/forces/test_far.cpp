@@ -29,7 +29,7 @@ voile::Statistics hanging_cotton(float distance)
 
 } // namespace
 
-TEST_CASE("10 km from the origin cloth hangs as it does there, and comes to rest, and at 100 km it is finite")
+TEST_CASE("cloth 10 km from the origin hangs and rests as at the origin, and 100 km from it stays finite")
 {
     const voile::Statistics here = hanging_cotton(0);
     const voile::Statistics far = hanging_cotton(1e4f);

@@ -128,7 +128,7 @@ void check_moduli(ClothHarness& harness, voile::ClothId id, const voile::Fabric&
 
 } // namespace
 
-TEST_CASE("a mesh stretches and shears with the fabric's moduli, whatever its triangles, as a grid does")
+TEST_CASE("a mesh of any triangles stretches and shears with the fabric's moduli, like a grid")
 {
     const ClothMesh meshes[] = {tests::sheet(k_side, k_side, k_spacing), unstructured(k_side, k_spacing)};
     const double length = static_cast<double>(k_spacing) * (k_side - 1);
@@ -158,7 +158,7 @@ TEST_CASE("a mesh stretches and shears with the fabric's moduli, whatever its tr
     }
 }
 
-TEST_CASE("warp and weft follow the texture coordinates, and turn with the mesh where there are none")
+TEST_CASE("warp and weft follow the texture coordinates, or rotate with a mesh that has none")
 {
     const voile::Fabric fabric = soft_in_shear();
     const ClothMesh mesh = unstructured(k_side, k_spacing);
@@ -251,7 +251,7 @@ voile::Fabric plain(float damping_ratio)
 
 } // namespace
 
-TEST_CASE("a squeezed or stretched mesh never has more energy than at its start")
+TEST_CASE("a squeezed or stretched mesh never exceeds its initial energy")
 {
     std::vector<Squeezed> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
@@ -280,7 +280,7 @@ TEST_CASE("a squeezed or stretched mesh never has more energy than at its start"
     }
 }
 
-TEST_CASE("a crumpled free mesh keeps its momentum and gets no spin")
+TEST_CASE("a crumpled free mesh conserves momentum and gains no spin")
 {
     std::vector<Squeezed> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
@@ -305,7 +305,7 @@ TEST_CASE("a crumpled free mesh keeps its momentum and gets no spin")
     }
 }
 
-TEST_CASE("a mesh of a preset holds and slips within 1 % of the incline's tangent")
+TEST_CASE("a mesh of a preset sticks and slips within 1 % of the incline's tangent")
 {
     // As test_static_friction has it for grids: rounding must not shake stiff triangles by more than a vertex's weight.
     constexpr double k_angle = 30 * 3.14159265358979 / 180;

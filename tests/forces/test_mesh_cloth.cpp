@@ -165,7 +165,7 @@ TEST_CASE("one step of a closed mesh equals the double-precision reference")
     check_fabrics({tests::tetrahedron(), tests::torus(9, 7), tests::torus(13, 5), tests::torus(40, 30)});
 }
 
-TEST_CASE("a mesh of a raw material has springs and masses all alike")
+TEST_CASE("a mesh of a raw material has equal springs and equal masses")
 {
     voile::Material material;
     material.vertex_mass = 0.02f;
@@ -182,7 +182,7 @@ TEST_CASE("a mesh of a raw material has springs and masses all alike")
     check_steps({pulled(open, material), pulled(closed, material)});
 }
 
-TEST_CASE("a mesh moves as the masses given for it say")
+TEST_CASE("a mesh moves according to its given masses")
 {
     const ClothMesh mesh = tests::jittered_sheet(9, 7);
     voile::MeshCloth cloth = pulled(mesh, fabric_of(voile::BendingModel::isometric));
@@ -231,7 +231,7 @@ TEST_CASE("vertices without a triangle do not move")
     }
 }
 
-TEST_CASE("a triangulated sheet hangs as a grid does")
+TEST_CASE("a triangulated sheet hangs like a grid")
 {
     // Without shear stiffness, a sheet held by its upper edge stretches by rho g L / 2 K.
     constexpr uint32_t k_side = 9;
@@ -265,7 +265,7 @@ TEST_CASE("a triangulated sheet hangs as a grid does")
     CHECK(lowest_middle(harness, as_grid, k_side, k_side) - 1 == tests::close_to(exact, 1.3e-4));
 }
 
-TEST_CASE("a cantilever of isometric bending sags alike as mesh and as grid")
+TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a grid")
 {
     // A strip of 3 x 11 vertices 2 cm apart whose first two rows are held. Its deflection by the beam's difference
     // equation: the curvature at row i is the moment of the rows beyond it over B.

@@ -53,7 +53,7 @@ struct Subject
 
 } // namespace
 
-TEST_CASE("no cloth runs away, whatever its material, in however few substeps")
+TEST_CASE("no cloth blows up, whatever its material and however few its substeps")
 {
     Draw draw(2024);
     const tests::ClothMesh shapes[] = {tests::jittered_sheet(7, 6), tests::torus(9, 7), tests::tetrahedron()};
@@ -104,7 +104,7 @@ TEST_CASE("no cloth runs away, whatever its material, in however few substeps")
     }
 }
 
-TEST_CASE("damping of springs that fall into one line is as stable as in a plane")
+TEST_CASE("damping of springs folded into one line is as stable as in a plane")
 {
     // Flat, the damping of rows and columns acts in two directions; folded into one line in both, twice as strong in
     // one. Stiffness is along the rows alone, and does not grow.

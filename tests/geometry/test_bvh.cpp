@@ -158,7 +158,7 @@ voile::MeshCollider collider(const voile::engine::Mesh& mesh)
 
 } // namespace
 
-TEST_CASE("every triangle lies in one leaf, every box inside its parent's, and no tree is too deep")
+TEST_CASE("every triangle lies in one leaf, every box in its parent, and no tree is too deep")
 {
     for (const Soup& soup : soups())
         for (const uint32_t leaf : {1u, 2u, 4u})
@@ -175,7 +175,7 @@ TEST_CASE("every triangle lies in one leaf, every box inside its parent's, and n
         }
 }
 
-TEST_CASE("however many threads build a hierarchy, and whatever they share out, it is the same to the bit")
+TEST_CASE("a hierarchy is equal to the bit for any number of threads and any division of the work")
 {
     std::vector<Soup> meshes = soups();
     meshes.push_back(random_soup(30000, 0.02f, 8));
@@ -203,7 +203,7 @@ TEST_CASE("however many threads build a hierarchy, and whatever they share out, 
         }
 }
 
-TEST_CASE("the nodes of a hierarchy are depth first")
+TEST_CASE("the nodes of a hierarchy are in depth-first order")
 {
     const Soup soup = random_soup(20000, 0.02f, 10);
     const voile::Bvh bvh =
@@ -217,7 +217,7 @@ TEST_CASE("the nodes of a hierarchy are depth first")
     CHECK(triangles == bvh.triangles.size());
 }
 
-TEST_CASE("random rays hit what brute force hits")
+TEST_CASE("random rays hit the triangles that brute force finds")
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-1.5, 1.5);
@@ -251,7 +251,7 @@ TEST_CASE("random rays hit what brute force hits")
     }
 }
 
-TEST_CASE("nearest points are those of brute force")
+TEST_CASE("nearest points equal those of brute force")
 {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> place(-1.5, 1.5);
@@ -275,7 +275,7 @@ TEST_CASE("nearest points are those of brute force")
     }
 }
 
-TEST_CASE("the nearest point of a triangle is nearer than any sample of it, and not by more than the samples' spacing")
+TEST_CASE("the nearest point of a triangle is nearer than any sample, by at most the samples' spacing")
 {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1, 1);
@@ -299,7 +299,7 @@ TEST_CASE("the nearest point of a triangle is nearer than any sample of it, and 
         CHECK(count > 0); // every branch was taken
 }
 
-TEST_CASE("signed distance of a sphere's mesh, inside and outside, however the mesh is wound")
+TEST_CASE("the signed distance of a sphere's mesh is right inside and outside, with either winding")
 {
     const glm::vec3 center(0.3f, -0.2f, 0.5f);
     voile::engine::Mesh mesh = voile::engine::make_sphere(center, 1, 48);
@@ -326,7 +326,7 @@ TEST_CASE("signed distance of a sphere's mesh, inside and outside, however the m
     }
 }
 
-TEST_CASE("an open mesh knows its sides and its boundary")
+TEST_CASE("the distance to an open mesh gives its side and its boundary")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(1);
     const auto distance = voile::MeshDistance::create(collider(ground));
@@ -341,7 +341,7 @@ TEST_CASE("an open mesh knows its sides and its boundary")
     CHECK_FALSE(distance.value().crossing({0.1, 1, 0.3}, {0.1, 0.5, 0.3}));
 }
 
-TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
+TEST_CASE("an open bowl has no inside, a closed sphere has")
 {
     voile::engine::Mesh sphere = voile::engine::make_sphere({0, 0, 0}, 1, 12);
     const voile::MeshDistance closed = voile::engine::take(voile::MeshDistance::create(collider(sphere)));
@@ -358,7 +358,7 @@ TEST_CASE("a bowl without a lid has no sides, a closed sphere has")
     CHECK(std::abs(bowl.winding_number({0, 9, 0})) < 0.01); // it is open there
 }
 
-TEST_CASE("triangles that cut each other are counted in pairs, neighbors are not")
+TEST_CASE("intersecting triangles are counted in pairs, neighbors are not")
 {
     const std::vector<glm::vec3> positions{{0, 0, 0},        {1, 0, 0},       {0, 0, 1},
                                            {1, 0, 1},                                          // a square, y = 0

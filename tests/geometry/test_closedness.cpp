@@ -68,7 +68,7 @@ bool is_closed(const Triangles& mesh)
 
 } // namespace
 
-TEST_CASE("vertices are welded to the first one at their place, 0 and -0 being one")
+TEST_CASE("vertices are welded to the first one at their position, with 0 equal to -0")
 {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> place(-3, 3);
@@ -96,7 +96,7 @@ TEST_CASE("a mesh is closed if every edge has one triangle on each side")
         mesh.triangles.pop_back();
         not_closed(mesh);
     }
-    SUBCASE("a triangle turned over")
+    SUBCASE("a flipped triangle")
     {
         std::swap(mesh.triangles[1].y, mesh.triangles[1].z);
         not_closed(mesh);
@@ -106,18 +106,18 @@ TEST_CASE("a mesh is closed if every edge has one triangle on each side")
         mesh.triangles.push_back(mesh.triangles[0]);
         not_closed(mesh);
     }
-    SUBCASE("everything twice: as many edges each way, but no surface")
+    SUBCASE("every triangle twice: as many edges in each direction, but no surface")
     {
         const std::vector<glm::uvec3> again = mesh.triangles;
         mesh.triangles.insert(mesh.triangles.end(), again.begin(), again.end());
         not_closed(mesh);
     }
-    SUBCASE("as many edges up as down at every vertex, to different ends")
+    SUBCASE("as many edges in as out at every vertex, with different ends")
     {
         mesh.triangles = {{2, 3, 0}, {1, 3, 2}};
         not_closed(mesh);
     }
-    SUBCASE("a seam that is open")
+    SUBCASE("a seam with a gap")
     {
         mesh = torn_apart(mesh);
         mesh.positions[0].x += 1e-6f;
@@ -125,7 +125,7 @@ TEST_CASE("a mesh is closed if every edge has one triangle on each side")
     }
 }
 
-TEST_CASE("closedness is what counting edges says, for random triangles and for large meshes")
+TEST_CASE("closedness equals an edge count, for random triangles and for large meshes")
 {
     std::mt19937 random(2);
     const Triangles whole = tetrahedron();

@@ -43,7 +43,7 @@ void append(ClothMesh& mesh, const ClothMesh& other, const glm::vec3& offset)
 
 } // namespace
 
-TEST_CASE("the report of a mesh counts pieces, borders and what is odd about it")
+TEST_CASE("the report of a mesh counts pieces, borders and irregularities")
 {
     SUBCASE("two pieces")
     {
@@ -70,7 +70,7 @@ TEST_CASE("the report of a mesh counts pieces, borders and what is odd about it"
         mesh.positions.emplace_back(4, 0, 0);
         check(report_of(mesh), {.components = 1, .boundary_edges = 4, .isolated_vertices = 2});
     }
-    SUBCASE("triangles without area, one of which leaves its vertices to others")
+    SUBCASE("triangles without area, one with vertices that others use")
     {
         ClothMesh mesh = tests::sheet(3, 2, 0.1f);
         mesh.triangles.emplace_back(0, 1, 2); // on one line
@@ -87,7 +87,7 @@ TEST_CASE("the report of a mesh counts pieces, borders and what is odd about it"
         append(mesh, tests::sheet(3, 3, 0.125f), {0.25f, 0, 0}); // its first column on the other's last, exact in float
         check(report_of(mesh), {.components = 2, .boundary_edges = 16, .coincident_vertices = 3});
     }
-    SUBCASE("two pieces that meet in one vertex hang together")
+    SUBCASE("two pieces that share one vertex are connected")
     {
         const ClothMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}};
         check(report_of(mesh), {.components = 1, .boundary_edges = 6});
@@ -99,7 +99,7 @@ TEST_CASE("the report of a mesh counts pieces, borders and what is odd about it"
     }
 }
 
-TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver stays as it was")
+TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is unchanged")
 {
     constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
     const ClothMesh good = tests::sheet(3, 3, 0.1f);

@@ -96,7 +96,7 @@ constexpr glm::vec3 k_right{3, 0, 0};
 
 } // namespace
 
-TEST_CASE("triangles that share a vertex or its place are one part")
+TEST_CASE("triangles that share a vertex or its position are one part")
 {
     voile::engine::Mesh mesh = mesh_of({{}});
     CHECK(parts_of(mesh).count == 1);
@@ -125,7 +125,7 @@ TEST_CASE("triangles that share a vertex or its place are one part")
     CHECK(parts_of(tips).count == 1);
 }
 
-TEST_CASE("a part lies in another if it does as a whole")
+TEST_CASE("a part lies in another only if all of it does")
 {
     const auto enclosing = [](const std::vector<Part>& parts)
     {
@@ -143,7 +143,7 @@ TEST_CASE("a part lies in another if it does as a whole")
     CHECK(enclosing({{{}, 3}, {k_left * 0.5f}, {k_right * 0.5f}}) == Lists{{}, {0}, {0}});
 }
 
-TEST_CASE("parts that are inside-out are turned, and cavities are left")
+TEST_CASE("inside-out parts are flipped, and cavities are kept")
 {
     const glm::vec3 o(0);
     CHECK(faces({{o, 1, true}}) == "o");
@@ -162,7 +162,7 @@ TEST_CASE("parts that are inside-out are turned, and cavities are left")
     CHECK(faces({{o, 2}, {{1.9f, 0, 0}, 1, true}}) == "oo"); // half outside: no cavity
 }
 
-TEST_CASE("which parts are turned does not depend on places, sizes and orders")
+TEST_CASE("the flipped parts do not depend on positions, sizes and orders")
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> real(-1, 1);

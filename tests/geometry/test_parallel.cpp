@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-TEST_CASE("every piece of a range is done once, by however many threads")
+TEST_CASE("every piece of a range is processed once, by any number of threads")
 {
     for (const size_t count : {0u, 1u, 99u, 100u, 101u, 12345u})
         for (const uint32_t threads : {0u, 1u, 2u, 7u})
@@ -31,7 +31,7 @@ TEST_CASE("every piece of a range is done once, by however many threads")
         }
 }
 
-TEST_CASE("there are no more threads than wanted, nor than parts of the work")
+TEST_CASE("there are no more threads than requested, nor than parts of the work")
 {
     CHECK(voile::thread_count(5, 100) == 5);
     CHECK(voile::thread_count(5, 3) == 3);
@@ -42,7 +42,7 @@ TEST_CASE("there are no more threads than wanted, nor than parts of the work")
     CHECK(calls == 3);
 }
 
-TEST_CASE("an exception of any thread comes out, after all have ended")
+TEST_CASE("an exception of any thread is rethrown after all have ended")
 {
     std::atomic<uint32_t> calls = 0;
     const auto work = [&]

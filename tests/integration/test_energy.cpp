@@ -79,7 +79,7 @@ void add(ClothHarness& harness, std::vector<Subject>& subjects)
 
 } // namespace
 
-TEST_CASE("squeezed and stretched cloth never has more energy than at its start")
+TEST_CASE("squeezed and stretched cloth never exceeds its initial energy")
 {
     // Without damping there is nothing but the integrator to keep them from heating up.
     std::vector<Subject> subjects;
@@ -99,7 +99,7 @@ TEST_CASE("squeezed and stretched cloth never has more energy than at its start"
     }
 }
 
-TEST_CASE("a crumpled free cloth stays where it is")
+TEST_CASE("the center of mass of a crumpled free cloth stays at rest")
 {
     std::vector<Subject> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
@@ -189,7 +189,7 @@ double kinetic_energy(ClothHarness& harness, voile::ClothId id)
 
 } // namespace
 
-TEST_CASE("cloth between pins too far apart rests, whatever its tethers and its strain limit")
+TEST_CASE("cloth between pins too far apart comes to rest, whatever its tethers and its strain limit")
 {
     std::vector<Subject> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
@@ -226,7 +226,7 @@ double work_of_gravity(ClothHarness& harness, voile::ClothId id)
 
 } // namespace
 
-TEST_CASE("cloth squeezed between two capsules calms down")
+TEST_CASE("cloth squeezed between two capsules comes to rest")
 {
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
     {
@@ -253,7 +253,7 @@ TEST_CASE("cloth squeezed between two capsules calms down")
     }
 }
 
-TEST_CASE("cloth whose density changes 10,000 times over in every frame stays finite")
+TEST_CASE("cloth whose density changes by a factor of 10,000 in every frame stays finite")
 {
     std::vector<Subject> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})

@@ -317,7 +317,7 @@ voile::GridCloth threads(float warp, float weft, voile::Integrator integrator)
 
 } // namespace
 
-TEST_CASE("a strain limit adds no energy where springs that it does not limit are far stiffer")
+TEST_CASE("a strain limit adds no energy if the springs that it does not limit are far stiffer")
 {
     glm::mat4 sheared(1.f);
     sheared[0] = {0.7f, 0.35f, 0.5f, 0};
@@ -326,13 +326,13 @@ TEST_CASE("a strain limit adds no energy where springs that it does not limit ar
     run_free_grid(stiff_against_bending(glm::scale(glm::mat4(1.f), {0.9f, 1, 1.1f})), 64, 90);
 }
 
-TEST_CASE("threads of one direction keep velocity Verlet within its reach")
+TEST_CASE("threads of one direction keep velocity Verlet within its stability limit")
 {
     run_free_grid(threads(100, 0.1f, voile::Integrator::verlet), 64, 120);
     run_free_grid(threads(0.1f, 100, voile::Integrator::verlet), 5, 120);
 }
 
-TEST_CASE("undamped cloth far out of its shape never has more energy under Verlet than at its start")
+TEST_CASE("undamped cloth far from its rest shape never exceeds its initial energy under Verlet")
 {
     std::vector<uint32_t> seeds{9, 14, 16, 26, 33, 71}; // with a third of the viscosity up to 4.7 times
     if (const auto by_hand = seeds_by_hand())
@@ -349,7 +349,7 @@ TEST_CASE("undamped cloth far out of its shape never has more energy under Verle
     }
 }
 
-TEST_CASE("no free cloth of any material has more energy than at its start")
+TEST_CASE("no free cloth of any material exceeds its initial energy")
 {
     const auto [first, last] = seeds_by_hand().value_or(std::array{1u, 6u});
     for (uint32_t seed = first; seed <= last; ++seed)
@@ -361,7 +361,7 @@ TEST_CASE("no free cloth of any material has more energy than at its start")
     }
 }
 
-TEST_CASE("no random cloth ever has more energy than at its start")
+TEST_CASE("no random cloth ever exceeds its initial energy")
 {
     const auto by_hand = seeds_by_hand();
     const auto [first, last] = by_hand.value_or(std::array{1u, 3u});

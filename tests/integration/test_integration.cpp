@@ -88,7 +88,7 @@ TEST_CASE("a short trajectory follows the reference")
     CHECK(harness.velocities(id)[12] == glm::vec4(0));
 }
 
-TEST_CASE("free fall does not feel internal damping")
+TEST_CASE("internal damping does not affect free fall")
 {
     voile::GridCloth grid;
     grid.columns = 17;
@@ -161,7 +161,7 @@ TEST_CASE("the error falls with the fourth power of the step")
     }
 }
 
-TEST_CASE("cloths in one solver do not feel each other, and late ones leave the early ones' state alone")
+TEST_CASE("cloths in one solver do not affect each other, and adding one keeps the state of the others")
 {
     const voile::GridCloth first = uneven_sheet(13, 5);
     const voile::GridCloth second = uneven_sheet(9, 7);
@@ -188,7 +188,7 @@ TEST_CASE("cloths in one solver do not feel each other, and late ones leave the 
     CHECK(tests::relative_error(together.positions(second_id), reference.state.x) < 10 * std::exp2(-24));
 }
 
-TEST_CASE("the workgroup size changes nothing, not a bit")
+TEST_CASE("the workgroup size changes no bit of the result")
 {
     std::vector<std::vector<glm::vec4>> results;
     for (const uint32_t size : {32u, 64u, 128u})
@@ -220,7 +220,7 @@ TEST_CASE("normals are the normals of a curved sheet")
         CHECK(glm::length(glm::vec3(n) - expected) < 1e-5f);
 }
 
-TEST_CASE("normals of a sheet that hangs in folds are the cross products of its central differences")
+TEST_CASE("normals of a folded sheet are the cross products of its central differences")
 {
     voile::GridCloth grid = uneven_sheet(23, 17);
     grid.held = {0, 22};
@@ -247,7 +247,7 @@ TEST_CASE("normals of a sheet that hangs in folds are the cross products of its 
     CHECK(straightest < 0.9); // it is curved
 }
 
-TEST_CASE("a step has the dispatches that it says, and as many for ten cloths as for one")
+TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for one")
 {
     const voile::Step step{.substeps = 20};
     for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})

@@ -135,7 +135,7 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
     }
 }
 
-TEST_CASE("a short Verlet trajectory follows the reference, of a grid and of meshes")
+TEST_CASE("a short Verlet trajectory of a grid and of meshes follows the reference")
 {
     voile::GridCloth grid = uneven_sheet(13, 11);
     grid.held = {0, 12};
@@ -214,7 +214,7 @@ TEST_CASE("Verlet's error falls with the square of the step")
     }
 }
 
-TEST_CASE("a spring pair under Verlet swings with its period, and the method's lag")
+TEST_CASE("a spring pair under Verlet swings with the period of the discrete method")
 {
     // The method swings at 2 / h asin(w h / 2), not at w: after the former's period the pair is back where it was.
     const voile::GridCloth grid = pairs(0.05f, 0.2f, {50, 0});
@@ -294,7 +294,7 @@ TEST_CASE("an undamped cloth that flaps freely keeps its energy for 10 s")
     }
 }
 
-TEST_CASE("RK4 and Verlet cloths in one solver do not feel each other, not a bit")
+TEST_CASE("RK4 and Verlet cloths in one solver change no bit of each other")
 {
     const tests::ClothMesh mesh = tests::torus(9, 7);
     voile::GridCloth rk4 = uneven_sheet(13, 5);

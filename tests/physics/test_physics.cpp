@@ -23,7 +23,7 @@ void check(const physics::CaseResult& result, double beyond = 0)
 
 } // namespace
 
-TEST_CASE("free fall does not feel internal damping, with either integrator")
+TEST_CASE("internal damping does not affect free fall with either integrator")
 {
     check(physics::free_fall(physics::Detail::coarse));
 }
@@ -33,7 +33,7 @@ TEST_CASE("RK4 is of fourth order, velocity Verlet of second")
     check(physics::order(physics::Detail::coarse));
 }
 
-TEST_CASE("the period of a spring pair, with either integrator")
+TEST_CASE("a spring pair swings with its exact period under either integrator")
 {
     check(physics::spring_pair(physics::Detail::coarse));
 }
@@ -48,12 +48,12 @@ TEST_CASE("a hanging sheet stretches by rho g L / 2 k at three resolutions")
     check(physics::hanging_sheet(physics::Detail::coarse));
 }
 
-TEST_CASE("a strip between two holds hangs in a catenary at four spans")
+TEST_CASE("a strip held at both ends hangs in a catenary at four spans")
 {
     check(physics::catenary(physics::Detail::coarse));
 }
 
-TEST_CASE("a hanging strip swings with a chain's two first periods")
+TEST_CASE("a hanging strip swings with a chain's first two periods")
 {
     check(physics::hanging_chain(physics::Detail::coarse));
 }
@@ -63,12 +63,12 @@ TEST_CASE("a falling plate reaches its terminal speed all over")
     check(physics::terminal_speed(physics::Detail::coarse));
 }
 
-TEST_CASE("a cantilever of a grid follows the heavy elastica")
+TEST_CASE("a cantilever made of a grid follows the heavy elastica")
 {
     check(physics::cantilever_grid(physics::Detail::coarse));
 }
 
-TEST_CASE("a cantilever of triangles follows the heavy elastica")
+TEST_CASE("a cantilever made of triangles follows the heavy elastica")
 {
     check(physics::cantilever_mesh(physics::Detail::coarse));
 }

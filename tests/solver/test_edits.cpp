@@ -54,7 +54,7 @@ bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 
 } // namespace
 
-TEST_CASE("a material changes while the cloth hangs, in the same buffers")
+TEST_CASE("a material changes while the cloth hangs, without new buffers")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(hanging(stretchy(50))));
@@ -79,7 +79,7 @@ TEST_CASE("a material changes while the cloth hangs, in the same buffers")
     CHECK(harness.solver.vertices(id).positions == buffer);
 }
 
-TEST_CASE("a material that does not fit the cloth is refused, and the old one stays")
+TEST_CASE("a material that does not fit the cloth is refused, and the old one is kept")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(hanging(stretchy(50))));
@@ -103,7 +103,7 @@ TEST_CASE("a material that does not fit the cloth is refused, and the old one st
     CHECK(reason(limit) == "cloth \"cloth\": fabric: strain_limit is 1e-06, must be 0.001 to 10, or 0 for none");
 }
 
-TEST_CASE("a cloth is put back to its start, moved at once and given a velocity")
+TEST_CASE("a cloth is reset, teleported and given a velocity")
 {
     ClothHarness harness;
     voile::GridCloth grid = hanging(stretchy(50));
@@ -143,7 +143,7 @@ TEST_CASE("a cloth is put back to its start, moved at once and given a velocity"
     CHECK_FALSE(harness.solver.set_velocity(id, glm::vec3(INFINITY)).ok());
 }
 
-TEST_CASE("a snapshot brings the state back to the bit, also by way of the host")
+TEST_CASE("a snapshot restores the state to the bit, also through the host")
 {
     for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
@@ -211,7 +211,7 @@ States states(ClothHarness& harness, std::span<const voile::ClothId> ids)
 
 constexpr voile::Step k_forty{.substeps = 40};
 
-TEST_CASE("what recovery and the strain limit remember is part of a snapshot, to the bit")
+TEST_CASE("a snapshot contains the state of depenetration and of the strain limit, to the bit")
 {
     for (const uint32_t before : {1u, 4u, 7u})
     {
@@ -238,7 +238,7 @@ TEST_CASE("what recovery and the strain limit remember is part of a snapshot, to
     }
 }
 
-TEST_CASE("what recovery and the strain limit remember outlasts an upload, to the bit")
+TEST_CASE("an upload preserves the state of depenetration and of the strain limit, to the bit")
 {
     ClothHarness alone;
     ClothHarness joined;
@@ -253,7 +253,7 @@ TEST_CASE("what recovery and the strain limit remember outlasts an upload, to th
     CHECK((states(alone, ids) == states(joined, ids)));
 }
 
-TEST_CASE("a snapshot that nothing was saved in, or that is not finite, is refused")
+TEST_CASE("a snapshot that is empty or not finite is refused")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(hanging(stretchy(50))));

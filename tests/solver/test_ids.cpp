@@ -39,7 +39,7 @@ TEST_CASE("a default-constructed id names nothing, and ids compare")
     CHECK(anchor != voile::AnchorId{});
 }
 
-TEST_CASE("every function refuses a cloth that does not exist, or answers that there is nothing")
+TEST_CASE("every function refuses a cloth that does not exist or returns an empty answer")
 {
     ClothHarness harness;
     voile::Solver& solver = harness.solver;
@@ -81,7 +81,7 @@ TEST_CASE("every function refuses a cloth that does not exist, or answers that t
     CHECK(solver.holds(id).empty());
 }
 
-TEST_CASE("every function refuses a collider that does not exist, or answers that there is nothing")
+TEST_CASE("every function refuses a collider that does not exist or returns an empty answer")
 {
     ClothHarness harness;
     voile::Solver& solver = harness.solver;
@@ -102,7 +102,7 @@ TEST_CASE("every function refuses a collider that does not exist, or answers tha
     }
 }
 
-TEST_CASE("every function refuses an anchor that does not exist, the world among them")
+TEST_CASE("every function refuses an anchor that does not exist, including the world")
 {
     ClothHarness harness;
     voile::Solver& solver = harness.solver;

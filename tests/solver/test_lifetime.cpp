@@ -121,7 +121,7 @@ TEST_CASE("an upload and a snapshot may outlive their solver")
     snapshot.reset();
 }
 
-TEST_CASE("lifetime checks find nothing in what is done right, and what is never submitted is right")
+TEST_CASE("lifetime checks accept correct use and commands that are never submitted")
 {
     ClothHarness harness({.lifetime_checks = true});
     (void)voile::engine::take(harness.solver.add_cloth(tests::flat_sheet(6, 0.5f, 0)));
@@ -162,7 +162,7 @@ TEST_CASE("the object of a check destroyed while its commands run (in a process 
     check = voile::LifetimeCheck();
 }
 
-TEST_CASE("lifetime checks end the program where something goes while its commands run")
+TEST_CASE("lifetime checks end the program if an object is destroyed while its commands run")
 {
     const std::pair<const char*, const char*> cases[] = {{"a solver destroyed while*", "voile::Solver"},
                                                          {"the object of a check destroyed*", "voile::Upload"}};
@@ -176,7 +176,7 @@ TEST_CASE("lifetime checks end the program where something goes while its comman
     }
 }
 
-TEST_CASE("solvers of one device are made, filled and recorded by several threads at once")
+TEST_CASE("several threads create, fill and record solvers of one device at once")
 {
     const tests::GpuFixture fixture;
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.4f, 24);

@@ -38,7 +38,7 @@ VkPhysicalDeviceLimits required_limits()
 
 } // namespace
 
-TEST_CASE("a device that has what requirements() lists is enough for the default options")
+TEST_CASE("a device that meets requirements() is enough for the default options")
 {
     CHECK(reason(voile::check_limits(required_limits(), {})) == "accepted");
     // And it is no more than what is needed.
@@ -64,7 +64,7 @@ PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)
 
 } // namespace
 
-TEST_CASE("each solver finds its functions by what it was given, whatever one before it was given")
+TEST_CASE("each solver loads its functions from its own handles, independent of earlier solvers")
 {
     voile::gpu::Handles handles = tests::device().context().handles;
     the_loaders = handles.get_instance_proc_addr;
@@ -77,7 +77,7 @@ TEST_CASE("each solver finds its functions by what it was given, whatever one be
     CHECK((context.value().fn.vkCmdDispatch != nullptr));
 }
 
-TEST_CASE("each limit of a device has its line")
+TEST_CASE("each limit of a device has an error message")
 {
     const auto refused = [](const auto& lower, const voile::SolverOptions& options = {})
     {
@@ -105,7 +105,7 @@ TEST_CASE("each limit of a device has its line")
     CHECK(refused(large, {.workgroup_size = 512}).find(" bytes of shared memory") != std::string::npos);
 }
 
-TEST_CASE("every workgroup size works without a validation message or is refused with a line")
+TEST_CASE("every workgroup size works without a validation message or is refused with an error")
 {
     const VkPhysicalDeviceLimits& limits = tests::device().context().limits;
     for (const uint32_t size : {1u, 512u, 1024u, 2048u})
@@ -122,7 +122,7 @@ TEST_CASE("every workgroup size works without a validation message or is refused
     }
 }
 
-TEST_CASE("more workgroups than a dispatch may have are refused when they are added")
+TEST_CASE("objects that need more workgroups than a dispatch may have are refused when they are added")
 {
     const uint32_t most = tests::device().context().limits.maxComputeWorkGroupCount[0];
     if (most > 1'000'000)

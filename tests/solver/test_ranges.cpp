@@ -298,7 +298,7 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
           "collider 1: position 2 is at (0, 0, 1e+09), each must be -1e+06 to 1e+06 m");
 }
 
-TEST_CASE("no corner of the ranges makes a vertex that is not finite")
+TEST_CASE("no extreme of the ranges makes a vertex that is not finite")
 {
     for (const uint32_t seed : {2u, 6u, 13u})
     {

@@ -43,7 +43,7 @@ float largest_distance(const std::vector<glm::vec4>& a, const std::vector<glm::v
 
 } // namespace
 
-TEST_CASE("springs and leashes hold on through an upload")
+TEST_CASE("springs and max-distance constraints persist through an upload")
 {
     voile::Hold spring;
     spring.stiffness = 500;
@@ -78,7 +78,7 @@ TEST_CASE("springs and leashes hold on through an upload")
         CHECK(largest_distance(ends[0][i], ends[1][i]) < 1e-4f); // with contact, another order of rounding
 }
 
-TEST_CASE("pins come to rest and go on with their anchor while an upload is due")
+TEST_CASE("pins rest and move with their anchor while an upload is due")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(6, 0.5f, 0)));
@@ -111,7 +111,7 @@ TEST_CASE("pins come to rest and go on with their anchor while an upload is due"
     CHECK(drift(0.05f) < 1e-5f);
 }
 
-TEST_CASE("colliders come to rest and go on while an upload is due")
+TEST_CASE("colliders rest and move while an upload is due")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(1);
     for (const bool late : {false, true}) // the first motion is not before the upload is due
@@ -165,7 +165,7 @@ TEST_CASE("colliders come to rest and go on while an upload is due")
     }
 }
 
-TEST_CASE("what the host changes of an uploaded cloth takes effect while an upload is due")
+TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
 {
     ClothHarness harness;
     voile::GridCloth grid = flat_sheet(6, 0.5f, 0);

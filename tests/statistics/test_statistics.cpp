@@ -68,7 +68,7 @@ double winding_number(const voile::engine::Mesh& mesh, const glm::dvec3& point)
 
 } // namespace
 
-TEST_CASE("stretch and energy equal those of the CPU at awkward sizes")
+TEST_CASE("stretch and energy equal the CPU's at awkward sizes")
 {
     struct Size
     {
@@ -120,7 +120,7 @@ TEST_CASE("vertices under a surface are counted, and the deepest is measured")
     CHECK(static_cast<double>(found.deepest_penetration) == tests::close_to(deepest, 5e-7));
 }
 
-TEST_CASE("inside a mesh is where it winds around a vertex, at any depth")
+TEST_CASE("a vertex is inside a mesh if the mesh winds around it, at any depth")
 {
     // A ball whose top is pushed down through its bottom: what hangs out below is inside-out and solid nowhere.
     voile::engine::Mesh folded = voile::engine::make_sphere({0, 0, 0}, 0.4f, 16);
@@ -214,7 +214,7 @@ TEST_CASE("inside a mesh is where it winds around a vertex, at any depth")
     }
 }
 
-TEST_CASE("values that are not finite are counted, and do not spoil the other sums")
+TEST_CASE("values that are not finite are counted and do not spoil the other sums")
 {
     ClothHarness harness;
     const voile::ClothId broken = voile::engine::take(harness.solver.add_cloth(tests::stretched_sheet(20, 10)));

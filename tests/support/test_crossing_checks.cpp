@@ -36,7 +36,7 @@ TEST_CASE("the three long edges of a needle pass through the triangle that it pi
     CHECK(crossings(tests::needle(1, 0.02f), cloth).count() == 0);
 }
 
-TEST_CASE("a sheet that lies in a box is as deep as it is")
+TEST_CASE("the depth of a sheet in a box is exact")
 {
     tests::ClothMesh cloth = tests::sheet(9, 9, 0.05f);
     move(cloth, {-0.203f, 0.29f, -0.197f});
@@ -49,7 +49,7 @@ TEST_CASE("a sheet that lies in a box is as deep as it is")
     CHECK(crossings(box, cloth).count() == 0);
 }
 
-TEST_CASE("a strip that hangs through an open ground sticks out at its shorter end")
+TEST_CASE("the depth of a strip through an open ground is its shorter end")
 {
     tests::ClothMesh cloth = tests::sheet(3, 2, 0.05f);
     for (glm::vec3& p : cloth.positions)

@@ -144,7 +144,7 @@ TEST_CASE("a PLY, byte for byte")
     CHECK(folder.read("a.ply") == expected);
 }
 
-TEST_CASE("OBJ and PLY bring back the same bits in the same order")
+TEST_CASE("OBJ and PLY preserve all bits and the order")
 {
     const TestFolder folder;
     const viewer::ClothSurface surface = awkward();
@@ -213,7 +213,7 @@ TEST_CASE("an unfinished or refused point cache leaves nothing behind")
     CHECK(folder.read("a.pc2").size() == 32);
 }
 
-TEST_CASE("one cloth goes into the file itself, several get their names")
+TEST_CASE("one cloth goes into the named file, several into files with their names")
 {
     using Paths = std::vector<fs::path>;
     CHECK(viewer::export_paths("d/out.obj", {"sheet"}) == Paths{"d/out.obj"});
@@ -287,7 +287,7 @@ TEST_CASE("a file that cannot be written is named with the reason, and nothing i
               .ends_with(": cannot be written: File name too long"));
 }
 
-TEST_CASE("a full disk is reported, and what was there before stays")
+TEST_CASE("a full disk is reported, and the old file is kept")
 {
     if (fs::is_character_file("/dev/full"))
         CHECK(error_of(viewer::save_surface_obj("/dev/full", triangle("a"))) ==

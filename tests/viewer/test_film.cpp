@@ -160,7 +160,7 @@ TEST_CASE("a bad size, rate, folder or frame is refused, and nothing is left beh
     CHECK(no_children_left());
 }
 
-TEST_CASE("an encoder that leaves early is an error with its words, not the end of the program")
+TEST_CASE("an encoder that exits early is an error with its message, not the end of the program")
 {
     const TestFolder folder;
     const std::string path = (folder / "a.mp4").string();
@@ -180,7 +180,7 @@ TEST_CASE("an encoder that leaves early is an error with its words, not the end 
     CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("an encoder that fails at the end, without a word, leaves no film")
+TEST_CASE("an encoder that fails silently at the end leaves no film")
 {
     const TestFolder folder;
     const std::string path = (folder / "a.mp4").string();
@@ -196,7 +196,7 @@ TEST_CASE("an encoder that fails at the end, without a word, leaves no film")
     CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("a film that is given up stops its encoder and leaves nothing behind")
+TEST_CASE("a canceled film stops its encoder and leaves nothing behind")
 {
     const TestFolder folder;
     const std::string script = "for file; do :; done; cat >\"${file#file:}\"; :";

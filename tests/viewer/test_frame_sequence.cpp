@@ -22,7 +22,7 @@ std::string message(const TestFolder& folder, const char* pattern)
 
 } // namespace
 
-TEST_CASE("vertices go along straight lines from file to file, and stay at the last")
+TEST_CASE("vertices move along straight lines from file to file and stay at the last")
 {
     const TestFolder folder;
     for (const auto& [name, x] : {std::pair("w_01.obj", 0.6f), {"w_02.obj", 2.f}, {"w_03.obj", 1.f}})
@@ -60,7 +60,7 @@ TEST_CASE("vertices go along straight lines from file to file, and stay at the l
     CHECK(places[2].x == 1.f);
 }
 
-TEST_CASE("what is not the same mesh is refused, with both counts and the files' names")
+TEST_CASE("a different mesh is refused with both counts and the files' names")
 {
     const TestFolder folder;
     const std::string at = (folder / "w1.obj").string();
@@ -93,7 +93,7 @@ TEST_CASE("what is not the same mesh is refused, with both counts and the files'
     CHECK(message(folder, "v%d.obj") == (folder / "v%d.obj").string() + ": there is no frame 0 and no frame 1");
 }
 
-TEST_CASE("PLY files and files of other kinds in the folder")
+TEST_CASE("a folder may hold PLY files and files of other kinds")
 {
     const TestFolder folder;
     for (int i = 0; i < 12; ++i)

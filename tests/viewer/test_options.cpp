@@ -92,7 +92,7 @@ TEST_CASE("every option is read")
     CHECK(options.verify);
 }
 
-TEST_CASE("a value is not taken for the scene, nor the scene for a value")
+TEST_CASE("a value is not mistaken for the scene, nor the scene for a value")
 {
     const auto result = parse({"--out", "frames", "drape"});
     REQUIRE(result);
@@ -100,7 +100,7 @@ TEST_CASE("a value is not taken for the scene, nor the scene for a value")
     CHECK(result.value().out == "frames");
 }
 
-TEST_CASE("zero frames are a run")
+TEST_CASE("zero frames are a valid run")
 {
     const auto result = parse({"--frames", "0"});
     REQUIRE(result);
@@ -186,7 +186,7 @@ TEST_CASE("help and version are printed, not errors")
     CHECK(version.value().message.starts_with("viewer "));
 }
 
-TEST_CASE("what --debug draws")
+TEST_CASE("--debug accepts every mode")
 {
     CHECK_FALSE(parse({}).value().debug.any());
     const auto all = parse_line("--debug boxes --debug contacts --debug=normals");
@@ -205,7 +205,7 @@ TEST_CASE("what --debug draws")
     CHECK(message({"--debug", "boxes:deep"}) == "--debug boxes: \"deep\" is not a whole number");
 }
 
-TEST_CASE("what is written cannot take the place of a mesh of the scene")
+TEST_CASE("an output cannot replace a mesh of the scene")
 {
     const TestFolder folder;
     folder.write("cape.obj", "");
@@ -230,7 +230,7 @@ TEST_CASE("what is written cannot take the place of a mesh of the scene")
     CHECK(check({.stats = folder / "stats.json", .export_file = folder / "cape.ply"}) == "accepted");
 }
 
-TEST_CASE("a link to itself is told from a file that is not there")
+TEST_CASE("a link to itself is distinguished from a missing file")
 {
     const TestFolder folder;
     const std::string loop = (folder / "loop.obj").string();

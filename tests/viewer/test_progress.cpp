@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-TEST_CASE("elsewhere than on a terminal, a plain line is written for every tenth")
+TEST_CASE("without a terminal a plain line is written for every tenth")
 {
     std::ostringstream out;
     double now = 100;
@@ -25,7 +25,7 @@ TEST_CASE("elsewhere than on a terminal, a plain line is written for every tenth
     CHECK(text.find('\r') == std::string::npos);
 }
 
-TEST_CASE("a bar is redrawn in place, ten times a second at most, and covers what it was")
+TEST_CASE("a bar is redrawn in place, at most ten times per second, and covers the old one")
 {
     std::ostringstream out;
     double now = 0;
@@ -74,7 +74,7 @@ TEST_CASE("a run without frames ends as well")
     CHECK(out.str().ends_with("0 frames in 0:00\n"));
 }
 
-TEST_CASE("durations")
+TEST_CASE("durations are printed as h:mm:ss")
 {
     CHECK(viewer::duration_text(7) == "0:07");
     CHECK(viewer::duration_text(59.6) == "1:00");

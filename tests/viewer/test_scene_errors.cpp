@@ -20,7 +20,7 @@ using namespace scene_text;
 
 } // namespace
 
-TEST_CASE("an unknown key is named, with its line, its place and the key that may be meant")
+TEST_CASE("an unknown key is named with its line, its path and the likely key")
 {
     CHECK(message("{\n\"cloths\": [{\n\"grid\": {\"vertices\": [4, 3], \"size\": [1, 2]},\n\"material\": {\n"
                   "\"thicknes\": 0.1\n}}]}") ==
@@ -43,7 +43,7 @@ TEST_CASE("a syntax error has its line and column")
         CHECK(message(text).find('\n') == std::string::npos);
 }
 
-TEST_CASE("the line of a number is that of its own, not of the line end behind it")
+TEST_CASE("the line of a number is its own, not that of the line end behind it")
 {
     CHECK(message("{\n\"gravity\":\n3\n\n}") == "dir/s.json:3: gravity is a number; expected an array of 3 numbers");
     CHECK(message("{\n\"gravity\": [0, 0,\n\"x\"\n]}") == "dir/s.json:3: gravity[2] is a string; expected a number");
@@ -68,7 +68,7 @@ TEST_CASE("a key that appears twice is refused")
           "dir/s.json:2: key \"name\" appears twice in cloths[0]");
 }
 
-TEST_CASE("numbers that are not finite, out of range or of the wrong kind")
+TEST_CASE("numbers that are not finite, out of range or of the wrong kind are refused")
 {
     CHECK(scene_message("\"gravity\": [0, 1e999, 0]") ==
           "dir/s.json:1: number 1e999 is beyond the largest that can be held");
@@ -96,7 +96,7 @@ TEST_CASE("numbers that are not finite, out of range or of the wrong kind")
           "dir/s.json:1: cloths[0].self_collision is a number; expected true or false");
 }
 
-TEST_CASE("values beyond the ranges of the cloth module are refused where they stand")
+TEST_CASE("values outside the ranges of the cloth module are refused with their line")
 {
     const std::string at = "dir/s.json:1: ";
     const std::string world = "; it must be within -1000000 to 1000000";
@@ -127,7 +127,7 @@ TEST_CASE("values beyond the ranges of the cloth module are refused where they s
           at + "colliders[0].motion.velocity[1] is 1e+20; it must be within -10000 to 10000");
 }
 
-TEST_CASE("grids")
+TEST_CASE("bad grids are refused")
 {
     const auto grid = [](const std::string& text) { return message("{\"cloths\": [{\"grid\": " + text + "}]}"); };
     CHECK(grid(R"({"vertices": [0, 4], "size": [1, 1]})") ==
@@ -156,7 +156,7 @@ TEST_CASE("grids")
     CHECK(cloth_message("\"mesh\": \"a.obj\"") == "dir/s.json:1: cloths[0] has both \"grid\" and \"mesh\"");
 }
 
-TEST_CASE("words, names and pins of a cloth")
+TEST_CASE("bad words, names and pins of a cloth are refused")
 {
     CHECK(cloth_message("\"material\": \"velvet\"") ==
           "dir/s.json:1: cloths[0].material is \"velvet\", which is not a material (silk, cotton, wool, denim, "
@@ -202,7 +202,7 @@ TEST_CASE("words, names and pins of a cloth")
           at + "\"edge:top\", but only a grid has corners and edges");
 }
 
-TEST_CASE("colliders and camera")
+TEST_CASE("bad colliders and cameras are refused")
 {
     const std::string at = "dir/s.json:1: colliders[0]";
     CHECK(collider_message("{}") == at + " has no shape: mesh, plane, sphere, capsule, box or frames");
@@ -244,7 +244,7 @@ TEST_CASE("colliders and camera")
     CHECK(scene_message(R"("camera": {"position": [0, 0, 1]})") == "dir/s.json:1: camera has no \"target\"");
 }
 
-TEST_CASE("what the solver refuses of a step is said with the key of the scene")
+TEST_CASE("a step that the solver refuses is reported with the key of the scene")
 {
     const auto scene = parse("{\"gravity\": [0, 1, 0],\n\"wind\": {\"velocity\": [1, 0, 0],\n"
                              "\"gust_length\": 1},\n\"step\": {\"rate\": 60}, \"cloths\": [{" +
@@ -258,7 +258,7 @@ TEST_CASE("what the solver refuses of a step is said with the key of the scene")
     CHECK(refused("step: gust is 11") == "dir/s.json: step: gust is 11"); // not written there
 }
 
-TEST_CASE("files: missing ones are named, with what asked for them")
+TEST_CASE("missing files are named with the key that refers to them")
 {
     const TestFolder folder;
     const std::string file = (folder / "s.json").string();
@@ -297,7 +297,7 @@ TEST_CASE("files: missing ones are named, with what asked for them")
     CHECK(directory.error().message == folder.path().string() + ": this is a folder, not a scene file");
 }
 
-TEST_CASE("a scene that is cut off at any place is refused in one line")
+TEST_CASE("a scene truncated anywhere is refused in one line")
 {
     const std::string whole = "{\"gravity\": [0, -9.81, 0], \"cloths\": [{" + k_grid + ", \"material\": \"silk\"}]}";
     REQUIRE(message(whole) == "accepted");
@@ -310,7 +310,7 @@ TEST_CASE("a scene that is cut off at any place is refused in one line")
     }
 }
 
-TEST_CASE("words for numbers that are not finite are no JSON")
+TEST_CASE("words for numbers that are not finite are not JSON")
 {
     for (const char* word : {"NaN", "nan", "Infinity", "-Infinity", "inf", "-inf", "+1", "1.", ".5", "0x10", "1e"})
     {
@@ -337,7 +337,7 @@ TEST_CASE("a message stays short however long the input is")
     CHECK(scene_message("\"gravity\": [0, 1" + std::string(5000, '0') + ", 0]").size() < 300);
 }
 
-TEST_CASE("a zero byte is no end")
+TEST_CASE("a zero byte does not end a scene")
 {
     const std::string whole = "{\"cloths\": [{" + k_grid + "}]}\n";
     REQUIRE(message(whole) == "accepted");
@@ -347,7 +347,7 @@ TEST_CASE("a zero byte is no end")
     CHECK(message(zero + whole) == "dir/s.json:1:1: byte 0 is zero");
 }
 
-TEST_CASE("a scene of very many keys takes no time to speak of")
+TEST_CASE("a scene of very many keys is read quickly")
 {
     const auto start = std::chrono::steady_clock::now();
     std::string keys;
@@ -363,7 +363,7 @@ TEST_CASE("a scene of very many keys takes no time to speak of")
     CHECK(elapsed.count() < 10);
 }
 
-TEST_CASE("messages about a scene show nothing of it raw")
+TEST_CASE("messages about a scene show no raw bytes of it")
 {
     const std::string odd = "\\u001b[2J\\n" + std::string(300000, 'o');
     const auto check = [](const std::string& refused)
@@ -394,7 +394,7 @@ TEST_CASE("messages about a scene show nothing of it raw")
           "dir/s.json:1: cloths[0].name is \"" + std::string(80, 'n') + "...\"; a name has at most 100 bytes");
 }
 
-TEST_CASE("a pipe is no scene, and no mesh of one")
+TEST_CASE("a pipe is refused as a scene and as a mesh")
 {
     const TestFolder folder;
     const fs::path fifo = folder / "pipe.json";
@@ -406,7 +406,7 @@ TEST_CASE("a pipe is no scene, and no mesh of one")
           scene.string() + ":1: cloths[0].mesh: " + (folder / "pipe.obj").string() + " is not a regular file");
 }
 
-TEST_CASE("a file that cannot hold a scene")
+TEST_CASE("a file that cannot hold a scene is refused")
 {
     const TestFolder folder;
     const std::string file = (folder / "s.json").string();

@@ -166,7 +166,7 @@ TEST_CASE("every kind of collider is read")
     CHECK(scene.colliders[0].layers == 1u);
 }
 
-TEST_CASE("what is not written has the defaults of the format")
+TEST_CASE("missing keys have the defaults of the format")
 {
     const auto result = parse("{\"cloths\": [{" + k_grid + "}]}");
     REQUIRE(result);

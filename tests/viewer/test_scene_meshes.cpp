@@ -71,7 +71,7 @@ double edge_ratio(const voile::engine::Mesh& mesh)
 
 } // namespace
 
-TEST_CASE("the reference heart is closed, wound outwards and as fine as the scene wants it")
+TEST_CASE("the reference heart is closed, wound outward and of the scene's resolution")
 {
     const voile::engine::Mesh heart = scenes::make_reference_heart();
     CHECK(heart.triangles.size() == 11264);
@@ -81,7 +81,7 @@ TEST_CASE("the reference heart is closed, wound outwards and as fine as the scen
     CHECK(edge_ratio(heart) < 10);
 }
 
-TEST_CASE("the reference heart has the scene's measures")
+TEST_CASE("the reference heart has the scene's dimensions")
 {
     const voile::engine::Mesh heart = scenes::make_reference_heart();
     const voile::engine::Bounds box = voile::engine::bounds(heart);
@@ -118,7 +118,7 @@ TEST_CASE("the reference heart has two lobes with a cleft between them")
     CHECK(top_at(heart, 5.f) < std::min(left, right) - 0.2);
 }
 
-TEST_CASE("the drape heart is closed, wound outwards and of even triangles")
+TEST_CASE("the drape heart is closed, wound outward and of even triangles")
 {
     const voile::engine::Mesh heart = scenes::make_drape_heart();
     CHECK(heart.triangles.size() == 11264);
@@ -164,7 +164,7 @@ TEST_CASE("the ground is a flat grid that faces up")
     }
 }
 
-TEST_CASE("the jelly begins as the gem, and keeps its faces and its volume")
+TEST_CASE("the jelly starts as the gem and keeps its faces and its volume")
 {
     const voile::engine::Mesh gem = scenes::make_gem();
     const voile::engine::Mesh first = scenes::make_jelly(0);
@@ -182,7 +182,7 @@ TEST_CASE("the jelly begins as the gem, and keeps its faces and its volume")
     CHECK(lowest < 0.55);
 }
 
-TEST_CASE("the gem is closed once its faces are joined, wound outwards, and lies between its two radii")
+TEST_CASE("the gem is closed once its faces are joined, wound outward, and lies between its two radii")
 {
     voile::engine::Mesh gem = scenes::make_gem();
     CHECK(gem.triangles.size() == 80);

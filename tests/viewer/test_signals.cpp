@@ -43,7 +43,7 @@ bool has_ffmpeg()
 
 } // namespace
 
-TEST_CASE("a run that a signal ends leaves no unfinished file, and what was complete before")
+TEST_CASE("a run that a signal ends leaves no unfinished file and keeps complete ones")
 {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM})
     {
@@ -72,7 +72,7 @@ TEST_CASE("a run that a signal ends leaves no unfinished file, and what was comp
     }
 }
 
-TEST_CASE("a limit of the file size is an error like a full disk")
+TEST_CASE("a file size limit is an error like a full disk")
 {
     const TestFolder folder;
     folder.write("c.pc2", "complete");
@@ -89,7 +89,7 @@ TEST_CASE("a limit of the file size is an error like a full disk")
     CHECK(folder.read("c.pc2") == "complete");
 }
 
-TEST_CASE("a terminal that went away does not end a run")
+TEST_CASE("a closed terminal does not end a run")
 {
     const TestFolder folder;
     const auto broken = []
@@ -112,7 +112,7 @@ TEST_CASE("a terminal that went away does not end a run")
     CHECK(unfinished(folder).empty());
 }
 
-TEST_CASE("a pipe in place of a scene or a mesh keeps no signal waiting, and is refused")
+TEST_CASE("a pipe instead of a scene or a mesh is refused and delays no signal")
 {
     const TestFolder folder;
     const std::string fifo = (folder / "pipe.obj").string();
@@ -132,7 +132,7 @@ TEST_CASE("a pipe in place of a scene or a mesh keeps no signal waiting, and is 
     CHECK(viewer.wait().signal == SIGINT);
 }
 
-TEST_CASE("signals that are ignored stay so, as nohup needs it")
+TEST_CASE("ignored signals stay ignored, as nohup requires")
 {
     const TestFolder folder;
     ViewerProcess viewer({"reference", "--headless", "--frames", "30", "--size", "64x36", "--cloth-resolution", "16",

@@ -36,7 +36,7 @@ std::string errors_of(Action action)
 
 } // namespace
 
-TEST_CASE("a cloth is noted when it is softened first, and not again")
+TEST_CASE("a cloth is noted when it is first softened, and not again")
 {
     voile::engine::Device device(voile::engine::DeviceOptions{});
     voile::component::ClothWorld world(device, 1);

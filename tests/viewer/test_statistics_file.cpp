@@ -75,7 +75,7 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                                              "cpu_record_ms"});
 }
 
-TEST_CASE("values come back, and what was not measured is null")
+TEST_CASE("values survive a round trip, and unmeasured ones are null")
 {
     const Json json = Json::parse(viewer::statistics_text(measured()));
     CHECK(json["device"] == "a \"device\"\nof two lines");
@@ -96,7 +96,7 @@ TEST_CASE("values come back, and what was not measured is null")
     CHECK(json["per_frame"][1]["gpu_frame_ms"].is_null());
 }
 
-TEST_CASE("no value makes the text anything but JSON")
+TEST_CASE("the text is JSON for any value")
 {
     viewer::Statistics statistics = measured();
     statistics.device = "not UTF-8: \xff\xfe";
@@ -110,7 +110,7 @@ TEST_CASE("no value makes the text anything but JSON")
     CHECK(empty["summary"]["gpu_ms"]["passes"] == Json::object());
 }
 
-TEST_CASE("percentiles of known data")
+TEST_CASE("percentiles of known data are right")
 {
     std::vector<double> hundred;
     for (int i = 100; i >= 1; --i)

@@ -64,7 +64,7 @@ TEST_CASE("a mesh that cannot be used is named with its line and the reason")
     check_refused(run_viewer(k_small + "--collider " + (folder / "missing.obj").string()), {"missing.obj"});
 }
 
-TEST_CASE("a scene that cannot be used is named with its place and the reason")
+TEST_CASE("a scene that cannot be used is named with its path and the reason")
 {
     const TestFolder folder;
     struct Case
@@ -155,7 +155,7 @@ TEST_CASE("validation messages make the exit code 2")
     CHECK(run.errors.find(" validation messages\n") != std::string::npos);
 }
 
-TEST_CASE("without Vulkan there is one line that says so")
+TEST_CASE("a run without Vulkan prints one line that says so")
 {
     check_refused(run_viewer(k_small + "--frames 1", "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json"),
                   {"Vulkan"});
@@ -163,7 +163,7 @@ TEST_CASE("without Vulkan there is one line that says so")
                   {"Vulkan"});
 }
 
-TEST_CASE("a run writes what it was asked for, the same every time, without a validation message")
+TEST_CASE("a run writes its requested files, the same every time, without a validation message")
 {
     const TestFolder folder;
     std::string hashes[2];
@@ -195,7 +195,7 @@ TEST_CASE("a run writes what it was asked for, the same every time, without a va
     CHECK(text_of(folder / "0.obj") == text_of(folder / "1.obj"));
 }
 
-TEST_CASE("a point cache holds every frame, several cloths get a file each")
+TEST_CASE("a point cache holds every frame, and each of several cloths gets a file")
 {
     const TestFolder folder;
     const std::string two =
@@ -221,7 +221,7 @@ TEST_CASE("devices are listed with index, name and driver")
     CHECK(run.output.find('(') != std::string::npos);
 }
 
-TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and what is odd about a mesh is told")
+TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and irregularities of a mesh are reported")
 {
     const TestFolder folder;
     // A sheet of two triangles, a vertex without a triangle, and one of a seam that is open.
@@ -251,7 +251,7 @@ TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and what is o
     CHECK(std::count(mesh.begin(), mesh.end(), '\n') >= 8);
 }
 
-TEST_CASE("a cloth that the substeps are too few for is told of")
+TEST_CASE("a cloth with too few substeps is reported")
 {
     const TestFolder folder;
     const auto errors = [&](const char* substeps)
@@ -268,7 +268,7 @@ TEST_CASE("a cloth that the substeps are too few for is told of")
     CHECK(errors("\"auto\"").find("note:") == std::string::npos);
 }
 
-TEST_CASE("what a cloth cannot be is told with the line of the scene")
+TEST_CASE("an invalid cloth is reported with the line of the scene")
 {
     const TestFolder folder;
     std::ofstream(folder / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";

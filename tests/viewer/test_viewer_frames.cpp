@@ -52,7 +52,7 @@ void save(const SceneRuns& runs, const std::string& name, const voile::engine::M
 
 } // namespace
 
-TEST_CASE("a sheet that rises lifts the cloth on it, and the exact checks know where it is")
+TEST_CASE("a rising sheet lifts the cloth on it, and the exact checks use its current position")
 {
     SceneRuns runs;
     save(runs, "dome_0.obj", dome(0));
@@ -103,7 +103,7 @@ TEST_CASE("a transform and a rigid motion place all frames")
     CHECK(apart < 1e-3); // roundings grow from contact to contact
 }
 
-TEST_CASE("a mesh that deforms is drawn, with its normals, as it is at the frame's end")
+TEST_CASE("a deforming mesh is drawn with its vertices and normals at the frame's end")
 {
     SceneRuns runs;
     save(runs, "dome_0.obj", dome(0));
@@ -135,7 +135,7 @@ TEST_CASE("a mesh that deforms is drawn, with its normals, as it is at the frame
     }
 }
 
-TEST_CASE("--debug, --export and --collider know meshes that deform")
+TEST_CASE("--debug, --export and --collider work with deforming meshes")
 {
     SceneRuns runs;
     save(runs, "dome_0.obj", dome(0));

@@ -37,7 +37,7 @@ Ending build(const TestFolder& folder, const std::string& scene)
 
 } // namespace
 
-TEST_CASE("round colliders share what they are drawn with")
+TEST_CASE("round colliders share their drawn meshes")
 {
     const TestFolder folder;
     const auto peak = [&](const std::string& collider, int count)
@@ -54,7 +54,7 @@ TEST_CASE("round colliders share what they are drawn with")
     CHECK(peak(capsule, 2000) - one < 50'000);
 }
 
-TEST_CASE("very many cloths take no time to speak of until the first frame")
+TEST_CASE("very many cloths start quickly")
 {
     const TestFolder folder;
     const std::string pinned =
@@ -93,7 +93,7 @@ TEST_CASE("a run without frames has the state of the start")
     CHECK(folder.read("t.json").find("\"verified\": true") != std::string::npos);
 }
 
-TEST_CASE("names from files and the command line come out printable")
+TEST_CASE("names from files and the command line are printed safely")
 {
     const TestFolder folder;
     const std::string odd = "\x1b]0;title\x07\n";

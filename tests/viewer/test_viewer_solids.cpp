@@ -57,7 +57,7 @@ TEST_CASE("a transform scales and places every shape")
     CHECK(edge.deepest < 1e-5);
 }
 
-TEST_CASE("solids move, and the exact checks hold cloth against where they are")
+TEST_CASE("solids move, and the exact checks use their current positions")
 {
     SceneRuns runs;
     const std::string lift = R"("motion": {"velocity": [0, -0.45, 0], "spin": [0, 20, 0]}})";
@@ -83,7 +83,7 @@ TEST_CASE("solids move, and the exact checks hold cloth against where they are")
         {"s.json:3: ", "half a turn per frame"});
 }
 
-TEST_CASE("a solid is drawn where it is at the frame's end")
+TEST_CASE("a solid is drawn at its position at the frame's end")
 {
     SceneRuns runs;
     // The cloth hangs out of the way. After 31 frames at 1.2 m/s the ball has gone 0.62 m.
@@ -104,7 +104,7 @@ TEST_CASE("a solid is drawn where it is at the frame's end")
     CHECK(differing(turned, opposite) < 60);
 }
 
-TEST_CASE("cloth meets the solids of its layers alone, and a mesh pushes to the side that it is told")
+TEST_CASE("cloth touches only the solids of its layers, and a mesh pushes it to the chosen side")
 {
     SceneRuns runs;
     const std::string two = R"({"plane": {"y": 0.5}, "layers": [1]}, {"plane": {"y": 0}, "layers": [2, 7]})";
@@ -124,7 +124,7 @@ TEST_CASE("cloth meets the solids of its layers alone, and a mesh pushes to the 
     CHECK(bounds(runs.run(scene(R"({"mesh": "ball.obj"})"), 60)).min.y > 0.6f);
 }
 
-TEST_CASE("a mesh of the command line takes over how the scene's mesh moves")
+TEST_CASE("a mesh of the command line takes over the motion of the scene's mesh")
 {
     SceneRuns runs;
     voile::engine::take(
