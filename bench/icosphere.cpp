@@ -39,8 +39,8 @@ voile::engine::Mesh make_icosahedron()
                     continue;
                 const glm::vec3 normal =
                     glm::cross(mesh.positions[j] - mesh.positions[i], mesh.positions[k] - mesh.positions[i]);
-                const bool outwards = glm::dot(normal, mesh.positions[i]) > 0;
-                mesh.triangles.emplace_back(i, outwards ? j : k, outwards ? k : j);
+                const bool outward = glm::dot(normal, mesh.positions[i]) > 0;
+                mesh.triangles.emplace_back(i, outward ? j : k, outward ? k : j);
             }
     return mesh;
 }
