@@ -1,5 +1,5 @@
-# Checks that the tests which docs/claims.md names exist: every test_* is a file below this folder, and what follows a colon, up
-# to a semicolon, stands in it (pieces around "..." one by one; what is in parentheses is a remark).
+# Checks that the tests named in docs/claims.md exist: every test_* must be a file below this folder that contains the
+# text after the colon, up to a semicolon (pieces around "..." one by one; text in parentheses is a remark).
 cmake_minimum_required(VERSION 3.25)
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../docs/claims.md rows REGEX "^[|]")
 set(checked 0)
