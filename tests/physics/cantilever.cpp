@@ -1,4 +1,4 @@
-// A horizontal strip that is held at one end and bends under its own weight, against the heavy elastica.
+// A horizontal strip, clamped at one end, bends under its own weight; compared with the heavy elastica.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -20,7 +20,7 @@ struct Row
 };
 constexpr Row k_rows[] = {{1, 0.1235}, {5, 0.4959}, {10, 0.7002}, {20, 0.8299}, {50, 0.9079}};
 
-// Of the isometric model, and so stiff in stretch that its own weight lengthens it by 0.02 % at most.
+// Isometric bending, and a stretch stiffness at which its own weight lengthens it by 0.02 % at most.
 voile::Fabric strip_fabric(double load)
 {
     voile::Fabric fabric = plain_fabric(1000);
@@ -29,14 +29,14 @@ voile::Fabric strip_fabric(double load)
     return fabric;
 }
 
-// A spacing such that `spacings` and a half of it are the free length: an inner vertex of the second difference stands
-// for half a spacing to either side, so the clamp lies in the middle between the two columns that are held.
+// The spacing at which `spacings` and a half are the free length: an inner vertex of the second difference represents
+// half a spacing on either side, so the clamp lies midway between the two pinned columns.
 double spacing_of(uint32_t spacings)
 {
     return k_length / (spacings + 0.5);
 }
 
-// Settles and tells how far the mean of the last `end` vertices of the order given lies below the clamp.
+// Settles, and returns how far the mean of the vertices `end` lies below the clamp.
 double drop_at_rest(Rig& rig, voile::ClothId id, const std::vector<uint32_t>& end)
 {
     rig.settle(id, {.duration = 0.01f}, 600, 1e-8);
@@ -70,7 +70,7 @@ double grid_drop(double load, uint32_t spacings)
     return drop_at_rest(rig, id, end);
 }
 
-// Equilateral triangles: columns of n and of n + 1 vertices by turns, n a third of the spacings along the strip, so
+// Equilateral triangles: alternating columns of n and n + 1 vertices, n a third of the spacings along the strip, so
 // that its shape is the same at every resolution.
 struct Strip
 {
@@ -86,7 +86,7 @@ Strip triangle_strip(uint32_t spacings)
     const double edge = h * 2 / std::sqrt(3.0);
     const uint32_t across = spacings / 3;
     Strip strip;
-    uint32_t previous = 0; // first vertex of the column before
+    uint32_t previous = 0; // first vertex of the previous column
     for (uint32_t column = 0; column < spacings + 2; ++column)
     {
         const auto first = static_cast<uint32_t>(strip.positions.size());
@@ -168,10 +168,10 @@ CaseResult cantilever_mesh(Detail detail)
     constexpr Target k_targets[] = {{0.03, 0.03}, {0.02, 0.02}, {0.0028, 0.01}, {0.02, 0.0017}, {0.025, 0.005}};
     CaseResult result = cantilever(detail, "mesh", k_targets, mesh_drop);
     result.remark =
-        "Two errors of opposite signs. Triangles along the free sides lack hinges, so a strip is too limp, the "
-        "more the fewer triangles it has across: with 4 across at 24 spacings, half as many as here, it hangs "
-        "2.7 % too low at Γ = 1 and 1.7 % at Γ = 5. Coarse links cannot follow the bend at the clamp where Γ is "
-        "large, and hang too high.";
+        "Two errors have opposite signs. Triangles along the free sides lack hinges, so a strip is too limp, the more "
+        "the fewer triangles it has across: with 4 across at 24 spacings, half as many as here, it hangs 2.7 % too low "
+        "at Γ = 1 and 1.7 % at Γ = 5. Coarse links cannot follow the bend at the clamp if Γ is large, so the strip "
+        "hangs too high.";
     return result;
 }
 

@@ -1,4 +1,4 @@
-// The cases of the report card: each is run at one of two resolutions and says what it found beside what is exact.
+// The cases of the report. Each runs at one of two resolutions and returns its results with the exact values.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ enum class Detail
     fine,
 };
 
-// Of a quantity that has one value at the coarser resolution and another at the finer one.
+// The target of a quantity, one value for the coarse resolution and one for the fine.
 struct Target
 {
     double coarse = 0;
@@ -23,20 +23,20 @@ struct Target
     [[nodiscard]] double at(Detail detail) const { return detail == Detail::fine ? fine : coarse; }
 };
 
-// One number. A band has no exact value, but a lowest and a highest one.
+// One number. A band has a lowest and a highest value instead of an exact one.
 struct Measurement
 {
     std::string quantity;
     std::string resolution;
     double value = 0;
     double exact = 0;
-    // |value / exact - 1|, or |value - exact| where the exact is 0; at most five times what was measured (of quantities
-    // of a kind: the largest).
+    // |value / exact - 1|, or |value - exact| if the exact value is 0. At most five times the measured error (for a
+    // group of similar quantities: the largest).
     double target = 0;
     double low = 0;
-    double high = 0;   // of a band; 0: not a band
-    double change = 0; // how much both resolutions may differ; 0: not looked at
-    bool known = true; // false: there is nothing to hold the value against
+    double high = 0;   // of a band; 0: no band
+    double change = 0; // largest difference between both resolutions; 0: not checked
+    bool known = true; // false: there is no reference value
 
     [[nodiscard]] bool band() const { return high > 0; }
     [[nodiscard]] double error() const
@@ -55,12 +55,12 @@ struct Curve
     std::string name;
     std::vector<double> x;
     std::vector<double> y;
-    bool points = false; // dots in place of a line
+    bool points = false; // dots instead of a line
 };
 
 struct Plot
 {
-    std::string file; // without its extension
+    std::string file; // without extension
     std::string title;
     std::string x_label;
     std::string y_label;
@@ -79,7 +79,7 @@ struct CaseResult
 struct Case
 {
     const char* name;
-    const char* setup; // what is done, a sentence
+    const char* setup; // one sentence
     CaseResult (*run)(Detail detail);
 };
 
@@ -106,6 +106,6 @@ CaseResult incline(Detail detail);
 CaseResult strap(Detail detail);
 // drape.cpp
 CaseResult drape(Detail detail);
-CaseResult coarse_drape(); // in seconds, far from converged
+CaseResult coarse_drape(); // takes seconds, far from converged
 
 } // namespace physics

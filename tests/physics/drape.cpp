@@ -1,5 +1,5 @@
-// Cusick's drape test: a disc of cloth of 30 cm held between discs of 18 cm, the rest hanging; the drape coefficient is
-// the share of the overhang's area that the shadow from above still has.
+// Cusick's drape test: a disc of cloth of 30 cm is held between discs of 18 cm, and the rest hangs. The drape
+// coefficient is the fraction of the overhang's area that its shadow from above still covers.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -24,13 +24,12 @@ struct Disc
     std::vector<uint32_t> held;
 };
 
-// Rings of an equilateral lattice made round: ring n has 6 n vertices, evenly spaced. The two innermost ones are held;
-// nothing further inside would move.
+// Rings of an equilateral lattice made round: ring n has 6 n evenly spaced vertices. The two innermost rings are
+// pinned. Vertices farther inside would not move.
 class DiscMaker
 {
 public:
-    // `overhang` rings are free. The support's edge is in the middle between the two rings that are held, as with a
-    // cantilever.
+    // `overhang` rings are free. The support's edge is midway between the two pinned rings, like a cantilever's clamp.
     explicit DiscMaker(uint32_t overhang)
     {
         const double spacing = (k_cloth - k_support) / (overhang + 0.5);
@@ -45,7 +44,7 @@ public:
     [[nodiscard]] const Disc& disc() const { return disc_; }
 
 private:
-    // Vertex k of a ring, round and round.
+    // Vertex k of a ring, modulo the ring's count.
     [[nodiscard]] uint32_t vertex(uint32_t ring, uint32_t k) const
     {
         return 3 * (ring * (ring - 1) - first_ring_ * (first_ring_ - 1)) + k % (6 * ring);
@@ -75,7 +74,7 @@ private:
 
 constexpr size_t k_rays = 720;
 
-// How far the shadow reaches from the axis in each of `k_rays` directions: the outermost of the edges there.
+// The extent of the shadow from the axis in each of `k_rays` directions: its outermost edge.
 std::vector<double> outline(const Disc& disc, const std::vector<glm::dvec3>& x)
 {
     std::vector<double> radii(k_rays, k_support);
@@ -113,7 +112,7 @@ double coefficient(const std::vector<double>& radii)
     return (squares - k_support * k_support) / (k_cloth * k_cloth - k_support * k_support);
 }
 
-// How many waves the outline has: places where it goes outwards through its mean.
+// The number of waves of the outline: how often it crosses its mean outward.
 uint32_t waves(const std::vector<double>& radii)
 {
     double mean = 0;
@@ -125,7 +124,7 @@ uint32_t waves(const std::vector<double>& radii)
     return count;
 }
 
-// The start: lifted towards the edge by waves of several counts, or the flat disc could not choose where to fold.
+// The start: the edge is raised in waves of several counts. A flat disc has no preferred folds.
 std::vector<glm::dvec3> slightly_waved(const Disc& disc)
 {
     std::vector<glm::dvec3> x(disc.positions.begin(), disc.positions.end());
@@ -151,20 +150,20 @@ std::vector<double> draped(const voile::Fabric& fabric, uint32_t overhang)
     Rig rig;
     const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(mesh));
     rig.upload();
-    rig.place(id, slightly_waved(disc));
+    rig.set_positions(id, slightly_waved(disc));
     rig.settle(id, {.duration = 0.01f}, 300, 1e-7);
     return outline(disc, rig.positions(id));
 }
 
-// What was measured on the preset's fabric, or on others of its class. See fabrics.cpp for the sources.
+// Measured values of the preset's fabric, or of others of its class. fabrics.cpp names the sources.
 struct Reference
 {
     const char* fabric;
-    double measured;      // %, of the fabric whose density and bending the preset has; 0: none
+    double measured;      // %, of the fabric with the preset's density and bending; 0: none
     double low;           // %, of a class of fabrics; 0: none
     double high;          // %
     double target;        // of `measured`, relative, with the report's rings
-    double coarse_target; // with four
+    double coarse_target; // with four rings
 };
 constexpr Reference k_references[] = {{"silk", 0, 20, 40, 0, 0},
                                       {"cotton", 82.9, 0, 0, 0.04, 0.2},
@@ -193,7 +192,7 @@ Measurement measurement(const Reference& reference, const std::vector<double>& r
 {
     Measurement m;
     m.quantity = std::string(reference.fabric) + ", drape coefficient, % (" + std::to_string(waves(radii)) + " waves)";
-    m.resolution = std::to_string(overhang) + " rings outside";
+    m.resolution = std::to_string(overhang) + " free rings";
     m.value = 100 * coefficient(radii);
     m.exact = reference.measured;
     m.target = reference.target;
@@ -226,18 +225,15 @@ CaseResult drape(Detail detail)
     for (Measurement& m : result.measurements)
         m.change = 3;
     result.remark =
-        "Cotton and wool are held against the drape coefficient that was measured on the very fabric whose density and "
-        "bending they have: cotton broad and wool tropical of Matsudaira et al. 2015 (Journal of Textile Engineering "
-        "61(6), 69-73, table 2, as transcribed in public). Their waves are not: 2 were counted on that cotton, 5 on "
-        "that "
-        "wool, whose bending differs between warp and weft, and here all presets start from the same 4 to 7. Silk's "
-        "band is a range quoted for woven silks (Matsudaira and Yang 2003), leather's that of four sheep leathers "
-        "(Memon "
-        "et al. 2021), to which its bending was chosen. Of a washed 11 oz denim no coefficient was found. "
-        "The mesh is a ring lattice, whose edges run across warp and weft in most places. Strain is uniform in a "
-        "triangle, so where shear changes within a fold such a mesh is too stiff as long as triangles are large, the "
-        "more the stiffer stretch is against shear. Of the presets silk shows it most: its stretch is 80 times as "
-        "stiff.";
+        "Cotton and wool are compared with the drape coefficient measured on the fabric that their density and bending "
+        "come from: cotton broad and wool tropical of Matsudaira et al. 2015 (Journal of Textile Engineering 61(6), "
+        "69-73, table 2, as transcribed in public). Their waves are not compared: 2 were counted on that cotton and 5 "
+        "on that wool, whose bending differs between warp and weft. Here all presets start from the same 4 to 7. "
+        "Silk's band is a range quoted for woven silks (Matsudaira and Yang 2003). Leather's is that of four sheep "
+        "leathers (Memon et al. 2021), and its bending was chosen to fit it. No coefficient was found for a washed 11 "
+        "oz denim. The mesh is a ring lattice with edges across warp and weft in most places. Strain is uniform in a "
+        "triangle. If shear varies within a fold, a mesh of large triangles is too stiff, the more the stiffer stretch "
+        "is relative to shear. Silk shows this most of the presets: its stretch is 80 times as stiff.";
     return result;
 }
 

@@ -1,4 +1,4 @@
-// Cloth in motion: the periods of a hanging chain, the terminal speed of a falling plate.
+// Cloth in motion: the periods of a hanging chain and the terminal speed of a falling plate.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -10,8 +10,8 @@ namespace physics
 namespace
 {
 
-// Started in a mode's shape, J0(j sqrt(s / L)) with s the height above the free end (Daniel Bernoulli 1733), a strip
-// swings in that mode alone: T = 4 pi sqrt(L / g) / j.
+// Started in the shape of a mode, J0(j sqrt(s / L)) with s the height above the free end (Daniel Bernoulli 1733), a
+// strip swings only in that mode: T = 4 pi sqrt(L / g) / j.
 double chain_period(double root, uint32_t rows, Curve& curve)
 {
     const voile::GridCloth grid = [&]
@@ -27,8 +27,8 @@ double chain_period(double root, uint32_t rows, Curve& curve)
     rig.upload();
     auto x = rig.positions(id);
     for (uint32_t i = 0; i < 2 * rows; ++i)
-        x[i].z += 0.01 * shape(i / 2); // the shape is 0 at the held row; lengthens nothing to first order
-    rig.place(id, x);
+        x[i].z += 0.01 * shape(i / 2); // the shape is 0 at the pinned row; to first order it lengthens nothing
+    rig.set_positions(id, x);
     constexpr double k_interval = 0.01;
     std::vector<double> crossings; // of the projection onto the shape, s
     double previous = 1;
@@ -54,7 +54,8 @@ CaseResult hanging_chain(Detail detail)
 {
     CaseResult result;
     const uint32_t rows = detail == Detail::fine ? 65 : 33;
-    Plot plot{"chain", "Free end of a hanging strip, started in its modes", "time, s", "place, mm", {}, false, false};
+    Plot plot{"chain", "Free end of a hanging strip, started in its modes", "time, s", "position, mm", {}, false,
+              false};
     const struct
     {
         const char* name;

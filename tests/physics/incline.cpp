@@ -1,5 +1,4 @@
-// Coulomb friction on an incline of 30 degrees: patches of the presets that stay, slide, or lie near the threshold
-// between both.
+// Coulomb friction on an incline of 30 degrees: patches of the presets that stick, slide, or lie near the threshold.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -16,9 +15,9 @@ namespace
 {
 
 constexpr double k_angle = std::numbers::pi / 6; // tan = 0.57735
-constexpr double k_patch = 0.08;                 // m, a side
+constexpr double k_patch = 0.08;                 // m, one side
 constexpr double k_spacing = 0.1;                // m from patch to patch
-constexpr double k_pressed = 5e-6; // m that patches start nearer than their thickness: all vertices touch at once
+constexpr double k_pressed = 5e-6; // m by which patches start inside their thickness: all vertices touch at once
 constexpr double k_time = 0.25;    // s
 
 glm::dvec3 incline_normal()
@@ -35,23 +34,23 @@ enum class Surface
 {
     plane,
     coarse_mesh, // triangles longer than a patch
-    fine_mesh,   // triangles of a quarter of a patch
+    fine_mesh,   // triangles a quarter as long as a patch
 };
 
 const char* const k_remark =
-    "The presets' stretch, shear and density, with the coefficients named. The meshes are flat, of irregular triangles "
-    "whose edges do not follow the motion: of 12 cm, longer than a patch, and of 2 cm, a quarter of one. Patches start "
-    "pressed 5 um into their thickness, so that all vertices touch at once. The friction that holds is the middle "
-    "between "
-    "the greatest of 0.570, 0.572 ... with which a patch slid and the next one, so it is known to 0.17 %.";
+    "The presets' stretch, shear and density, with the named coefficients. The meshes are flat, with irregular "
+    "triangles whose edges do not follow the motion: of 12 cm, longer than a patch, and of 2 cm, a quarter of a patch. "
+    "Patches start 5 um inside their thickness, so that all vertices touch at once. The lowest friction that holds is "
+    "the middle between the largest of 0.570, 0.572 ... with which a patch slid and the next one, so it is known to "
+    "0.17 %.";
 
 const char* name_of(Surface surface)
 {
     return surface == Surface::plane ? "plane" : surface == Surface::coarse_mesh ? "coarse mesh" : "fine mesh";
 }
 
-// A square in the incline's plane, of `cells` x `cells` pairs of triangles. Turned by 0.4 rad, and its inner vertices
-// moved by up to a fifth of a cell, so that no edge follows the motion and no two triangles are alike.
+// A square in the incline's plane of `cells` x `cells` pairs of triangles. Rotated by 0.4 rad, with its inner vertices
+// moved by up to a fifth of a cell, so that no edge follows the motion and no two triangles are equal.
 TriangleMesh incline_mesh(double side, uint32_t cells)
 {
     constexpr double k_turn = 0.4;
@@ -98,11 +97,11 @@ voile::GridCloth patch(voile::Fabric fabric, double static_friction, double kine
     grid.columns = grid.rows = side;
     grid.width = grid.depth = static_cast<float>(k_patch);
     grid.material = fabric;
-    const glm::dvec3 place = (static_cast<double>(fabric.thickness) - k_pressed) * incline_normal() -
-                             0.03 * downhill() + glm::dvec3(0, 0, across);
+    const glm::dvec3 position = (static_cast<double>(fabric.thickness) - k_pressed) * incline_normal() -
+                                0.03 * downhill() + glm::dvec3(0, 0, across);
     grid.transform[0] = glm::vec4(glm::vec3(downhill()), 0);
     grid.transform[1] = glm::vec4(glm::vec3(incline_normal()), 0);
-    grid.transform[3] = glm::vec4(glm::vec3(place), 1);
+    grid.transform[3] = glm::vec4(glm::vec3(position), 1);
     return grid;
 }
 
@@ -114,8 +113,8 @@ double mean_along(const std::vector<glm::dvec3>& positions, const glm::dvec3& di
     return mean;
 }
 
-// How far patches beside each other move down the incline within k_time, one for each coefficient of static friction;
-// the kinetic one is 0.5.
+// The distances that patches beside each other slide within k_time, one per coefficient of static friction. The kinetic
+// coefficient is 0.5.
 std::vector<double> moved(Surface surface, const voile::Fabric& fabric, uint32_t side,
                           const std::vector<double>& static_friction)
 {
@@ -136,7 +135,7 @@ std::vector<double> moved(Surface surface, const voile::Fabric& fabric, uint32_t
     return result;
 }
 
-// From this coefficient on patches stay: the middle between one that slides and the next.
+// The coefficient from which patches stay: the middle between one that slides and the next.
 double threshold(const std::vector<double>& static_friction, const std::vector<double>& distances)
 {
     for (size_t i = 0; i < distances.size(); ++i)
@@ -147,7 +146,7 @@ double threshold(const std::vector<double>& static_friction, const std::vector<d
 
 void measure(Surface surface, const char* name, Detail detail, CaseResult& result)
 {
-    const uint32_t side = detail == Detail::fine ? 9 : 5; // 1 and 2 cm from vertex to vertex
+    const uint32_t side = detail == Detail::fine ? 9 : 5; // 1 and 2 cm between vertices
     const double exact = 0.5 * k_gravity * (std::sin(k_angle) - 0.5 * std::cos(k_angle)) * k_time * k_time;
     std::vector<double> coefficients;
     for (uint32_t i = 0; i < 9; ++i)
@@ -164,7 +163,7 @@ void measure(Surface surface, const char* name, Detail detail, CaseResult& resul
     result.measurements.push_back(
         {"slid, static and kinetic 0.5, m" + on, size, slid, exact, Target{5e-5, 1e-4}.at(detail)});
     result.measurements.push_back(
-        {"static friction that holds" + on, size, threshold(coefficients, distances), std::tan(k_angle), 0.01});
+        {"lowest static friction that holds" + on, size, threshold(coefficients, distances), std::tan(k_angle), 0.01});
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// The integrators: free fall, order, the period of a spring pair, the drift of energy.
+// The integrators: free fall, order, the period of a spring pair, energy drift.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -16,7 +16,7 @@ const char* name_of(voile::Integrator integrator)
     return integrator == voile::Integrator::rk4 ? "RK4" : "Verlet";
 }
 
-// Two vertices a meter apart and a spring of 50 N/m; stretched, they swing with omega^2 = 2 k / m.
+// Two vertices one meter apart on a spring of 50 N/m. Stretched, they swing with omega^2 = 2 k / m.
 struct Pair
 {
     double mass;
@@ -26,7 +26,7 @@ struct Pair
 
     [[nodiscard]] voile::GridCloth grid(voile::Integrator integrator) const
     {
-        voile::GridCloth grid; // of 2 x 2 vertices, springs along the rows only: two such pairs
+        voile::GridCloth grid; // of 2 x 2 vertices with springs only along rows: two such pairs
         grid.integrator = integrator;
         grid.columns = grid.rows = 2;
         grid.transform[0] *= static_cast<float>(1 + amplitude);
@@ -55,7 +55,7 @@ PairState swing(const Pair& pair, voile::Integrator integrator, double duration,
     return {x[1].x - x[0].x - 1, v[1].x - v[0].x};
 }
 
-// In phase space, where errors of amplitude and of phase cannot cancel.
+// In phase space, where errors of amplitude and phase cannot cancel.
 double swing_error(const Pair& pair, voile::Integrator integrator, uint32_t substeps)
 {
     const PairState end = swing(pair, integrator, 1, substeps);
@@ -72,7 +72,7 @@ struct Energy
 constexpr uint32_t k_side = 9;
 constexpr double k_spacing = 0.125; // m
 
-// In double precision, from the positions and velocities: springs along rows, columns and diagonals.
+// In double precision, from positions and velocities: springs along rows, columns and diagonals.
 Energy energy_of(const voile::Material& m, const std::vector<glm::dvec3>& x, const std::vector<glm::dvec3>& v)
 {
     const struct
@@ -105,7 +105,7 @@ Energy energy_of(const voile::Material& m, const std::vector<glm::dvec3>& x, con
     return energy;
 }
 
-// The greatest departure of the energy from its start within 10 s, relative; tells the curve too.
+// The largest deviation of the energy from its start within 10 s, relative. Also returns the curve.
 double energy_drift(voile::Integrator integrator, uint32_t substeps, Curve& curve)
 {
     voile::Material material;
@@ -131,10 +131,10 @@ double energy_drift(voile::Integrator integrator, uint32_t substeps, Curve& curv
     for (int i = 1; i <= 50; ++i)
     {
         rig.step({.duration = 0.2f, .substeps = substeps, .gravity = {0, 0, 0}});
-        const double departure = total() / start - 1;
-        drift = std::max(drift, std::abs(departure));
+        const double deviation = total() / start - 1;
+        drift = std::max(drift, std::abs(deviation));
         curve.x.push_back(0.2 * i);
-        curve.y.push_back(100 * departure);
+        curve.y.push_back(100 * deviation);
     }
     return drift;
 }
@@ -151,7 +151,7 @@ CaseResult free_fall(Detail detail)
         fabric.damping_ratio = 0.5f;
         fabric.shear_stiffness = 100;
         const bool rk4 = integrator == voile::Integrator::rk4;
-        // The roundings of the velocity in each of 618 and 1236 substeps, of either sign, alike for all vertices.
+        // The velocity's roundings in each of 618 and 1236 substeps, of either sign, equal for all vertices.
         const Target target = rk4 ? Target{8e-6, 5e-5} : Target{9e-6, 5e-5};
         voile::GridCloth grid;
         grid.integrator = integrator;
@@ -180,8 +180,7 @@ CaseResult order(Detail detail)
     for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
         const bool rk4 = integrator == voile::Integrator::rk4;
-        // RK4's shorter steps meet the rounding of floats; in Verlet's longer ones the pair is fast enough to be
-        // viscous.
+        // Shorter steps of RK4 hit float rounding. In longer steps of Verlet the pair is fast enough for viscosity.
         const uint32_t first = (rk4 ? 20 : 40) * (detail == Detail::fine ? 2 : 1);
         Curve curve{name_of(integrator), {}, {}, false};
         for (uint32_t substeps = first / 2; substeps <= 4 * first; substeps *= 2)
@@ -208,13 +207,13 @@ CaseResult spring_pair(Detail detail)
     const double exact = 2 * std::numbers::pi / pair.omega();
     for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
-        // After four exact periods the phase tells by how much the period is off.
+        // After four exact periods the phase gives the error of the period.
         const PairState end = swing(pair, integrator, 4 * exact, 4 * substeps);
         const bool rk4 = integrator == voile::Integrator::rk4;
         const Target target = rk4 ? Target{1e-5, 5.5e-7} : Target{2e-3, 5e-4};
         const double phase = std::atan2(-end.velocity / pair.omega(), end.stretch);
         result.measurements.push_back({std::string("period, s, ") + name_of(integrator),
-                                       std::to_string(substeps) + " steps a period",
+                                       std::to_string(substeps) + " steps per period",
                                        exact / (1 + phase / (8 * std::numbers::pi)), exact, target.at(detail)});
     }
     return result;
@@ -223,16 +222,16 @@ CaseResult spring_pair(Detail detail)
 CaseResult energy(Detail detail)
 {
     CaseResult result;
-    Plot plot{"energy", "Energy of a free cloth", "time, s", "departure, %", {}, false, false};
+    Plot plot{"energy", "Energy of a free cloth", "time, s", "deviation, %", {}, false, false};
     for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
     {
-        // The fastest mode of the grid swings with 208 1/s. RK4 loses (omega h)^6 / 72 of a mode's energy a step.
+        // The fastest mode of the grid swings with 208 1/s. RK4 loses (omega h)^6 / 72 of a mode's energy per step.
         const uint32_t substeps = detail == Detail::fine ? 160 : 80;
         const bool rk4 = integrator == voile::Integrator::rk4;
         const Target target = rk4 ? Target{5e-3, 2e-4} : Target{5e-3, 1.2e-3};
         Curve curve{name_of(integrator), {0}, {0}, false};
         const double drift = energy_drift(integrator, substeps, curve);
-        result.measurements.push_back({std::string("greatest departure in 10 s, ") + name_of(integrator),
+        result.measurements.push_back({std::string("largest deviation in 10 s, ") + name_of(integrator),
                                        std::to_string(5 * substeps) + " steps/s", drift, 0, target.at(detail)});
         plot.curves.push_back(curve);
     }

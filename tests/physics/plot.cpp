@@ -27,7 +27,7 @@ std::string number(double value, const char* format = "%.1f")
     return text;
 }
 
-// One axis: values to points of the picture, and its ticks.
+// One axis: maps values to points of the picture, with its ticks.
 struct Axis
 {
     double low = 0;
@@ -132,7 +132,7 @@ bool write_svg(const Plot& plot, const std::filesystem::path& folder)
         << "\" font-family=\"sans-serif\" font-size=\"13\">\n<style>.grid{stroke:#ddd;fill:none}</style>\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     write_axes(out, plot, x, y);
-    std::vector<std::string> names; // a color a name
+    std::vector<std::string> names; // one color per name
     for (const Curve& curve : plot.curves)
     {
         auto found = std::find(names.begin(), names.end(), curve.name);

@@ -8,7 +8,7 @@
 namespace physics
 {
 
-// Writes `folder`/<plot's file>.svg. False if that fails.
+// Writes `folder`/<plot's file>.svg. Returns false on failure.
 bool write_svg(const Plot& plot, const std::filesystem::path& folder);
 
 } // namespace physics

@@ -1,6 +1,6 @@
 // physics_report: runs every case at two resolutions and writes FOLDER/physics.md with plots in FOLDER/physics.
 //
-//   physics_report FOLDER [CASE ...]    with cases: only these, to standard output
+//   physics_report FOLDER [CASE ...]    with cases: runs only these, to standard output
 #include "physics/plot.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ std::string target_of(const Measurement& m)
     return value.empty() || change.empty() ? value + change : value + ", " + change;
 }
 
-// Returns how many targets were missed.
+// Returns the number of missed targets.
 long write_table(std::ostream& out, const physics::CaseResult& coarse, const physics::CaseResult& fine)
 {
     long missed = 0;
@@ -72,7 +72,7 @@ long write_table(std::ostream& out, const physics::CaseResult& coarse, const phy
     return missed;
 }
 
-// Returns how many targets were missed.
+// Returns the number of missed targets.
 long run_case(const physics::Case& entry, std::ostream& out, const std::filesystem::path& plots)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -93,9 +93,9 @@ long run_case(const physics::Case& entry, std::ostream& out, const std::filesyst
 
 const char* const k_head = R"(# Physics report
 
-Written by `physics_report docs`; do not edit. Every case is run on the GPU at two resolutions and held against its exact
-value. Statics are brought to rest by kinetic damping: the velocities are taken away whenever the kinetic energy has passed
-a peak, so that no drag enters what they come to rest in. All but what names RK4 is advanced by velocity Verlet.
+Written by `physics_report docs`; do not edit. Every case runs on the GPU at two resolutions and is compared with its exact
+value. Statics are brought to rest by kinetic damping: the velocities are set to zero whenever the kinetic energy has passed
+a peak, so that no drag affects the rest state. Velocity Verlet advances every case that does not name RK4.
 
 )";
 
@@ -117,7 +117,7 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
         return 0;
     std::ofstream file(folder / "physics.md");
     file << k_head
-         << (missed == 0 ? "All targets are met; what a case needed for it stands below its table."
+         << (missed == 0 ? "All targets are met. Remarks stand below the tables."
                          : std::to_string(missed) + " targets are missed.")
          << "\n\n"
          << out.str();
@@ -130,7 +130,7 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
 
 int main(int argc, char** argv)
 {
-    if (argc < 2 || argv[1][0] == '-') // no option is known
+    if (argc < 2 || argv[1][0] == '-') // there are no options
     {
         std::cerr << "usage: physics_report FOLDER [CASE ...]\n";
         return 1;

@@ -76,14 +76,14 @@ double Rig::kinetic_energy()
     return static_cast<double>(solver.statistics(0).kinetic_energy);
 }
 
-void Rig::place(voile::ClothId cloth, const std::vector<glm::dvec3>& positions)
+void Rig::set_positions(voile::ClothId cloth, const std::vector<glm::dvec3>& positions)
 {
     const voile::VertexStreams streams = solver.vertices(cloth);
     auto values = voile::engine::download_values<glm::vec4>(device(), streams.positions, streams.offset,
                                                             size_t{streams.vertices});
     for (size_t i = 0; i < values.size(); ++i)
         values[i] = glm::vec4(glm::vec3(positions[i]), values[i].w);
-    constexpr size_t k_most = 65536 / sizeof(glm::vec4); // of vkCmdUpdateBuffer
+    constexpr size_t k_most = 65536 / sizeof(glm::vec4); // limit of vkCmdUpdateBuffer
     for (size_t first = 0; first < values.size(); first += k_most)
         run(
             [&](VkCommandBuffer cmd)
@@ -115,7 +115,8 @@ void Rig::settle(voile::ClothId cloth, const voile::Step& step, uint32_t most, d
     double before = 0;
     for (uint32_t steps = 1; steps <= most; ++steps)
     {
-        // Of different durations: equal ones may meet a mode at its turning points alone, where a stop takes nothing.
+        // Steps of different durations: equal ones may sample a mode only at its turning points, where a stop removes
+        // nothing.
         voile::Step part = step;
         part.duration *= 0.5f + 0.5f * static_cast<float>(std::fmod(0.618034 * steps, 1.0));
         this->step(part);

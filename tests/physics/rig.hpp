@@ -1,4 +1,4 @@
-// Rig: a solver on a device of its own, stepped, read back, and brought to rest.
+// Rig: a solver with its own device. Steps it, reads it back, and brings it to rest.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -24,15 +24,14 @@ public:
     std::vector<glm::dvec3> velocities(voile::ClothId cloth);
     double kinetic_energy(); // J, of all cloths
 
-    // Puts the vertices elsewhere, at rest; springs keep their rest lengths.
-    void place(voile::ClothId cloth, const std::vector<glm::dvec3>& positions);
-    // Takes all velocities away.
+    // Sets the vertex positions, at rest. Springs keep their rest lengths.
+    void set_positions(voile::ClothId cloth, const std::vector<glm::dvec3>& positions);
+    // Sets all velocities to zero.
     void stop(voile::ClothId cloth);
 
     // Kinetic damping (Cundall 1976): steps, and stops the cloth whenever its kinetic energy has passed a peak, until a
-    // peak is less than `rest` of the highest one; throws if that takes more than `most` steps. Nothing is added to the
-    // forces, so what it comes to rest in is the static solution. The steps last between half of and all of the
-    // duration that is given.
+    // peak is less than `rest` of the highest one. Throws if that takes more than `most` steps. No force is added, so
+    // the rest state is the static solution. Steps last between half and all of the given duration.
     void settle(voile::ClothId cloth, const voile::Step& step, uint32_t most, double rest = 1e-8);
 
     voile::Solver solver;

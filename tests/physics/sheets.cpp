@@ -26,7 +26,7 @@ voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, double width, do
     grid.rows = rows;
     grid.width = static_cast<float>(width);
     grid.depth = static_cast<float>(length);
-    grid.transform[1] = {0, 0, 1, 0}; // grid z to -y
+    grid.transform[1] = {0, 0, 1, 0}; // maps grid z to -y
     grid.transform[2] = {0, -1, 0, 0};
     grid.transform[3] = {0, -0.5f * grid.depth, 0, 1};
     grid.material = fabric;

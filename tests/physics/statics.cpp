@@ -1,4 +1,4 @@
-// Cloth at rest under its own weight: a hanging sheet, a strip between two holds.
+// Cloth at rest under its own weight: a hanging sheet, a strip held at both ends.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 
@@ -49,10 +49,10 @@ Curve catenary_curve(double span)
     return curve;
 }
 
-// The middle line of a strip of unit length that hangs between two holds.
+// The center line of a strip of unit length, held at both ends.
 std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
 {
-    // Stretched by less than rho g L / k = 0.07 %. Of two rows, without shear, which hang alike.
+    // Stretched by less than rho g L / k = 0.07 %. Two rows without shear, which hang identically.
     const voile::Fabric fabric = plain_fabric(3000);
     voile::GridCloth grid;
     grid.integrator = voile::Integrator::verlet;
@@ -65,7 +65,7 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
     Rig rig;
     const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();
-    // A start near it: a parabola with the right sag, its points spread evenly over the span.
+    // A nearby start: a parabola with the right sag, its points evenly spaced over the span.
     const double u = catenary_parameter(span);
     const double sag = (std::cosh(u) - 1) / (2 * std::sinh(u));
     std::vector<glm::dvec3> start;
@@ -75,8 +75,8 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
             const double s = static_cast<double>(i) / links - 0.5;
             start.emplace_back(span * s, sag * (4 * s * s - 1), (row - 0.5) / links);
         }
-    rig.place(id, start);
-    // Steps shorter than the quickest swings of the links, or their energy would never be seen to fall.
+    rig.set_positions(id, start);
+    // Steps are shorter than the fastest swings of the links: otherwise their energy would never be seen to fall.
     rig.settle(id, {.duration = 0.005f}, 1600, 1e-9);
     auto x = rig.positions(id);
     x.resize(links + 1);
@@ -110,7 +110,7 @@ CaseResult catenary(Detail detail)
 {
     CaseResult result;
     const uint32_t links = detail == Detail::fine ? 64 : 32;
-    Plot plot{"catenary", "Strip between two holds", "x / length", "y / length", {}, false, true};
+    Plot plot{"catenary", "Strip held at both ends", "x / length", "y / length", {}, false, true};
     for (const double span : {0.5, 0.6, 0.8, 0.9})
     {
         const auto x = hanging_strip(links, span);
@@ -126,7 +126,7 @@ CaseResult catenary(Detail detail)
         result.measurements.push_back({"sag at span " + short_number(span), std::to_string(links) + " links", -lowest,
                                        (std::cosh(u) - 1) / (2 * std::sinh(u)), 0.004});
         plot.curves.push_back(curve);
-        plot.curves.push_back(catenary_curve(span)); // on top of the dots
+        plot.curves.push_back(catenary_curve(span)); // above the dots
     }
     result.plots.push_back(plot);
     return result;

@@ -1,4 +1,4 @@
-// Coulomb friction around a drum: T2 / T1 = exp(mu phi) where a strap slides, and where it is about to.
+// Coulomb friction around a drum: T2 / T1 = exp(mu phi) for a sliding strap and at the onset of sliding.
 #include "physics/cases.hpp"
 #include "physics/sheets.hpp"
 #include "support/hard_shapes.hpp"
@@ -16,26 +16,26 @@ namespace
 constexpr double k_friction = 0.3;
 constexpr double k_radius = 0.1; // m, of the drum's corners
 constexpr double k_thickness = 0.002;
-constexpr double k_around = k_radius + k_thickness; // m, where the strap's vertices lie
+constexpr double k_around = k_radius + k_thickness; // m, radius of the strap's vertices
 constexpr double k_stretch = 4000;                  // N/m
-constexpr double k_density = 0.05;                  // kg/m^2: what lies on the drum weighs 0.4 % of the lighter weight
-constexpr double k_light = 4;                       // kg a meter of width
-constexpr uint32_t k_straight = 8;                  // links that hang on either side
+constexpr double k_density = 0.05;                  // kg/m^2: the part on the drum weighs 0.4 % of the lighter weight
+constexpr double k_light = 4;                       // kg per meter of width
+constexpr uint32_t k_straight = 8;                  // hanging links on either side
 
 const char* const k_remark =
     "A strap starts in the shape and with the tensions of its equilibrium or motion, so that its weights do not "
-    "bounce. One has weights of 1 : 4 and slides; its ratio of tensions follows from the stretch of the four "
-    "links next to each weight, averaged over 0.1 s, and, without any stretch, from the acceleration a of the "
-    "weights: m2 (g - a) / m1 (g + a). Nine others have weights of 1 : 2.40 to 1 : 2.72, each 0.04 more than "
-    "the one before; the ratio that begins to slip is the middle between the last that stays and the next, so "
-    "it is known to 0.8 %. Strap and drum have corners: n links on the half circle have (1 + mu tan(d/2)) / (1 "
-    "- mu tan(d/2)) a vertex with d = π / n, 0.15 % more in all at 24 links and 0.04 % at 48. The vertices lie "
-    "on the flats of the drum, whose normals lean by up to π / segments against the circle's: 1.4° at 128 "
-    "segments, which averages out over a path of a segment, and shows as jolts in the stretch. The thickness "
-    "moves the strap outwards and does not enter. What lies on the drum weighs 0.4 % of the lighter weight. The "
-    "drum's triangles are 0.4 m long and 5 or 1.2 mm wide, as modeling programs write cylinders.";
+    "bounce. One strap has weights of 1 : 4 and slides. Its ratio of tensions follows from the stretch of the four "
+    "links next to each weight, averaged over 0.1 s, and independently of the stretch from the acceleration a of the "
+    "weights: m2 (g - a) / m1 (g + a). Nine others have weights of 1 : 2.40 to 1 : 2.72 in steps of 0.04. The ratio "
+    "that begins to slip is the middle between the last that stays and the next, so it is known to 0.8 %. Strap and "
+    "drum have corners: n links on the half circle give (1 + mu tan(d/2)) / (1 - mu tan(d/2)) per vertex with d = π / "
+    "n, in total 0.15 % more at 24 links and 0.04 % at 48. The vertices lie on the flats of the drum, whose normals "
+    "deviate by up to π / segments from the circle's: 1.4° at 128 segments. This averages out over a path of one "
+    "segment and shows as jolts in the stretch. The thickness moves the strap outward and has no other effect. The "
+    "part of a strap on the drum weighs 0.4 % of the lighter weight. The drum's triangles are 0.4 m long and 5 or 1.2 "
+    "mm wide, like the cylinders of modeling programs.";
 
-// A strap one link wide over the upper half of the drum, a weight at either end, stretched as its tensions have it.
+// A strap one link wide over the upper half of the drum, a weight at each end, stretched by its tensions.
 struct Strap
 {
     uint32_t links = 0; // on the drum
@@ -46,7 +46,7 @@ struct Strap
 
     [[nodiscard]] uint32_t all_links() const { return links + 2 * k_straight; }
     [[nodiscard]] double heavy() const { return weights * k_light; }
-    // m/s^2 of the heavy weight downwards.
+    // m/s^2 of the heavy weight, downward.
     [[nodiscard]] double acceleration() const
     {
         const double ratio = std::exp(k_friction * std::numbers::pi);
@@ -54,7 +54,7 @@ struct Strap
     }
 };
 
-// Rest and motion alike: from the light weight's tension to the heavy one's by equal factors.
+// At rest and in motion: from the light weight's tension to the heavy one's by equal factors.
 std::vector<double> tensions(const Strap& strap)
 {
     const double first = k_light * (k_gravity + strap.acceleration());
@@ -73,7 +73,7 @@ double angle_of(double chord)
     return 2 * std::asin(chord / (2 * k_around));
 }
 
-// The link with which the stretched strap's vertices fit on half the circle.
+// The link length with which the stretched strap's vertices fit on half the circle.
 double fitting_link(const Strap& strap)
 {
     const std::vector<double> tension = tensions(strap);
@@ -88,7 +88,7 @@ double fitting_link(const Strap& strap)
     return link;
 }
 
-// Along the strap from the light weight at the +x side, on one of its edges and then on the other.
+// Along the strap from the light weight at the +x side, first one edge and then the other.
 std::vector<glm::dvec3> stretched(const Strap& strap)
 {
     const std::vector<double> tension = tensions(strap);
@@ -137,14 +137,14 @@ void add(Rig& rig, Strap& strap)
     strap.id = voile::engine::take(rig.solver.add_cloth(grid));
 }
 
-// What is seen of a strap from `before` to `after`, with the stretch summed up over samples between them.
+// Observations of a strap from `before` to `after`, with the stretch summed over samples in between.
 struct Watch
 {
     double light_stretch = 0; // of the four links next to the light weight, m
     double heavy_stretch = 0;
     double start = 0; // m, height of the heavy weight
     double end = 0;
-    double start_speed = 0; // m/s upwards
+    double start_speed = 0; // m/s upward
     double end_speed = 0;
 };
 
@@ -164,7 +164,7 @@ constexpr uint32_t k_samples = 10;
 std::vector<Watch> watch(Rig& rig, const std::vector<Strap>& straps)
 {
     const voile::Step step{.duration = k_sample, .max_substeps = 100000};
-    rig.step(step, 2); // what rounding and corners of the drum have upset at the start
+    rig.step(step, 2); // disturbances at the start from rounding and the drum's corners
     std::vector<Watch> result(straps.size());
     for (size_t i = 0; i < straps.size(); ++i)
     {
@@ -195,7 +195,7 @@ std::vector<Strap> straps_side_by_side(uint32_t links)
     return result;
 }
 
-// The ratio from which on straps slip, the middle between one that stays and the next.
+// The ratio from which straps slip: the middle between one that stays and the next.
 double slipping_ratio(const std::vector<Strap>& straps, const std::vector<Watch>& seen)
 {
     for (size_t i = 1; i < straps.size(); ++i)
@@ -222,7 +222,7 @@ Ratios ratios(uint32_t links, uint32_t segments)
         rig.solver.add_collider(voile::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
     rig.upload();
     for (const Strap& strap : straps)
-        rig.place(strap.id, stretched(strap));
+        rig.set_positions(strap.id, stretched(strap));
     const std::vector<Watch> seen = watch(rig, straps);
     const Watch& sliding = seen.front();
     const double a = (sliding.start_speed - sliding.end_speed) / (k_samples * static_cast<double>(k_sample));
@@ -242,10 +242,10 @@ CaseResult strap(Detail detail)
         const Ratios found = ratios(links, segments);
         const std::string of = ", drum of " + std::to_string(segments);
         const std::string size = std::to_string(links) + " links";
-        result.measurements.push_back({"T2 / T1 by the stretch, sliding" + of, size, found.tension, exact, 0.02});
-        result.measurements.push_back({"T2 / T1 by the acceleration, sliding" + of, size, found.acceleration, exact,
+        result.measurements.push_back({"T2 / T1 from the stretch, sliding" + of, size, found.tension, exact, 0.02});
+        result.measurements.push_back({"T2 / T1 from the acceleration, sliding" + of, size, found.acceleration, exact,
                                        Target{0.015, 0.008}.at(detail)});
-        result.measurements.push_back({"weights that begin to slip" + of, size, found.slipping, exact, 0.02});
+        result.measurements.push_back({"ratio of weights that begins to slip" + of, size, found.slipping, exact, 0.02});
     }
     result.remark = k_remark;
     return result;

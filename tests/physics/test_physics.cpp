@@ -1,4 +1,4 @@
-// The report card's cases at their coarser resolution. docs/physics.md has both, and is written by physics_report.
+// The report's cases at their coarse resolution. physics_report writes docs/physics.md with both resolutions.
 #include "physics/cases.hpp"
 
 #include <doctest/doctest.h>
@@ -85,6 +85,6 @@ TEST_CASE("a strap around a cylinder has tensions in the ratio exp(mu phi)")
 
 TEST_CASE("discs of the presets drape by their published coefficients")
 {
-    // Four rings in place of the 12 of the report. Silk, soft in shear, needs ten of them: it has 45 % here.
+    // Four rings instead of the report's 12. Silk, soft in shear, needs ten: it has 45 % here.
     check(physics::coarse_drape(), 8);
 }
