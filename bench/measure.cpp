@@ -40,7 +40,7 @@ constexpr double k_verlet = 7 * k_value;
 constexpr double k_contact = 3 * k_value;
 constexpr double k_normals = 2.5 * k_value;
 
-double bytes_a_substep(const voile::Solver& solver, const Case& item, uint32_t substeps)
+double bytes_per_substep(const voile::Solver& solver, const Case& item, uint32_t substeps)
 {
     const double list = item.lists > 0 ? (1 + item.lists) * k_value : 0;
     const double forces = item.verlet ? k_verlet + list : k_rk4 + 4 * list;
@@ -215,7 +215,7 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, c
     result.substeps = solver.stable_substeps(k_frame);
     result.dispatches = solver.dispatches({.duration = k_frame, .substeps = result.substeps});
     result.measured = measured_substeps(queue.device(), solver, result.substeps);
-    result.bytes = bytes_a_substep(solver, item, result.measured);
+    result.bytes = bytes_per_substep(solver, item, result.measured);
     result.contacts = advance(queue, solver, item);
 
     if (item.icosphere)

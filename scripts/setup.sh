@@ -4,7 +4,7 @@
 # everything is installed.
 #
 #   scripts/setup.sh            installs what is missing
-#   scripts/setup.sh --check    only says what is missing; exit code 1 if anything is
+#   scripts/setup.sh --check    only prints missing packages; exit code 1 if there are any
 set -euo pipefail
 
 case "${1:-}" in
@@ -134,7 +134,7 @@ fi
 has_vma || install_vma_from_trixie
 for package in "${packages[@]}"; do
   if optional "$package" && ! installed "$package"; then
-    say "$package is not in this release; what needs it stays off"
+    say "$package is not in this release; features that need it stay off"
   fi
 done
 say "done"

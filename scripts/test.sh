@@ -34,7 +34,7 @@ status=0
 ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure \
   ${selection[@]+"${selection[@]}"} ${arguments[@]+"${arguments[@]}"} || status=$?
 if [ "${#selection[@]}" -gt 0 ] && [ "$SECONDS" -gt "$quick_seconds" ]; then
-  printf 'test: the quick cases took %d s; on two cores that do nothing else they should take under %d\n' \
+  printf 'test: the quick cases took %d s; on two idle cores they should take under %d\n' \
     "$SECONDS" "$quick_seconds" >&2
 fi
 exit "$status"

@@ -166,14 +166,14 @@ void App::steer_camera()
     const Window::Input input = window_->take_input();
     if (input.drag_x == 0 && input.drag_y == 0 && input.wheel == 0)
         return;
-    constexpr float k_radians_a_pixel = 0.005f;
+    constexpr float k_radians_per_pixel = 0.005f;
     constexpr float k_steepest = 1.5f; // radians above or below the target
     Camera& camera = scene_.camera;
     const glm::vec3 offset = camera.position - camera.target;
     const float distance = glm::length(offset) * std::pow(0.9f, static_cast<float>(input.wheel));
-    const float azimuth = std::atan2(offset.x, offset.z) - static_cast<float>(input.drag_x) * k_radians_a_pixel;
+    const float azimuth = std::atan2(offset.x, offset.z) - static_cast<float>(input.drag_x) * k_radians_per_pixel;
     const float elevation = glm::clamp(std::asin(glm::clamp(offset.y / glm::length(offset), -1.f, 1.f)) +
-                                           static_cast<float>(input.drag_y) * k_radians_a_pixel,
+                                           static_cast<float>(input.drag_y) * k_radians_per_pixel,
                                        -k_steepest, k_steepest);
     camera.position = camera.target + distance * glm::vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                                            std::cos(elevation) * std::cos(azimuth));

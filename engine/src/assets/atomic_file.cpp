@@ -74,7 +74,7 @@ gpu::Result<fs::path> resolve_target(const fs::path& path)
     const fs::path folder = path.parent_path();
     if (!folder.empty() && !fs::is_directory(folder, problem))
         return file_error(path, "there is no folder " + path_text(folder));
-    // A link to a pipe (/dev/stdout) has no target file of its own.
+    // A link to a pipe (/dev/stdout) has no target file.
     const bool is_special = fs::exists(path, problem) && !fs::is_regular_file(path, problem);
     if (is_special || !fs::is_symlink(path, problem))
         return path;

@@ -94,7 +94,7 @@ gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& pic
         return gpu::Error{path_text(path) + ": a picture of " + size + " pixels cannot be written"};
     if (picture.rgba.size() != 4 * size_t{picture.width} * picture.height)
         return gpu::Error{path_text(path) + ": a picture of " + size + " pixels has " +
-                          std::to_string(picture.rgba.size()) + " bytes, needs 4 a pixel"};
+                          std::to_string(picture.rgba.size()) + " bytes, needs 4 per pixel"};
     const std::string bytes = encode_png(picture);
     if (bytes.empty())
         return gpu::Error{path_text(path) + ": a picture of " + size + " pixels could not be compressed"};

@@ -233,7 +233,7 @@ gpu::Result<Polygons> BodyReader::run()
     if (rest == std::string_view::npos)
         return std::move(polygons_);
     line_ += 1 + static_cast<uint32_t>(std::count(body_.begin(), body_.begin() + static_cast<ptrdiff_t>(rest), '\n'));
-    return gpu::Error{location() + "something follows the last " + gpu::printable(header_.elements.back().name)};
+    return gpu::Error{location() + "data follows the last " + gpu::printable(header_.elements.back().name)};
 }
 
 } // namespace
