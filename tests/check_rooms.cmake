@@ -1,4 +1,4 @@
-# Checks the arrows between the rooms of the sources: a file includes headers of its own room and of those before it.
+# Checks the arrows between the rooms of the sources: a file includes only headers of its own room and of earlier ones.
 cmake_minimum_required(VERSION 3.25)
 set(sources ${CMAKE_CURRENT_LIST_DIR}/..)
 set(checked 0)

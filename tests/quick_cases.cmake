@@ -1,6 +1,6 @@
-# The cases that `scripts/test.sh --quick` runs: every subject has some, and together they take under 3 minutes on two cores.
-# ctest reads this file after it has found all cases (tests/CMakeLists.txt), and labels those named here `quick`. A name
-# without a case, and a subject that is not named here, become tests that fail.
+# The cases that `scripts/test.sh --quick` runs: some of every subject, together under 3 minutes on two cores. ctest
+# reads this file after it has found all cases (tests/CMakeLists.txt) and labels those named here `quick`. A name
+# without a case, or a subject without a name, becomes a failing test.
 cmake_policy(VERSION 3.25)
 
 function(quick_problem text)
@@ -20,7 +20,7 @@ function(quick subject)
     foreach(name IN LISTS names)
         if(name IN_LIST ${subject}_TESTS)
             set_tests_properties("${name}" PROPERTIES LABELS quick)
-        elseif(${subject}_TESTS) # otherwise it is not built, which has a failing test of its own
+        elseif(${subject}_TESTS) # otherwise the subject is not built, and another test fails
             quick_problem("no case is named \"${name}\"")
         endif()
     endforeach()

@@ -39,7 +39,7 @@ if(EXISTS /usr/bin/python3)
     set_tests_properties("capture: the frame in RenderDoc" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 endif()
 
-# A window with its swapchain, where there is a virtual display to open it on.
+# A window with its swapchain, if there is a virtual display.
 find_program(XVFB_RUN xvfb-run)
 if(XVFB_RUN)
     add_test(NAME "window: frames on a virtual display"
@@ -48,7 +48,7 @@ if(XVFB_RUN)
     set_tests_properties("window: frames on a virtual display" PROPERTIES TIMEOUT 120)
 endif()
 
-# The installed package, used by a project of its own.
+# A separate project that uses the installed package.
 set(consumer_linker_flags ${CMAKE_EXE_LINKER_FLAGS})
 if(VOILE_SANITIZE)
     set(consumer_linker_flags -fsanitize=${VOILE_SANITIZE})

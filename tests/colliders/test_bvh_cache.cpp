@@ -1,4 +1,4 @@
-// The cache of hierarchies: what is found again and what is not, its size, and its use by several threads.
+// The cache of hierarchies: hits and misses, its size limit, and its use by several threads.
 #include "colliders/bvh_cache.hpp"
 #include "model/model.hpp"
 #include "support/bvh_checks.hpp"
@@ -103,11 +103,11 @@ TEST_CASE("the cache keeps its limit and evicts the least recently used hierarch
 {
     const voile::engine::Mesh meshes[] = {sphere(1), sphere(2), sphere(3)};
     const uint64_t one = bytes_of(voile::build_bvh(meshes[0].positions, meshes[0].triangles));
-    voile::BvhCache cache(one * 5 / 2); // two of them, which differ by a few nodes
+    voile::BvhCache cache(one * 5 / 2); // room for two hierarchies, which differ by a few nodes
     const auto kept = get(cache, meshes[0]);
     (void)get(cache, meshes[1]);
     (void)get(cache, meshes[0]);
-    (void)get(cache, meshes[2]); // 1 goes: 0 was used since
+    (void)get(cache, meshes[2]); // evicts 1: 0 was used since
     CHECK(cache.counts().entries == 2);
     CHECK(cache.counts().bytes <= one * 5 / 2);
     CHECK(cache.counts().builds == 3);
@@ -119,9 +119,9 @@ TEST_CASE("the cache keeps its limit and evicts the least recently used hierarch
     cache.set_limit(one / 2);
     CHECK(cache.counts().entries == 0);
     CHECK(cache.counts().bytes == 0);
-    (void)get(cache, meshes[0]); // larger than all there may be: not kept, and no reason to fail
+    (void)get(cache, meshes[0]); // larger than the limit: not kept, and no error
     CHECK(cache.counts().entries == 0);
-    CHECK(same_bits(*kept, voile::build_bvh(meshes[0].positions, meshes[0].triangles))); // whoever has it keeps it
+    CHECK(same_bits(*kept, voile::build_bvh(meshes[0].positions, meshes[0].triangles))); // the holder keeps it alive
 }
 
 TEST_CASE("several threads may query the cache while others change its limit")
@@ -178,7 +178,7 @@ TEST_CASE("colliders of all solvers share one cache, and a changed vertex or sca
     CHECK(builds() == 2);
     voile::MeshCollider moved = collider();
     moved.transform[3].x = 1;
-    REQUIRE(other.add(moved)); // seen from its middle it is the same
+    REQUIRE(other.add(moved)); // relative to its center it is equal
     CHECK(builds() == 2);
     moved.transform[0].x = 1.5f;
     REQUIRE(other.add(moved));

@@ -1,5 +1,5 @@
-// Mesh colliders whose vertices the host moves: surfaces that carry cloth, equal to rigid ones that move alike, and
-// hard cases in which nothing may get to the wrong side.
+// Mesh colliders whose vertices the host moves: surfaces that carry cloth, equality with rigid motion, and hard cases
+// in which no vertex may change sides.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -23,8 +23,8 @@ using tests::flat_sheet;
 using tests::reason;
 using tests::transformed;
 
-// A hemisphere, open at the top, of radius r at rest; `closing` from 0 to 1 takes its rim to the axis and beyond its
-// half sphere, as a hand closes.
+// A hemisphere of radius r at rest, open at the top. `closing` from 0 to 1 moves its rim toward the axis and past the
+// half sphere, like a closing hand.
 voile::engine::Mesh bowl(float radius, float closing)
 {
     constexpr uint32_t k_rings = 16;
@@ -57,14 +57,14 @@ voile::engine::Mesh bowl(float radius, float closing)
 TEST_CASE("a mesh whose vertices all move alike acts like a rigid one")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, -0.4f, 0}, 0.4f, 16);
-    constexpr uint32_t k_frames = 5; // the first touch is in the fourth
+    constexpr uint32_t k_frames = 5; // the first contact is in the fourth frame
     std::vector<glm::vec4> ends[3];
-    for (int way = 0; way < 3; ++way) // rigid, deformed by the host, both at once
+    for (int motion = 0; motion < 3; ++motion) // rigid, deformed by the host, both at once
     {
-        ClothHarness harness({.feature_contact = false}); // meshes that deform have none
+        ClothHarness harness({.feature_contact = false}); // deforming meshes have no features
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(24, 0.8f, 0.15f)));
         voile::MeshCollider description = deforming(ball);
-        description.deforms = way > 0;
+        description.deforms = motion > 0;
         const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(description));
         harness.upload();
         for (uint32_t frame = 1; frame <= k_frames; ++frame)
@@ -72,11 +72,11 @@ TEST_CASE("a mesh whose vertices all move alike acts like a rigid one")
             const float time = static_cast<float>(frame) / 60;
             const glm::mat4 rise = glm::translate(glm::mat4(1.f), time * glm::vec3(0.4f, 2.5f, -0.2f));
             const glm::mat4 turn = glm::rotate(glm::mat4(1.f), 2 * time, glm::vec3(0, 1, 0));
-            if (way == 0)
+            if (motion == 0)
                 REQUIRE(harness.solver.move_collider(with, rise * turn));
-            if (way == 1)
+            if (motion == 1)
                 REQUIRE(harness.solver.deform_collider(with, transformed(ball.positions, rise * turn)));
-            if (way == 2)
+            if (motion == 2)
             {
                 REQUIRE(harness.solver.move_collider(with, rise));
                 REQUIRE(harness.solver.deform_collider(with, transformed(ball.positions, turn)));
@@ -85,18 +85,18 @@ TEST_CASE("a mesh whose vertices all move alike acts like a rigid one")
         }
         CHECK(harness.statistics().contacts > 0);
         CHECK(harness.statistics().penetrating_vertices == 0);
-        ends[way] = harness.positions(id);
+        ends[motion] = harness.positions(id);
     }
-    // Vertices go along chords, 2 / 60 rad each: the ball is smaller by 1 - cos(1 / 60) on the way, 0.06 mm. What the
-    // sheet does then grows from there.
-    for (int way = 1; way < 3; ++way)
+    // Vertices move along chords of 2 / 60 rad each. Halfway the ball is smaller by 1 - cos(1 / 60), 0.06 mm. Later
+    // differences of the sheet grow from there.
+    for (int motion = 1; motion < 3; ++motion)
         for (size_t i = 0; i < ends[0].size(); ++i)
-            CHECK(glm::distance(glm::vec3(ends[way][i]), glm::vec3(ends[0][i])) < 1e-3f);
+            CHECK(glm::distance(glm::vec3(ends[motion][i]), glm::vec3(ends[0][i])) < 1e-3f);
 }
 
 TEST_CASE("friction on a flowing surface carries cloth along")
 {
-    // A ground of 40 x 40 cells that is stretched along x: a point at x moves with the velocity x / 4 a second.
+    // A ground of 40 x 40 cells, stretched along x: a point at x moves with the velocity x / 4 per second.
     voile::engine::Mesh ground;
     constexpr uint32_t k_side = 41;
     for (uint32_t row = 0; row < k_side; ++row)
@@ -127,8 +127,8 @@ TEST_CASE("friction on a flowing surface carries cloth along")
         REQUIRE(harness.solver.deform_collider(with, positions));
         harness.step({});
     }
-    // 0.4 m becomes 0.5 m. The patch is stiff: its middle goes as the ground below it does, less what it slips to get
-    // going, v^2 / (2 mu g) = 0.6 mm.
+    // 0.4 m becomes 0.5 m. The patch is stiff: its center moves with the ground below it, minus the slip until it
+    // follows, v^2 / (2 mu g) = 0.6 mm.
     CHECK(std::abs(harness.positions(id)[12].x - 0.5f) < 1.5e-3f);
     CHECK(std::abs(harness.velocities(id)[12].x - 0.1f) < 5e-3f);
     harness.step({}, 30);
@@ -139,7 +139,7 @@ TEST_CASE("friction on a flowing surface carries cloth along")
 TEST_CASE("vertices in a GPU buffer deform a collider like vertices from the host")
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 12);
-    struct Vertex // as an engine's skinning may write it
+    struct Vertex // like the output of an engine's skinning
     {
         float weight;
         glm::vec3 position;
@@ -185,7 +185,7 @@ TEST_CASE("vertices in a GPU buffer deform a collider like vertices from the hos
 
 TEST_CASE("a closing bowl keeps the cloth inside")
 {
-    for (const float speed : {1.f, 6.f}) // closings a second: the rim moves at up to 7 m/s
+    for (const float speed : {1.f, 6.f}) // closings per second: the rim moves at up to 7 m/s
     {
         CAPTURE(speed);
         const voile::engine::Mesh open = bowl(0.4f, 0);
@@ -206,7 +206,7 @@ TEST_CASE("a closing bowl keeps the cloth inside")
             for (const glm::vec4& p : harness.positions(id))
             {
                 REQUIRE(std::isfinite(p.x));
-                // All of it was inside: it still is, or it has gone out through the opening above the rim.
+                // All vertices were inside. Each still is, or it has left through the opening above the rim.
                 const bool inside = !exact.crossing(glm::dvec3(0), glm::dvec3(p));
                 CHECK(inside);
             }

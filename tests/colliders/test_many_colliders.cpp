@@ -1,4 +1,4 @@
-// Many colliders: what is far away changes nothing, to the bit, and what is near is never missed, however fast.
+// Many colliders: distant ones change no bit of the result, and near ones are never missed, however fast.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -18,13 +18,13 @@ using tests::moved;
 struct Shot
 {
     const char* name;
-    float speed;       // m/s, of the cloths, down
+    float speed;       // m/s, of the falling cloths
     float spin;        // rad per step, of the box and the mesh
     float flight;      // m per step, of the capsule
-    uint32_t substeps; // of a step
+    uint32_t substeps; // per step
 };
 
-// Two cloths that fall onto all kinds of colliders, among which some move, turn and deform.
+// Two cloths that fall onto all kinds of colliders, some of which move, turn and deform.
 class Scene : public ClothHarness
 {
 public:
@@ -36,7 +36,7 @@ public:
             grid.integrator = integrator;
             cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }
-        crowd(crowded, 70); // so that those that count are not in the first word of bits
+        crowd(crowded, 70); // so that the near colliders are not in the first word of bits
         capsule_ = voile::engine::take(solver.add_collider(
             voile::CapsuleCollider{.from = {-0.4f, 0.5f, 0.2f}, .to = {-0.2f, 0.5f, -0.3f}, .radius = 0.02f}));
         box_ =
@@ -69,10 +69,10 @@ private:
     {
         for (int i = 0; crowded && i < count; ++i)
         {
-            const glm::vec3 place(20, 0, static_cast<float>(i));
+            const glm::vec3 position(20, 0, static_cast<float>(i));
             (void)voile::engine::take(
-                i % 3 > 0 ? solver.add_collider(voile::CapsuleCollider{.from = place, .to = place + 1.f})
-                          : solver.add_collider(voile::SphereCollider{.center = place}));
+                i % 3 > 0 ? solver.add_collider(voile::CapsuleCollider{.from = position, .to = position + 1.f})
+                          : solver.add_collider(voile::SphereCollider{.center = position}));
         }
     }
 

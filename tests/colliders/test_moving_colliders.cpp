@@ -1,5 +1,5 @@
-// Colliders that move: the substep seen from the collider's space, surfaces that carry cloth along, fast and thin ones
-// that must not miss, layers and sides, and what bad input gets.
+// Colliders that move: the substep in the collider's space, surfaces that carry cloth along, fast and thin colliders
+// that must not miss, layers and sides, and bad input.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -35,7 +35,7 @@ TEST_CASE("a collider that rises to the cloth acts like a cloth that falls on th
 {
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, -0.4f, 0}, 0.4f, 16);
     const glm::vec3 velocity(0.4f, 3, -0.2f); // m/s, of the collider
-    // The first touch is in the fourth frame. Later the sheet buckles, and roundings grow into other folds.
+    // The first contact is in the fourth frame. Later the sheet buckles, and roundings grow into different folds.
     constexpr uint32_t k_frames = 5;
     for (const voile::Collider& kind : all_kinds(ball))
     {
@@ -56,15 +56,15 @@ TEST_CASE("a collider that rises to the cloth acts like a cloth that falls on th
                     CHECK(harness.solver.move_collider(with, moved(time * velocity)));
                 harness.step({.gravity = glm::vec3(0)});
             }
-            float fastest = 0; // against the collider before it
+            float fastest = 0; // relative to the collider before it
             for (const glm::vec4& v : harness.velocities(id))
                 fastest = std::max(fastest, glm::distance(glm::vec3(v), grid.velocity));
             CHECK(fastest > 1);
             ends[moving] = harness.positions(id);
         }
-        const glm::vec3 way = velocity * (static_cast<float>(k_frames) / 60);
+        const glm::vec3 displacement = velocity * (static_cast<float>(k_frames) / 60);
         for (size_t i = 0; i < ends[0].size(); ++i)
-            CHECK(glm::distance(glm::vec3(ends[1][i]) - way, glm::vec3(ends[0][i])) < 1e-4f);
+            CHECK(glm::distance(glm::vec3(ends[1][i]) - displacement, glm::vec3(ends[0][i])) < 1e-4f);
     }
 }
 
@@ -96,11 +96,11 @@ TEST_CASE("a turning table carries a patch of cloth around")
         const auto end = harness.positions(id);
         for (size_t i = 0; i < start.size(); ++i)
         {
-            // It is at rest at first and must be brought up to 0.15 m/s: v^2 / (2 mu g) = 1.6 mm of slip.
+            // The patch starts at rest and must reach 0.15 m/s: v^2 / (2 mu g) = 1.6 mm of slip.
             const glm::vec3 expected(turn * glm::vec4(glm::vec3(start[i]), 1));
             CHECK(glm::distance(expected, glm::vec3(end[i])) < 2.5e-3f);
         }
-        // It stops with the table.
+        // The patch stops with the table.
         harness.step({}, 10);
         CHECK(harness.statistics().kinetic_energy < 1e-6f);
     }
@@ -125,18 +125,18 @@ TEST_CASE("a ball shot through a curtain carries it along")
             const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(kind));
             harness.upload();
             const auto before = harness.positions(id);
-            // Until the ball has gone as far as the curtain is long, and pulls it out of its way.
+            // Until the ball has moved by the curtain's length and pulls it out of its path.
             for (float z = start.z; z < 0.5f;)
             {
                 z = std::min(z + speed / 60, 0.5f);
                 REQUIRE(harness.solver.move_collider(with, moved({0, 0, z - start.z})));
                 harness.step({});
                 const auto now = harness.positions(id);
-                uint32_t passed = 0; // of the vertices that stood in the ball's way
+                uint32_t passed = 0; // of the vertices in the ball's path
                 for (size_t i = 0; i < now.size(); ++i)
                 {
                     REQUIRE(std::isfinite(now[i].z));
-                    // The mesh lies within its ball by 1 - cos(pi / 32) of the radius, and a facet's width.
+                    // The mesh lies within its ball by 1 - cos(pi / 32) of the radius, and by a facet's width.
                     REQUIRE(glm::distance(glm::vec3(now[i]), glm::vec3(0, 0, z)) > 0.2f * 0.98f);
                     passed += z > 0 && glm::length(glm::vec2(before[i])) < 0.15f && now[i].z < z;
                 }
@@ -161,9 +161,9 @@ TEST_CASE("cloth attached to a collider follows it, however far it jumps")
     harness.upload();
     harness.step({}, 30);
     glm::mat4 there(1.f);
-    for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(1, 1, 0.5f), glm::vec3(-0.3f, 0.4f, 0)})
+    for (const glm::vec3& displacement : {glm::vec3(1, 0, 0), glm::vec3(1, 1, 0.5f), glm::vec3(-0.3f, 0.4f, 0)})
     {
-        there = glm::rotate(moved(way), way.y, glm::vec3(0, 1, 0));
+        there = glm::rotate(moved(displacement), displacement.y, glm::vec3(0, 1, 0));
         REQUIRE(harness.solver.move_collider(with, there));
         harness.step({});
         const auto positions = harness.positions(id);
@@ -171,9 +171,9 @@ TEST_CASE("cloth attached to a collider follows it, however far it jumps")
             CHECK(glm::distance(glm::vec3(positions[hold.vertex]),
                                 glm::vec3(there * glm::vec4(hold.place.value_or(glm::vec3(0)), 1))) < 1e-5f);
         CHECK(harness.statistics().nan_vertices == 0);
-        CHECK(harness.statistics().deepest_penetration < 1e-6f); // those held lie on the surface itself
+        CHECK(harness.statistics().deepest_penetration < 1e-6f); // attached vertices lie on the surface itself
         harness.step({}, 30);
-        CHECK(harness.statistics().deepest_penetration < 1e-6f); // those held lie on the surface itself
+        CHECK(harness.statistics().deepest_penetration < 1e-6f); // attached vertices lie on the surface itself
     }
     harness.step({}, 120);
     CHECK(harness.statistics().nan_vertices == 0);
@@ -182,7 +182,7 @@ TEST_CASE("cloth attached to a collider follows it, however far it jumps")
 
 TEST_CASE("a spinning mesh drags the sheet on it around, and no vertex enters it")
 {
-    const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.4f, 0}, 0.4f, 12); // a faceted one
+    const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.4f, 0}, 0.4f, 12); // with large facets
     const auto distance = voile::engine::take(voile::MeshDistance::create(collider(ball)));
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(40, 1.4f, 0.83f)));
@@ -235,8 +235,8 @@ TEST_CASE("cloth touches only the colliders of its layers")
 
 TEST_CASE("a mesh pushes cloth to the chosen side")
 {
-    // A cloth inside a ball: a mesh with two sides keeps it in, one with one side lets it out. A cloth that falls on
-    // the back of an open ground: with one side it goes through.
+    // A cloth inside a ball: a two-sided mesh keeps it inside, a one-sided mesh lets it out. A cloth that falls on the
+    // back of an open ground: it passes through a one-sided one.
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.5f, 24);
     for (const voile::Sidedness sides :
          {voile::Sidedness::automatic, voile::Sidedness::one_sided, voile::Sidedness::two_sided})

@@ -1,5 +1,5 @@
-// Meshes that are not what a collider should be: inside-out, non-manifold, in several parts, with triangles that are
-// degenerate or there twice. They work, or are refused with the reason; so are those larger than the device's buffers.
+// Irregular mesh colliders: inside-out, non-manifold, in several parts, with degenerate or duplicate triangles. They
+// work or are refused with a reason. Meshes larger than the device's buffers are refused, too.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -23,7 +23,7 @@ using tests::reason;
 
 constexpr float k_radius = 0.4f;         // m
 constexpr float k_size = 0.3f;           // m, of a cloth
-constexpr glm::vec3 k_start{0, 0.1f, 0}; // where cloths begin to fall
+constexpr glm::vec3 k_start{0, 0.1f, 0}; // where cloths start to fall
 
 void add(voile::engine::Mesh& mesh, const voile::engine::Mesh& part, bool turned)
 {
@@ -40,13 +40,13 @@ voile::engine::Mesh turned(const voile::engine::Mesh& mesh)
     return result;
 }
 
-// A ball whose top is the origin.
+// A ball with its top at the origin.
 voile::engine::Mesh ball(float x = 0)
 {
     return voile::engine::make_sphere({x, -k_radius, 0}, k_radius, 24);
 }
 
-constexpr float k_thickness = 0.005f; // a Fabric's
+constexpr float k_thickness = 0.005f; // the Fabric's
 
 void check_lies_flat(const std::vector<glm::vec4>& positions)
 {
@@ -89,7 +89,7 @@ void check_lies_on_ball(const std::vector<glm::vec4>& positions, float x = 0)
     CHECK(nearest > k_radius * 0.995f);
 }
 
-// A mesh, and where on its top a cloth falls at 3 m/s; y = 0 there.
+// A mesh, and the point on its top where a cloth falls at 3 m/s; y = 0 there.
 struct Drop
 {
     std::string name;
@@ -98,7 +98,7 @@ struct Drop
     float x = 0;
 };
 
-// Where the cloths are 0.4 s later. All are in the same place: each has a layer of its own.
+// The cloths 0.4 s later. All are at the same position, each on its own layer.
 std::vector<std::vector<glm::vec4>> fallen(const std::vector<Drop>& drops, bool deforms)
 {
     ClothHarness harness;
@@ -128,7 +128,7 @@ std::vector<std::vector<glm::vec4>> fallen(const std::vector<Drop>& drops, bool 
     return result;
 }
 
-// Two squares that meet in a line, and a wall that hangs down from it: three triangles at each edge of that line.
+// Two squares that share a line, and a wall that hangs down from it: three triangles at each edge of that line.
 voile::engine::Mesh ridge_with_a_wall()
 {
     voile::engine::Mesh mesh;
@@ -137,7 +137,7 @@ voile::engine::Mesh ridge_with_a_wall()
     return mesh;
 }
 
-// A ground and something more.
+// A ground with additional triangles.
 voile::engine::Mesh ground_and(const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& positions = {})
 {
     voile::engine::Mesh mesh = voile::engine::make_ground(1);
@@ -146,7 +146,7 @@ voile::engine::Mesh ground_and(const std::vector<glm::uvec3>& triangles, const s
     return mesh;
 }
 
-// A ball with a triangle that is there twice; it counts as open then.
+// A ball with a duplicate triangle. It counts as open.
 voile::engine::Mesh ball_and_a_triangle()
 {
     voile::engine::Mesh mesh = ball();
@@ -161,7 +161,7 @@ voile::engine::Mesh two_balls(bool second_turned)
     return mesh;
 }
 
-// More of their volume is inside-out than not.
+// Most of their volume is inside-out.
 voile::engine::Mesh three_balls()
 {
     voile::engine::Mesh mesh = turned(ball(-1));
@@ -170,7 +170,7 @@ voile::engine::Mesh three_balls()
     return mesh;
 }
 
-// A hollow ball around where cloths begin, its cavity as large as other balls, and a ball beside it that is inside-out.
+// A hollow ball around the start of the cloths, its cavity as large as other balls, and an inside-out ball beside it.
 voile::engine::Mesh hollow_ball_and_ball()
 {
     voile::engine::Mesh mesh = voile::engine::make_sphere(k_start, 1.25f * k_radius, 24);
@@ -179,7 +179,7 @@ voile::engine::Mesh hollow_ball_and_ball()
     return mesh;
 }
 
-// A ball whose top is the origin, with a cavity.
+// A ball with its top at the origin and a cavity.
 voile::engine::Mesh hollow_ball()
 {
     voile::engine::Mesh mesh = ball();
@@ -187,7 +187,7 @@ voile::engine::Mesh hollow_ball()
     return mesh;
 }
 
-// The loader's functions, but for a device that binds no more than a MiB.
+// The loader's functions, but for a device that binds at most one MiB.
 VKAPI_ATTR void VKAPI_CALL properties_of_small_buffers(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
 {
     const voile::gpu::Handles& handles = tests::device().context().handles;
@@ -281,7 +281,7 @@ TEST_CASE("cloth rests on irregular grounds")
     const std::vector<Drop> drops = {
         {.name = "faces down",
          .mesh = turned(plain),
-         .sidedness = voile::Sidedness::one_sided}, // the cloth goes through its back
+         .sidedness = voile::Sidedness::one_sided}, // the cloth passes through its back
         {.name = "one side", .mesh = plain, .sidedness = voile::Sidedness::one_sided},
         {.name = "the other way round", .mesh = turned(plain)},
         {.name = "three triangles at an edge", .mesh = ridge_with_a_wall()},

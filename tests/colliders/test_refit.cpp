@@ -1,5 +1,4 @@
-// Padded trees: that every triangle stands in one slot, and that a refit on the GPU equals the recursive union on the
-// host.
+// Padded BVHs: every triangle has one slot, and a refit on the GPU equals the recursive union on the host.
 #include "support/gpu_fixture.hpp"
 
 #include "colliders/refit.hpp"
@@ -34,21 +33,22 @@ struct Soup
 Soup random_soup(uint32_t count)
 {
     std::mt19937 random(count);
-    std::uniform_real_distribution<float> place(-1, 1);
+    std::uniform_real_distribution<float> coordinate(-1, 1);
     const float size = 1 / std::cbrt(static_cast<float>(count));
     Soup soup;
     for (uint32_t i = 0; i < count; ++i)
     {
-        const glm::vec3 center(place(random), place(random), place(random));
+        const glm::vec3 center(coordinate(random), coordinate(random), coordinate(random));
         const auto first = static_cast<uint32_t>(soup.positions.size());
         for (int corner = 0; corner < (i == 0 ? 3 : 2); ++corner)
-            soup.positions.push_back(center + size * glm::vec3(place(random), place(random), place(random)));
+            soup.positions.push_back(center +
+                                     size * glm::vec3(coordinate(random), coordinate(random), coordinate(random)));
         soup.triangles.emplace_back(first, first + 1, i == 0 ? first + 2 : first - 1);
     }
     return soup;
 }
 
-// As vertices lie in a buffer; w is no place and must not matter.
+// The layout of a vertex buffer; w is padding and must not matter.
 std::vector<glm::vec4> moved(const std::vector<glm::vec3>& positions, uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -65,7 +65,7 @@ PaddedBox merge(const PaddedBox& a, const PaddedBox& b)
     return {glm::min(a.min, b.min), 0, glm::max(a.max, b.max), 0};
 }
 
-// The recursive union: fills the boxes under box `box` of a level, and returns it.
+// The recursive union: fills the boxes below box `box` of a level and returns it.
 PaddedBox expect(const voile::PaddedTree& tree, const glm::vec4* from, const glm::vec4* to, uint32_t level,
                  uint32_t box, std::vector<PaddedBox>& boxes)
 {
@@ -77,9 +77,9 @@ PaddedBox expect(const voile::PaddedTree& tree, const glm::vec4* from, const glm
         result = {glm::vec3(far), 0, glm::vec3(-far), 0};
         const glm::uvec3& corners = tree.leaves.at(box).corners;
         for (int corner = 0; corner < 3; ++corner)
-            for (const glm::vec4* place : {from, to})
+            for (const glm::vec4* positions : {from, to})
             {
-                const glm::vec3 p(place[corners[corner]]);
+                const glm::vec3 p(positions[corners[corner]]);
                 result = merge(result, {p, 0, p, 0});
             }
     }
@@ -89,7 +89,7 @@ PaddedBox expect(const voile::PaddedTree& tree, const glm::vec4* from, const glm
     return boxes.at(count - 1 + box) = result;
 }
 
-// Buffers around one tree, which begins past the beginning of each of them.
+// Buffers around one tree, which starts at an offset in each of them.
 class RefitFixture : public tests::GpuFixture
 {
 public:
@@ -114,7 +114,7 @@ public:
         run([&](VkCommandBuffer cmd) { batch.record(cmd); });
     }
 
-    // The tree's boxes after a refit with that workgroup size.
+    // The tree's boxes after a refit with the given workgroup size.
     std::vector<PaddedBox> refit(const voile::PaddedTree& tree, uint32_t workgroup_size)
     {
         const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context(), workgroup_size));
@@ -129,14 +129,14 @@ public:
                 CHECK(recorder.dispatches() == voile::refit_dispatches(kernels, tree.triangles));
             });
         std::vector<PaddedBox> boxes = read<PaddedBox>(boxes_.handle(), place_.first_box + tree.boxes() + 1);
-        CHECK(boxes.at(place_.first_box - 1).min.x == 7); // what stands around the tree is left alone
+        CHECK(boxes.at(place_.first_box - 1).min.x == 7); // data around the tree is untouched
         CHECK(boxes.back().min.x == 7);
         boxes.pop_back();
         boxes.erase(boxes.begin(), boxes.begin() + place_.first_box);
         return boxes;
     }
 
-    // For each query box the slots that a traversal of the refitted boxes hands on, in its order.
+    // For each query box the slots that a traversal of the refitted boxes visits, in its order.
     std::vector<std::vector<uint32_t>> visit(const std::vector<PaddedBox>& queries, uint32_t triangles)
     {
         constexpr uint32_t k_group = 64;
@@ -176,16 +176,16 @@ private:
     voile::gpu::Buffer boxes_;
 };
 
-// Boxes of all sizes, from points to what holds everything; some reach nothing.
+// Boxes of all sizes, from points to one around everything; some overlap nothing.
 std::vector<PaddedBox> random_queries(size_t count)
 {
     std::mt19937 random(9);
-    std::uniform_real_distribution<float> place(-1.5f, 1.5f);
+    std::uniform_real_distribution<float> coordinate(-1.5f, 1.5f);
     std::uniform_real_distribution<float> exponent(-12, 1);
     std::vector<PaddedBox> queries{{glm::vec3(-10), 0, glm::vec3(10), 0}};
     while (queries.size() < count)
     {
-        const glm::vec3 center(place(random), place(random), place(random));
+        const glm::vec3 center(coordinate(random), coordinate(random), coordinate(random));
         const float size = std::exp2(exponent(random));
         queries.push_back({center - size, 0, center + size, 0});
     }
@@ -251,8 +251,8 @@ TEST_CASE_FIXTURE(RefitFixture, "a refit equals the recursive union of boxes to 
     {
         const Soup soup = random_soup(count);
         const voile::PaddedTree tree = voile::build_padded_tree(soup.positions, soup.triangles);
-        const std::vector<glm::vec4> from = moved(soup.positions, 1); // not those the tree was built from
-        for (const uint32_t end : {1u, 2u})                           // at rest, and on the way
+        const std::vector<glm::vec4> from = moved(soup.positions, 1); // not the vertices that the tree was built from
+        for (const uint32_t end : {1u, 2u})                           // at rest, and moving
         {
             const std::vector<glm::vec4> to = moved(soup.positions, end);
             std::vector<PaddedBox> expected(tree.boxes());
@@ -292,8 +292,8 @@ TEST_CASE_FIXTURE(RefitFixture,
 
 TEST_CASE_FIXTURE(RefitFixture, "a traversal visits every triangle whose box overlaps the query exactly once")
 {
-    // No more triangles: a query that reaches them all must end within the 65,535 iterations, of all its loops
-    // together, after which llvmpipe ends a shader's loops.
+    // Few triangles: a query that overlaps them all must end within 65,535 iterations, counted over all its loops. Then
+    // llvmpipe ends a shader's loops.
     for (const uint32_t count : {1u, 2u, 3u, 5u, 7u, 8u, 33u, 1000u, 4097u})
     {
         CAPTURE(count);

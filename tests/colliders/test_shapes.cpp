@@ -1,4 +1,4 @@
-// Meshes made by rule, and the cutting of polygons.
+// Procedural meshes and the triangulation of polygons.
 #include "voile/engine/assets/shapes.hpp"
 
 #include "support/close_to.hpp"
@@ -29,7 +29,7 @@ voile::engine::Mesh cut(const std::vector<glm::vec3>& corners)
     return mesh;
 }
 
-// No triangle is turned over if all look along +y, and together they cover the outline.
+// No triangle is flipped if all face +y and together they cover the outline.
 void check_cut(const std::vector<glm::vec3>& corners, double area)
 {
     const voile::engine::Mesh mesh = cut(corners);
@@ -108,7 +108,7 @@ TEST_CASE("the ground is a square that faces up")
 TEST_CASE("polygons are triangulated within their outline")
 {
     check_cut({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, 1.); // a square
-    check_cut({{0, 0, 0}, {1, 0, 3}, {2, 0, 0}, {1, 0, 1}}, 2.); // a dart, whose shorter diagonal lies outside
+    check_cut({{0, 0, 0}, {1, 0, 3}, {2, 0, 0}, {1, 0, 1}}, 2.); // a dart with its shorter diagonal outside
     check_cut({{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 2}, {1, 0, 2}, {1, 0, 1}, {3, 0, 1}, {3, 0, 0}}, 7.); // a C
     check_cut({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {2, 0, 2}, {2, 0, 0}, {1, 0, 0}}, 4.); // corners in the middle of edges
     // A spike from the side ends within the corner that has the shortest cut.
@@ -122,7 +122,7 @@ TEST_CASE("polygons are triangulated within their outline")
                {20, 0, 0},
                {1, 0, 0}},
               400. - 0.5 * 0.5 * 19.7);
-    // A square with a square hole, joined to the outline by an edge that is walked both ways.
+    // A square with a square hole, joined to the outline by an edge that is used in both directions.
     check_cut(
         {{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}, {0, 0, 0}, {1, 0, 1}, {2, 0, 1}, {2, 0, 2}, {1, 0, 2}, {1, 0, 1}},
         8.);
@@ -162,7 +162,7 @@ double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& 
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The rule itself, for a polygon in the plane y = 0, with its time growing like the third power of the corners.
+// The rule itself, for a polygon in the plane y = 0. Its time grows with the third power of the corners.
 std::vector<glm::uvec3> cut_by_rule(const std::vector<glm::vec3>& corners)
 {
     std::vector<uint32_t> left(corners.size());
@@ -178,7 +178,7 @@ std::vector<glm::uvec3> cut_by_rule(const std::vector<glm::vec3>& corners)
     {
         const auto ear_at = [&](size_t i)
         { return glm::uvec3(left[(i + left.size() - 1) % left.size()], left[i], left[(i + 1) % left.size()]); };
-        const auto in_way = [&](const glm::uvec3& t, uint32_t i)
+        const auto blocks = [&](const glm::uvec3& t, uint32_t i)
         {
             const glm::dvec2 p = flat(i);
             return p != flat(t.x) && p != flat(t.y) && p != flat(t.z) && doubled_area(flat(t.x), flat(t.y), p) >= 0 &&
@@ -192,9 +192,9 @@ std::vector<glm::uvec3> cut_by_rule(const std::vector<glm::vec3>& corners)
             const glm::uvec3 t = ear_at(i);
             if (doubled_area(flat(t.x), flat(t.y), flat(t.z)) <= 0)
                 continue;
-            const glm::dvec2 way = flat(t.z) - flat(t.x);
-            const double cut = glm::dot(way, way);
-            const bool clear = std::ranges::none_of(left, [&](uint32_t other) { return in_way(t, other); });
+            const glm::dvec2 diagonal = flat(t.z) - flat(t.x);
+            const double cut = glm::dot(diagonal, diagonal);
+            const bool clear = std::ranges::none_of(left, [&](uint32_t other) { return blocks(t, other); });
             if (best && (best_clear != clear ? best_clear : cut >= best_cut))
                 continue;
             best = i;
@@ -208,7 +208,7 @@ std::vector<glm::uvec3> cut_by_rule(const std::vector<glm::vec3>& corners)
     return triangles;
 }
 
-// A corner every 2 pi / count around the origin, at the distance that is given.
+// A corner every 2 pi / count around the origin, at the given distance.
 template <typename Radius>
 std::vector<glm::vec3> corners_around(uint32_t count, Radius radius)
 {
@@ -243,10 +243,10 @@ TEST_CASE("the ear with the shortest cut is clipped first, also if outlines touc
         if (round % 3 == 0)
             corners = corners_around(count, [&](uint32_t) { return 0.1 + 0.01 * up_to(90); });
         else
-            for (uint32_t i = 0; i < count; ++i) // few places: corners repeat, edges overlap
+            for (uint32_t i = 0; i < count; ++i) // few positions: corners repeat, edges overlap
                 corners.emplace_back(up_to(round % 3 == 1 ? 3 : 100), 0, up_to(round % 3 == 1 ? 3 : 100));
         CAPTURE(round);
-        if (area_of(corners) > 0) // else it has no side to be looked at from
+        if (area_of(corners) > 0) // otherwise no plane to project to
             REQUIRE(voile::engine::triangulate(corners) == cut_by_rule(corners));
     }
 }
@@ -268,13 +268,13 @@ TEST_CASE("a face of 20,000 corners is triangulated quickly")
           corners_around(k_corners, [](uint32_t i) { return i % 2 == 0 ? 0.3 : 1.; }),
           corners_around(k_corners, [&](uint32_t) { return any(random); }), comb})
         check_cut(corners, area_of(corners));
-    // It crosses itself everywhere, on few places.
+    // It crosses itself everywhere, on few positions.
     std::vector<glm::vec3> lattice;
     for (uint32_t i = 0; i < k_corners; ++i)
         lattice.emplace_back(random() % 6, 0, random() % 6);
     CHECK(voile::engine::triangulate(lattice).size() == k_corners - 2);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    CHECK(elapsed.count() < 10); // each a fraction of a second; minutes where every ear looks at every corner
+    CHECK(elapsed.count() < 10); // each a fraction of a second; minutes if every ear tests every corner
 }
 
 TEST_CASE("a dome and a tube make a capsule")
@@ -294,7 +294,7 @@ TEST_CASE("a dome and a tube make a capsule")
             const glm::vec3 across = glm::cross(mesh->positions[t.y] - a, mesh->positions[t.z] - a);
             REQUIRE(glm::dot(across, mesh->normals[t.x] + mesh->normals[t.y] + mesh->normals[t.z]) > 0);
         }
-    // Their rims meet vertex by vertex.
+    // Their rims coincide vertex by vertex.
     for (uint32_t i = 0; i <= 48; ++i)
     {
         const glm::vec3 rim = dome.positions[dome.positions.size() - 49 + i];
@@ -311,11 +311,11 @@ TEST_CASE("normals do not depend on the triangulation of a face or on triangles 
     REQUIRE(sums.size() == box.positions.size());
     for (size_t i = 0; i < sums.size(); ++i)
         CHECK(voile::engine::unit_normal(sums[i]) == box.normals[i]);
-    // A corner of a cube, one face of it cut in two: each face counts by a right angle.
+    // A corner of a cube with one face cut in two: each face is weighted by a right angle.
     const std::vector<glm::vec3> corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
     voile::engine::sum_normals(corner, std::vector<glm::uvec3>{{0, 2, 1}, {0, 1, 3}, {0, 4, 2}, {0, 3, 4}, {0, 1, 5}},
                                sums);
     CHECK(glm::distance(voile::engine::unit_normal(sums[0]), glm::vec3(-1 / std::numbers::sqrt3_v<float>)) < 1e-6f);
-    CHECK(sums[5] == glm::dvec3(0)); // of a triangle without area alone
+    CHECK(sums[5] == glm::dvec3(0)); // only triangles without area
     CHECK(voile::engine::unit_normal(sums[5]) == glm::vec3(0, 1, 0));
 }

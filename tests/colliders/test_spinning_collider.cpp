@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr uint32_t k_frames = 30;
-constexpr double k_rounding = 2e-6; // m, of coordinates near 1 in float, turned by the motion
+constexpr double k_rounding = 2e-6; // m, for float coordinates near 1, rotated by the motion
 
 voile::GridCloth sheet_above_the_ears()
 {
@@ -68,7 +68,7 @@ TEST_CASE("a spinning lump with ears turns the sheet on it, and no vertex enters
     double deepest = 0;
     for (uint32_t frame = 1; frame <= k_frames; ++frame)
     {
-        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(frame) / 60; // one turn a second
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(frame) / 60; // one turn per second
         const glm::mat4 motion = glm::rotate(glm::mat4(1.f), angle, glm::vec3(0, 1, 0));
         REQUIRE(harness.solver.move_collider(with, motion));
         harness.step({});

@@ -12,7 +12,7 @@ struct VisitPush
     uint first_leaf;
     uint triangles;
     uint queries;
-    uint room; // of an answer: how many were found, and their slots as far as they fit
+    uint room; // words per answer: the count, then as many slots as fit
 };
 
 VOILE_SHARED_END

@@ -1,4 +1,4 @@
-// The lists of triangles that vertices keep from substep to substep: with them contact finds what it finds without.
+// The lists of triangles that vertices keep between substeps: contact finds the same with and without them.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/hard_shapes.hpp"
@@ -16,15 +16,15 @@ using tests::ClothHarness;
 namespace
 {
 
-constexpr float k_substep = 1.f / 4096; // s; sums of it are exact
+constexpr float k_substep = 1.f / 4096; // s; its multiples are exact
 constexpr uint32_t k_substeps = 64;
 constexpr uint32_t k_other_layer = 2;
 
 struct Shot
 {
     float thickness; // m
-    float speed;     // m/s, up and half of it aside
-    uint32_t rings;  // of the lump: its edges are some 0.5 m / rings long
+    float speed;     // m/s, upward; half of it sideways
+    uint32_t rings;  // of the lump: its edges are about 0.5 m / rings long
 };
 
 class Scene : public ClothHarness
@@ -36,13 +36,13 @@ public:
         grid.transform = grid.transform * glm::mat4_cast(glm::quat(glm::vec3(0.05f, 0.7f, 0.02f)));
         grid.velocity = {0.5f * shot.speed, shot.speed, 0};
         tests::fabric_of(grid).thickness = shot.thickness;
-        tests::fabric_of(grid).areal_density *= 1.4f; // for the substeps that k_substeps are
+        tests::fabric_of(grid).areal_density *= 1.4f; // so that k_substeps are enough
         id = voile::engine::take(solver.add_cloth(grid));
         (void)voile::engine::take(solver.add_collider(tests::collider(mesh_)));
         upload();
     }
 
-    // An upload makes all lists anew.
+    // Invalidates all lists by an upload.
     void forget_lists()
     {
         (void)voile::engine::take(solver.add_collider(voile::SphereCollider{.radius = 0.1f, .layers = k_other_layer}));
@@ -55,7 +55,7 @@ private:
     voile::engine::Mesh mesh_;
 };
 
-// The farthest that one is from the other.
+// The largest distance between corresponding vertices.
 float difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 {
     float most = 0;
@@ -64,7 +64,8 @@ float difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& 
     return most;
 }
 
-// The same shot with lists that live on, and with lists that serve one substep. `rounding`: m, that they may differ by.
+// Runs the same shot with lists that persist and with lists that serve one substep. `rounding`: m, the allowed
+// difference.
 voile::Statistics compare(const Shot& shot, float rounding)
 {
     CAPTURE(shot.thickness);
@@ -73,11 +74,11 @@ voile::Statistics compare(const Shot& shot, float rounding)
     Scene fresh(shot);
     REQUIRE(kept.solver.stable_substeps(k_substep * k_substeps) <= k_substeps);
     voile::Statistics most;
-    constexpr uint32_t k_a_step = 32;
-    for (uint32_t step = 0; step < k_substeps / k_a_step; ++step)
+    constexpr uint32_t k_substeps_per_step = 32;
+    for (uint32_t step = 0; step < k_substeps / k_substeps_per_step; ++step)
     {
-        kept.step({.duration = k_a_step * k_substep, .substeps = k_a_step});
-        for (uint32_t i = 0; i < k_a_step; ++i)
+        kept.step({.duration = k_substeps_per_step * k_substep, .substeps = k_substeps_per_step});
+        for (uint32_t i = 0; i < k_substeps_per_step; ++i)
         {
             fresh.forget_lists();
             fresh.step({.duration = k_substep, .substeps = 1});
@@ -102,19 +103,19 @@ TEST_CASE("lists of near triangles change no bit of contact")
 
 TEST_CASE("an overflowed list of near triangles loses no contact")
 {
-    // What traverses the hierarchy in every substep is a second instance of the same code; a compiler may round it in
-    // another order, and touch a substep earlier (an H200's: 5e-6 m).
+    // The kernel has two instances of the same code, with and without a traversal in every substep. A compiler may
+    // round one in another order, so that it touches a substep earlier (on an H200: 5e-6 m).
     const voile::Statistics most = compare({.thickness = 0.03f, .speed = 3, .rings = 160}, 1e-5f);
     CHECK(most.contacts > 20);
     CHECK(most.overflowing_vertices > 0);
 }
 
-// Within the thickness lie hundreds of triangles, but few of them nearer than cloth at rest is: those a list can hold.
+// Hundreds of triangles lie within the thickness, but only few are nearer than resting cloth. A list can hold those.
 TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists of near triangles")
 {
     voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 240); // edges of 4 mm and less
     for (glm::vec3& p : ball.positions)
-        p = glm::vec3(p.y, p.z - 0.3f, p.x); // its poles, where slivers meet, aside
+        p = glm::vec3(p.y, p.z - 0.3f, p.x); // moves its poles, where slivers meet, to the side
     ClothHarness harness;
     voile::GridCloth grid = tests::flat_sheet(24, 0.3f, 0.031f);
     tests::fabric_of(grid).thickness = 0.03f;
@@ -128,8 +129,8 @@ TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists
     CHECK(statistics.overflowing_vertices == 0);
 }
 
-// The balls of all lists are to be as wide as the collider goes in a substep, then, and have thousands of triangles;
-// and the next larger float is farther than such lists tell distances apart.
+// The balls of all lists would have to be as wide as the collider's displacement per substep, with thousands of
+// triangles. The next larger float exceeds the distances that such lists resolve.
 TEST_CASE("a list of near triangles ends when its collider moves by hundreds of meters in a step")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(160);
@@ -150,10 +151,10 @@ TEST_CASE("a list of near triangles ends when its collider moves by hundreds of 
     const voile::Statistics after = harness.statistics();
     CHECK(after.candidates == 0);
     CHECK(after.nan_vertices == 0);
-    CHECK(std::abs(harness.positions(id)[0].x + 0.225f) < 0.05f); // it has not gone along
+    CHECK(std::abs(harness.positions(id)[0].x + 0.225f) < 0.05f); // the cloth has not moved along
 }
 
-// The lists of cloth at rest are old, and were made for what is near by the thickness that it had.
+// The lists of resting cloth are old and were made for its former thickness.
 TEST_CASE("cloth at rest that becomes thicker rises by the added thickness, on triangles outside its lists")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(96);
@@ -166,9 +167,9 @@ TEST_CASE("cloth at rest that becomes thicker rises by the added thickness, on t
     const voile::MeshCollider collider = tests::collider(lump);
     (void)voile::engine::take(harness.solver.add_collider(collider));
     harness.upload();
-    const voile::Step pressed{.gravity = {0, 9.81f, 0}}; // upwards, against the side without ears
+    const voile::Step pressed{.gravity = {0, 9.81f, 0}}; // upward, against the side without ears
     harness.step(pressed, 15);
-    fabric.thickness = 0.0065f; // wider than a list's ball is
+    fabric.thickness = 0.0065f; // wider than a list's ball
     REQUIRE(harness.solver.set_material(id, fabric));
     harness.step(pressed);
     const voile::MeshDistance distance = voile::engine::take(voile::MeshDistance::create(collider));

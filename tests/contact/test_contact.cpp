@@ -1,5 +1,5 @@
-// Contact on the GPU: one substep against a double-precision brute force, and what it must guarantee: nothing ends
-// under a surface, nothing goes through one however fast, friction holds and brakes as Coulomb's law says.
+// Contact on the GPU: one substep against a double-precision brute force, and its guarantees: no vertex ends under a
+// surface, no vertex passes through one however fast, friction sticks and slows by Coulomb's law.
 #include "reference/cloth_reference.hpp"
 #include "reference/contact_reference.hpp"
 #include "support/cloth_harness.hpp"
@@ -19,10 +19,10 @@ namespace
 using tests::ClothHarness;
 
 constexpr float k_thickness = 0.03f;
-constexpr double k_reach = 1.0005 * 0.03; // m: what rests at the thickness touches, within half a thousandth of it
-constexpr float k_step = 2e-3f;           // s; the reference material bears 2.19e-3 s without losing damping
+constexpr double k_query_radius = 1.0005 * 0.03; // m: a vertex at rest at the thickness touches, within 0.05 %
+constexpr float k_step = 2e-3f;                  // s; the reference material allows 2.19e-3 s without loss of damping
 
-// A sheet that moves fast into whatever lies below, tilted so that only a part of it arrives.
+// A sheet that moves fast into a collider below, tilted so that only a part of it arrives.
 voile::GridCloth falling_sheet(uint32_t columns, uint32_t rows)
 {
     voile::GridCloth grid;
@@ -53,7 +53,7 @@ voile::MeshCollider collider(const voile::engine::Mesh& mesh)
     return {.positions = mesh.positions, .triangles = mesh.triangles};
 }
 
-// The vertex normals that rays follow, as the grid's neighbors give them.
+// The vertex normals that rays follow, from the grid's neighbors.
 glm::dvec3 grid_normal(const voile::GridCloth& grid, const std::vector<glm::dvec3>& x, uint32_t i)
 {
     const uint32_t row = i / grid.columns;
@@ -75,7 +75,7 @@ struct Comparison
     double velocity_error = 0; // m/s
 };
 
-// One substep on the GPU and by the reference, from the same state.
+// One substep on the GPU and in the reference, from the same state.
 Comparison compare(ClothHarness& harness, const voile::GridCloth& grid, float h, const FindContact& find)
 {
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -108,9 +108,9 @@ Comparison compare(ClothHarness& harness, const voile::GridCloth& grid, float h,
     return result;
 }
 
-// Coordinates below 1 m carry an error of 2^-24 m each, a substep and a hit some 10 of them. A direction is such a
-// difference over an offset of at least a hundredth of the thickness, 1e5 ulp of a meter for 0.3 mm; it turns a push of
-// up to the thickness, and velocities of up to 5 m/s.
+// Coordinates below 1 m have an error of 2^-24 m each, and a substep with a contact some 10 of them. A direction is
+// such a difference over an offset of at least a hundredth of the thickness: 1e5 ulp of a meter for 0.3 mm. It rotates
+// a push of up to the thickness, and velocities of up to 5 m/s.
 constexpr double k_ulp = 5.96e-8;
 constexpr double k_direction_bound = 10 * k_ulp / (0.01 * 0.03);
 constexpr double k_position_bound = 10 * k_ulp + 0.03 * k_direction_bound;
@@ -146,8 +146,8 @@ TEST_CASE("a substep with contact equals the double-precision brute force")
                             {
                                 if (auto crossing = reference::crossing_contact(exact, from, to))
                                     return crossing;
-                                return ray ? reference::ray_contact(exact, from, to, normal, k_reach)
-                                           : reference::nearest_contact(exact, from, to, k_reach);
+                                return ray ? reference::ray_contact(exact, from, to, normal, k_query_radius)
+                                           : reference::nearest_contact(exact, from, to, k_query_radius);
                             });
                 CHECK(result.contacts > 0);
                 CHECK(result.contacts < size.columns * size.rows);
@@ -180,7 +180,7 @@ TEST_CASE("a substep with planes and spheres equals their formulas")
                                  : glm::distance(p, center) - static_cast<double>(0.3f);
                 };
                 const reference::Contact contact{plane ? normal : glm::normalize(to - center), gap(to), gap(from)};
-                if (contact.gap < k_reach)
+                if (contact.gap < k_query_radius)
                     return contact;
                 return std::nullopt;
             });
@@ -195,7 +195,7 @@ TEST_CASE("a vertex that passes around an edge of a mesh is neither pulled in no
     const voile::engine::Mesh box = voile::engine::make_box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
     ClothHarness harness({.feature_contact = false});
     voile::GridCloth grid{.columns = 2, .rows = 2};
-    voile::Material material; // no springs: each vertex on its own
+    voile::Material material; // no springs: vertices are independent
     material.thickness = 5e-3f;
     grid.material = material;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -203,12 +203,12 @@ TEST_CASE("a vertex that passes around an edge of a mesh is neither pulled in no
     harness.upload();
     constexpr float k_short_step = 1.f / 600;
     const glm::vec3 from(0.499f, 0.505f, 0.1f); // over the top; the end is beside it
-    const glm::vec3 way(0.004f, -0.007f, 0);
+    const glm::vec3 displacement(0.004f, -0.007f, 0);
     harness.set_positions(id, std::vector(4, glm::vec4(from, 1)));
-    harness.set_velocities(id, std::vector(4, glm::vec4(way / k_short_step, 0)));
+    harness.set_velocities(id, std::vector(4, glm::vec4(displacement / k_short_step, 0)));
     harness.step({.duration = k_short_step, .substeps = 1, .gravity = glm::vec3(0), .air_density = 0});
     CHECK(harness.velocities(id)[0].w == 1); // it touches
-    CHECK(glm::distance(glm::vec3(harness.positions(id)[0]), from + way) < 1e-6f);
+    CHECK(glm::distance(glm::vec3(harness.positions(id)[0]), from + displacement) < 1e-6f);
 }
 
 TEST_CASE("a sheet draped over a mesh never enters it")
@@ -246,7 +246,7 @@ TEST_CASE("no vertex passes through a surface, however fast")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(5);
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0.3f, 0}, 0.3f, 16);
-    for (const float speed : {5.f, 60.f, 300.f, 2000.f}) // up to 33 m a substep, at 60 substeps a second
+    for (const float speed : {5.f, 60.f, 300.f, 2000.f}) // up to 33 m per substep, at 60 substeps per second
     {
         CAPTURE(speed);
         ClothHarness harness;
@@ -310,7 +310,7 @@ TEST_CASE("a patch on an incline slides or sticks by Coulomb's law")
 
 TEST_CASE("friction of a pair is the geometric mean of both sides")
 {
-    // Fabric 0.9, collider 0.1: 0.3 on an incline of 30 degrees slides 1.175 m in 1 s.
+    // Fabric 0.9, collider 0.1: with 0.3 on an incline of 30 degrees it slides 1.175 m in 1 s.
     constexpr double k_angle = 3.14159265358979 / 6;
     const glm::vec3 normal(static_cast<float>(std::sin(k_angle)), static_cast<float>(std::cos(k_angle)), 0);
     ClothHarness harness;
@@ -353,7 +353,7 @@ TEST_CASE("two runs with contact are equal to the bit")
 
 TEST_CASE("a vertex pressed between two sheets closer than the thickness passes through neither")
 {
-    // Two open sheets 2 cm apart, a cloth of thickness 3 cm driven between them: each pushes it through the other.
+    // Two open sheets 2 cm apart, and a cloth of thickness 3 cm driven between them: each pushes it through the other.
     voile::engine::Mesh gap = voile::engine::make_ground(2, 0);
     const voile::engine::Mesh upper = voile::engine::make_ground(2, 0.02f);
     for (const glm::uvec3& t : upper.triangles)

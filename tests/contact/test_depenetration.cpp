@@ -1,4 +1,4 @@
-// What starts inside a solid leaves it slowly and in one piece, whether the solid is a mesh or a formula.
+// Cloth that starts inside a solid leaves it slowly and in one piece, for meshes and analytic solids.
 #include "reference/swept_reference.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -39,15 +39,15 @@ reference::SignedDistance mesh_distance(const voile::engine::Mesh& mesh)
     { return exact->nearest(p).signed_distance; };
 }
 
-// What happens to the vertices that a solid holds at first.
+// Observations of the vertices that start inside a solid.
 struct Exit
 {
-    uint32_t inside = 0;      // at first
-    uint32_t left_inside = 0; // in the end
-    float leaving = 0;        // m/s, the fastest in the frame in which it has left
-    float stretch = 0;        // the largest meanwhile
-    float stretch_after = 0;  // and in the end
-    int frames = 0;           // until nothing was inside
+    uint32_t inside = 0;      // at the start
+    uint32_t left_inside = 0; // at the end
+    float leaving = 0;        // m/s, the largest in the frame in which it left
+    float stretch = 0;        // the largest until then
+    float stretch_after = 0;  // at the end
+    int frames = 0;           // until no vertex was inside
 };
 
 struct Start
@@ -60,7 +60,7 @@ struct Start
     float thickness;  // m
 };
 
-// Cloths that start in solids, each pair on a layer of its own.
+// Cloths that start in solids, each pair on its own layer.
 class Watch
 {
 public:
@@ -90,7 +90,7 @@ public:
         {
             harness_.step(step);
             for (Lane& lane : lanes_)
-                look(lane, frame);
+                observe(lane, frame);
         }
     }
 
@@ -113,7 +113,7 @@ private:
         return inside;
     }
 
-    void look(Lane& lane, int frame)
+    void observe(Lane& lane, int frame)
     {
         const std::vector<bool> now = inside_now(lane);
         const auto x = harness_.positions(lane.cloth);
@@ -133,7 +133,7 @@ private:
         exit.stretch = std::max(exit.stretch, exit.stretch_after);
     }
 
-    // The largest, along rows and columns.
+    // The largest stretch along rows and columns.
     static float stretch(const std::vector<glm::vec4>& x, const Start& start)
     {
         const float rest = start.size / static_cast<float>(start.vertices - 1);
@@ -173,7 +173,7 @@ std::vector<Solid> solids()
             with_mesh("mesh ball", ball)};
 }
 
-// Of so many flats around the y axis and rings from pole to pole, few enough to have corners and edges.
+// With `flats` around the y axis and `rings` from pole to pole, few enough for feature edges and vertices.
 voile::engine::Mesh ellipsoid(const glm::dvec3& radii, uint32_t flats, uint32_t rings)
 {
     voile::engine::Mesh mesh;
@@ -212,7 +212,7 @@ TEST_CASE("cloth that starts inside a solid leaves it at 2 m/s at most, in one p
     Watch watch;
     for (const Solid& solid : solids())
         for (const Start& start : starts)
-            if (solid.name != "plane" || start.name == "upright") // under a plane all ways lead up
+            if (solid.name != "plane" || start.name == "upright") // under a plane every displacement is upward
                 watch.add(solid, start);
     watch.run(45, {.gravity = glm::vec3(0)});
     for (const Watch::Lane& lane : watch.lanes())
@@ -225,7 +225,7 @@ TEST_CASE("cloth that starts inside a solid leaves it at 2 m/s at most, in one p
         CHECK(exit.inside > 0);
         CHECK(exit.left_inside == 0);
         CHECK(exit.leaving < 2);
-        CHECK(exit.stretch < 0.4f); // measured 0.28 upright in the capsule, else 0.08; 0.5 and more tear
+        CHECK(exit.stretch < 0.4f); // measured 0.28 upright in the capsule, else 0.08; 0.5 and more tears
         CHECK(exit.stretch_after < 0.03f);
     }
 }
@@ -233,7 +233,7 @@ TEST_CASE("cloth that starts inside a solid leaves it at 2 m/s at most, in one p
 namespace
 {
 
-// Two sheets, each of which a solid on its layer stands through.
+// Two sheets, each pierced by a solid on its layer.
 struct Observed
 {
     float stretch = 0;              // the largest
@@ -261,7 +261,7 @@ Observed watch(ClothHarness& harness, const std::array<voile::ClothId, 2>& sheet
 
 } // namespace
 
-// Both were shot out: one part of the sheet went out on one side, the rest on the other, until springs tore it.
+// Both were torn: one part of the sheet left on one side, the rest on the other.
 TEST_CASE("a tilted sheet that a solid pierces comes out on one side")
 {
     const glm::vec3 axis = glm::normalize(glm::vec3(-0.2291f, 0.2864f, -0.9303f));
@@ -298,7 +298,7 @@ TEST_CASE("a tilted sheet that a solid pierces comes out on one side")
     CHECK(std::max(seen.fastest[0], seen.fastest[1]) < 8); // measured 2.9; 146 when torn
 }
 
-// As a character is made of: capsules that overlap, a head in a helmet. One solid held what another let go (664 m/s).
+// Like a character: overlapping capsules, a head in a helmet. One solid held what another released (664 m/s).
 TEST_CASE("cloth inside overlapping solids leaves all of them in one piece")
 {
     using voile::Collider;
@@ -346,7 +346,7 @@ TEST_CASE("cloth inside overlapping solids leaves all of them in one piece")
                     fastest[i] = std::max(fastest[i], glm::length(glm::vec3(v)));
         }
         CHECK(harness.statistics().penetrating_vertices == 0);
-        CHECK(stretch < 0.05f); // measured 0.012; where one held, 9.4
+        CHECK(stretch < 0.05f); // measured 0.012; 9.4 if one solid holds it
         for (size_t i = 0; i < sheets.size(); ++i)
         {
             CAPTURE(i);
@@ -357,7 +357,7 @@ TEST_CASE("cloth inside overlapping solids leaves all of them in one piece")
     }
 }
 
-// What hooked around their edges was stretched until it snapped free.
+// Parts that hooked around the edges were stretched until they snapped free.
 TEST_CASE("edges of a solid do not catch a sheet that leaves it")
 {
     voile::GridCloth on_box = tests::flat_sheet(8, 1, 0);

@@ -1,4 +1,4 @@
-// Contact far from the origin: a scene that is moved there as a whole does what it does at the origin.
+// Contact far from the origin: a scene that is moved there as a whole behaves as at the origin.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -14,11 +14,11 @@
 namespace
 {
 
-// 16 km from the origin, where floats are 1/1024 m apart. It lies on the incline through the origin.
+// 16 km from the origin, where floats are 1/1024 m apart. The point lies on the incline through the origin.
 const glm::vec3 k_far{12000, -9000, 7000};
 const glm::vec3 k_farther = 8.f * k_far;
 constexpr float k_frame = 1.f / 60;
-constexpr float k_thickness = 5.f / 1024 + 5e-6f; // m: sheets that start 5/1024 m above something touch it at once
+constexpr float k_thickness = 5.f / 1024 + 5e-6f; // m: sheets that start 5/1024 m above a surface touch it at once
 
 // World from a slope of 3 : 4.
 glm::mat4 incline()
@@ -32,15 +32,15 @@ glm::mat4 incline()
 using Add = std::function<voile::ColliderId(voile::Solver&, const glm::vec3& point, uint32_t layers)>;
 using Drive = std::function<void(voile::Solver&, voile::ColliderId, const glm::vec3& point, uint32_t frame)>;
 
-// A sheet and a collider around a point of the world.
+// A sheet and a collider around a point in the world.
 struct Scene
 {
     std::string name;
     Add add;
-    Drive drive{};                      // of the collider before each frame, from where it was added
-    glm::vec3 start{0, 50.f / 1024, 0}; // m, of the sheet from the point, in multiples of what floats can tell there
+    Drive drive{};                      // motion of the collider before each frame, from its initial pose
+    glm::vec3 start{0, 50.f / 1024, 0}; // m, of the sheet from the point, in multiples of the float spacing there
     glm::mat4 turn{1.f};                // of the sheet
-    float static_friction = 0.5f; // 0 on what is round: cloth borne between its vertices buckles, and rounding grows
+    float static_friction = 0.5f; // 0 on round shapes: cloth supported between its vertices buckles, and rounding grows
 };
 
 struct Outcome
@@ -49,7 +49,7 @@ struct Outcome
     std::vector<glm::dvec3> end;
 };
 
-// Of scenes that share a solver.
+// Outcomes of scenes that share a solver.
 struct Outcomes
 {
     std::vector<Outcome> scenes;
@@ -73,7 +73,7 @@ voile::GridCloth sheet(const Scene& scene, const glm::vec3& point, uint32_t laye
     return grid;
 }
 
-// Something that is held far above and meets nothing, so that steps have a cloth.
+// A cloth far above that touches nothing, so that steps have a cloth.
 voile::GridCloth spectator(const glm::vec3& point)
 {
     voile::GridCloth grid = tests::flat_sheet(2, 0.1f, 0);
@@ -83,7 +83,7 @@ voile::GridCloth spectator(const glm::vec3& point)
     return grid;
 }
 
-// Each scene has a layer of its own. Colliders are where they are driven to before there are sheets.
+// Each scene has its own layer. Colliders are at their poses before the sheets are added.
 Outcomes run(const std::vector<Scene>& scenes, const glm::vec3& point, uint32_t frames)
 {
     tests::ClothHarness harness;
@@ -113,7 +113,7 @@ Outcomes run(const std::vector<Scene>& scenes, const glm::vec3& point, uint32_t 
     for (uint32_t frame = 1; frame <= frames; ++frame)
         step(frame);
     outcomes.after = harness.statistics();
-    // Near the origin floats are fine. A meter above it nothing touches the sheets.
+    // Near the origin floats are fine. One meter above it no collider touches the sheets.
     const glm::vec3 above{0, 1, 0};
     for (const voile::ClothId id : sheets)
         voile::engine::take(harness.solver.teleport(id, tests::moved(above - point)));
@@ -124,7 +124,7 @@ Outcomes run(const std::vector<Scene>& scenes, const glm::vec3& point, uint32_t 
     return outcomes;
 }
 
-// m, the farthest that a vertex of one is from the same one of the other.
+// m, the largest distance between corresponding vertices.
 double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
 {
     double largest = 0;
@@ -133,17 +133,17 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     return largest;
 }
 
-// Wherever they are, sheets end within a thousandth of their displacement.
+// At any distance, sheets end within a thousandth of their displacement.
 void check_alike(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
 {
     for (size_t i = 0; i < scenes.size(); ++i)
     {
         CAPTURE(scenes[i].name);
-        const double way = farthest(here.scenes[i].end, here.scenes[i].start);
+        const double displacement = farthest(here.scenes[i].end, here.scenes[i].start);
         const double differs = farthest(here.scenes[i].end, far.scenes[i].end);
-        CAPTURE(way);
+        CAPTURE(displacement);
         CAPTURE(differs);
-        CHECK(differs < std::max(1e-3 * way, 1e-6));
+        CHECK(differs < std::max(1e-3 * displacement, 1e-6));
     }
     CHECK(std::abs(static_cast<int>(far.after.contacts) - static_cast<int>(here.after.contacts)) <= 2);
     CHECK(far.before.penetrating_vertices == here.before.penetrating_vertices);
@@ -214,7 +214,7 @@ voile::ColliderId add_mesh_slope(voile::Solver& solver, const glm::vec3& point, 
 
 voile::ColliderId add_mesh_box(voile::Solver& solver, const glm::vec3& point, uint32_t layers)
 {
-    // No vertex of the sheet, 5 cm apart, comes to lie over an edge: on which side it falls is rounding's.
+    // No vertex of the sheet, 5 cm apart, comes to lie over an edge: rounding would decide its side.
     return add(solver, voile::engine::make_box({-0.11f, -0.3f, -0.12f}, {0.11f, 0, 0.11f}), tests::moved(point),
                layers);
 }
@@ -242,7 +242,7 @@ void move(voile::Solver& solver, voile::ColliderId id, const glm::vec3& /*point*
     voile::engine::take(solver.move_collider(id, tests::moved({0.0011f * static_cast<float>(frame), 0, 0.0007f})));
 }
 
-// From the origin to the point; there it turns about itself.
+// From the origin to the point, then rotation in place.
 void turn_at(voile::Solver& solver, voile::ColliderId id, const glm::vec3& point, uint32_t frame)
 {
     const float angle = 0.01f * static_cast<float>(frame);
@@ -266,7 +266,7 @@ Scene on_incline(const std::string& name, const Add& add, float static_friction)
             .static_friction = static_friction};
 }
 
-// Askew on a box: where edges run along rows of the sheet, 0.8 m from the origin make 0.2 mm of difference, too.
+// Rotated on a box: if edges are parallel to rows of the sheet, even 0.8 m from the origin give 0.2 mm of difference.
 glm::mat4 askew()
 {
     return glm::rotate(glm::mat4(1.f), 0.15f, glm::vec3(0, 1, 0));
@@ -305,7 +305,7 @@ std::vector<Scene> moving_scenes()
 
 } // namespace
 
-// Short, as rounding grows where sheets balance or buckle.
+// Short, because rounding grows if sheets balance or buckle.
 TEST_CASE("colliders of every kind hold cloth 16 km from the origin as at the origin")
 {
     for (const std::vector<Scene>& scenes : {still_scenes(), moving_scenes()})

@@ -1,5 +1,4 @@
-// Which edges and corners of colliders count as such: those that can stand between the vertices of a cloth, and no
-// others.
+// The feature edges and feature vertices of colliders: exactly those that can protrude between the vertices of a cloth.
 #include "colliders/collider_features.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -32,7 +31,7 @@ struct Count
     uint32_t corners = 0;
 };
 
-// For a cloth whose longest edges are 5 cm.
+// Counts the features for a cloth whose longest edges are 5 cm.
 Count count(const voile::engine::Mesh& mesh)
 {
     voile::Model model;
@@ -57,7 +56,7 @@ Count count(const voile::engine::Mesh& mesh)
 
 TEST_CASE("the flats of a cylinder are no feature edges, though they extend to its rims")
 {
-    // Across 5 cm of it normals turn by 2.9 degrees on either side; 10.2 would count.
+    // Within 5 cm its normals turn by 2.9 degrees on either side; 10.2 would count.
     const Count found = count(prism(0.5, 64));
     CHECK(found.along == 0);
     CHECK(found.around == 2 * 64);
@@ -66,7 +65,7 @@ TEST_CASE("the flats of a cylinder are no feature edges, though they extend to i
 
 TEST_CASE("all edges of a thin rod are feature edges, however small their angles")
 {
-    const Count found = count(prism(0.01, 32)); // 11 degrees an edge
+    const Count found = count(prism(0.01, 32)); // 11 degrees per edge
     CHECK(found.along >= 32);
     CHECK(found.corners >= 2);
 }
@@ -92,7 +91,7 @@ TEST_CASE("a round mesh has no features, a box of triangles has 12 edges and 8 c
 namespace
 {
 
-// A flat disc about the y axis, a fan of twelve triangles in its middle: more than there are threads for them.
+// A flat disc about the y axis with a fan of twelve triangles in its center: more triangles than feature threads.
 voile::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles)
 {
     constexpr uint32_t k_sectors = 12;
@@ -112,7 +111,7 @@ voile::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>
     return {.positions = positions, .triangles = triangles};
 }
 
-// Cloth that falls at 2 m/s on two walls between its vertices, which cross; where it is after two frames.
+// Cloth that falls at 2 m/s on two crossing walls between its vertices. Returns its positions after two frames.
 std::vector<glm::vec4> fall_on_walls(bool mesh, const voile::SolverOptions& options)
 {
     tests::ClothHarness harness(options);
@@ -151,7 +150,8 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
     {
         CAPTURE(mesh);
         const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.feature_threads = 1});
-        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
+        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // without feature contact it
+                                                                                         // would fall on
         for (const voile::SolverOptions& options : {voile::SolverOptions{.workgroup_size = 1, .feature_threads = 1},
                                                     voile::SolverOptions{.workgroup_size = 2, .feature_threads = 2},
                                                     voile::SolverOptions{.workgroup_size = 32, .feature_threads = 4},

@@ -1,4 +1,4 @@
-// What friction holds. How far it lets slide: test_contact and the physics report.
+// Static friction of cloth. test_contact and the physics report measure sliding distances.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -12,8 +12,8 @@
 
 TEST_CASE("friction holds stiff cloth on triangles")
 {
-    // 1.5 kN/m between vertices of 1.3e-4 N: an ulp of a coordinate pulls with a sixth of a vertex's weight. If held
-    // vertices wandered by ulps, the cloth would slip here and there, and creep 0.07 mm.
+    // 1.5 kN/m between vertices of 1.3e-4 N: an ulp of a coordinate pulls with a sixth of a vertex's weight. If
+    // sticking vertices drifted by ulps, the cloth would slip locally and creep by 0.07 mm.
     const voile::engine::Mesh ground = voile::engine::make_ground(0.5f);
     const glm::mat4 tilt = glm::rotate(glm::mat4(1.f), glm::radians(-30.f), glm::vec3(0, 0, 1));
     tests::ClothHarness harness;
@@ -38,17 +38,17 @@ TEST_CASE("friction holds stiff cloth on triangles")
     float moved = 0;
     for (size_t i = 0; i < start.size(); ++i)
         moved = std::max(moved, glm::distance(glm::vec3(start[i]), glm::vec3(end[i])));
-    CHECK(moved < 1e-6f); // some ulps, where a vertex still gave way
+    CHECK(moved < 1e-6f); // some ulps, where a vertex still slipped
     float speed = 0;
     for (const glm::vec4& v : harness.velocities(id))
         speed = std::max(speed, glm::length(glm::vec3(v)));
-    CHECK(speed < 1e-3f); // what rests is told to rest: no kick of gravity and springs that contact has not answered
+    CHECK(speed < 1e-3f); // resting vertices have no velocity: contact answers every kick of gravity and springs
 }
 
 TEST_CASE("friction holds coarse cloth that a ball supports between its vertices")
 {
-    // Few of its vertices touch. Most belong to several triangles that lie on the ball. It crept by 2 mm/s and slid
-    // off.
+    // Few of its vertices touch. Most belong to several triangles that lie on the ball. The cloth once crept by 2 mm/s
+    // and slid off.
     for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
     {
         CAPTURE(integrator == voile::Integrator::verlet);
@@ -71,16 +71,16 @@ TEST_CASE("friction holds coarse cloth that a ball supports between its vertices
         const auto end = harness.positions(id);
         const auto velocities = harness.velocities(id);
         double moved = 0;
-        int borne = 0;
+        int supported = 0;
         for (size_t i = 0; i < end.size(); ++i)
         {
             if ((static_cast<uint32_t>(velocities[i].w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) == 0)
                 continue;
             moved += static_cast<double>(glm::distance(glm::vec3(start[i]), glm::vec3(end[i])));
-            ++borne;
+            ++supported;
         }
-        CHECK(borne > 20);
-        CHECK(moved < 3e-4 * borne); // m, in a second
-        MESSAGE("creep: ", moved / borne, " m/s");
+        CHECK(supported > 20);
+        CHECK(moved < 3e-4 * supported); // m, in one second
+        MESSAGE("creep: ", moved / supported, " m/s");
     }
 }

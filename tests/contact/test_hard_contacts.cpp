@@ -1,5 +1,5 @@
-// The hard cases of contact: cloth that is shot at thin, pointed and hollow things. Nothing may get to a wrong side at
-// any time, and what can rest must come to rest.
+// The hard cases of contact: cloth shot at thin, pointed and hollow shapes. No vertex may be on a wrong side at any
+// time, and cloth that can rest must come to rest.
 #include "support/hard_shapes.hpp"
 #include "support/shots.hpp"
 
@@ -26,14 +26,14 @@ void shoot(const Scene& scene)
         (void)tests::shoot(scene, shot);
 }
 
-// `frames`: until what hangs has ceased to swing.
+// `frames`: until the hanging parts have stopped swinging.
 void let_rest(const Scene& scene, uint32_t frames)
 {
     CAPTURE(scene.name);
     Shot drop = k_drop;
     drop.frames = frames;
     const Seen seen = tests::shoot(scene, drop);
-    // In a frame it goes less than what it may lie too deep.
+    // The displacement per frame is less than the allowed depth.
     CHECK(seen.speed * static_cast<double>(tests::k_shot_duration) < static_cast<double>(drop.thickness) / 10);
     if (scene.top)
         CHECK(seen.highest > static_cast<double>(*scene.top));
@@ -66,7 +66,8 @@ Scene lying_needle()
 {
     Scene scene{
         .name = "lying needle", .mesh = tests::needle(1, 0.02f), .height = 0.45f, .ground = true, .traced = true};
-    tests::place(scene.mesh, glm::rotate(moved({0.5f, 0.3f, 0}), std::numbers::pi_v<float> / 2, glm::vec3(0, 0, 1)));
+    tests::transform_mesh(scene.mesh,
+                          glm::rotate(moved({0.5f, 0.3f, 0}), std::numbers::pi_v<float> / 2, glm::vec3(0, 0, 1)));
     scene.top = 0.3f;
     scene.apart_at_rest = true;
     return scene;
@@ -82,7 +83,7 @@ Scene corner()
     return {.name = "corner", .mesh = tests::corner_bowl(3.6f), .height = 2.05f, .focus = glm::dvec3(0, 2, 0)};
 }
 
-// What is watched for long need not be traced all the time.
+// A scene that is observed for long is not traced in every substep.
 Scene at_length(Scene scene)
 {
     scene.traced = false;

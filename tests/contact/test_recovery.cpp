@@ -1,5 +1,5 @@
-// Recovery: what begins inside a closed mesh comes out of it, whole and without a blow, wherever it is and however it
-// got there. Inside is what double precision says.
+// Depenetration: cloth that starts inside a closed mesh leaves it, whole and without a blow, wherever it is and however
+// it got there. A double-precision query decides what is inside.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -19,9 +19,9 @@ namespace
 
 using tests::ClothHarness;
 
-glm::mat4 moved(const glm::vec3& way)
+glm::mat4 moved(const glm::vec3& displacement)
 {
-    return glm::translate(glm::mat4(1.f), way);
+    return glm::translate(glm::mat4(1.f), displacement);
 }
 
 voile::MeshCollider collider(const voile::engine::Mesh& mesh)
@@ -47,7 +47,7 @@ voile::engine::Mesh spire()
     return mesh;
 }
 
-// Both, each a part of its own.
+// Both meshes, as separate parts.
 voile::engine::Mesh joined(voile::engine::Mesh mesh, const voile::engine::Mesh& other)
 {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -78,17 +78,17 @@ float fastest(const std::vector<glm::vec4>& velocities)
     return speed;
 }
 
-// m/s: how much faster something is than what has fallen since the start.
+// m/s: by how much a speed exceeds that of a free fall since the start.
 float beyond_fall(float speed, int frames)
 {
     return speed - 9.81f * static_cast<float>(frames) / 60;
 }
 
-// m/s beyond a fall. What is inside goes out at 0.9 m/s at most; what that pulls on and drops swings.
-constexpr float k_calm = 8; // measured: 5.7 of a sheet that a ball stands through, 5.4 off a spire
+// m/s beyond a fall. Vertices inside leave at 0.9 m/s at most; the parts that they pull and drop swing.
+constexpr float k_calm = 8; // measured: 5.7 of a sheet that a ball pierces, 5.4 off a spire
 
-// Steps until nothing is inside, up to `frames`, then `more`; checks that nothing is ever fast, and nothing inside
-// then.
+// Steps until no vertex is inside, up to `frames`, then `more`. Checks that no vertex is ever fast, and that none is
+// inside at the end.
 void comes_out(ClothHarness& harness, voile::ClothId id, const voile::MeshDistance& exact, int frames, int more)
 {
     CHECK(count_inside(exact, harness.positions(id)) > 0);
@@ -162,7 +162,7 @@ TEST_CASE("a small cloth leaves the inside of a ball of 20,736 triangles")
         (void)voile::engine::take(harness.solver.add_collider(collider(ball)));
         harness.upload();
         comes_out(harness, id, exact, 60, 5);
-        for (const glm::vec4& p : harness.positions(id)) // the near way; it fell through the bottom
+        for (const glm::vec4& p : harness.positions(id)) // the shorter path; it fell through the bottom
             CHECK(p.y > 0);
     }
 }
@@ -228,7 +228,7 @@ TEST_CASE("cloth leaves a collider added over it or one that it is moved into")
             harness.step({});
         }
         comes_out(harness, id, exact, 60, 10);
-        // The plane is solid to above the middle of the box: it came out upwards.
+        // The plane is solid to above the middle of the box: the cloth left upward.
         for (const glm::vec4& p : harness.positions(id))
             CHECK(p.y > 0.0199f);
     }
@@ -311,7 +311,7 @@ TEST_CASE("pins, cloth of other layers and cloth in two-sided meshes stay inside
         (void)voile::engine::take(harness.solver.add_collider(description));
         harness.upload();
         const auto before = harness.positions(id);
-        harness.step({.gravity = glm::vec3(0), .air_density = 0}, 2); // in the first one it votes
+        harness.step({.gravity = glm::vec3(0), .air_density = 0}, 2); // the first step only votes
         const auto after = harness.positions(id);
         for (const uint32_t i : {0u, 14u, 15u, 35u})
             CHECK((glm::distance(before[i], after[i]) < (c.pinned ? 1e-30f : 1e-6f)) == c.stays);
@@ -322,7 +322,7 @@ TEST_CASE("pins, cloth of other layers and cloth in two-sided meshes stay inside
 
 TEST_CASE("depenetration never leads below the ground")
 {
-    // Half of the ball is below, and cloth lies nearer to its bottom than to its top.
+    // Half of the ball is below the ground, and cloth lies nearer to its bottom than to its top.
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 16);
     const voile::engine::Mesh ground = voile::engine::make_ground(2, -0.1f);
     const auto exact = voile::engine::take(voile::MeshDistance::create(collider(ball)));
@@ -343,8 +343,8 @@ TEST_CASE("depenetration never leads below the ground")
 
 TEST_CASE("the inside test is right at edges, at corners and in slivers")
 {
-    // Points on lines along the axes through vertices and the middles of edges, where a line meets several triangles at
-    // once, and points near to them, up to a few roundings. What is inside moves.
+    // Points on lines along the axes through vertices and edge midpoints, where a line hits several triangles at once,
+    // and points near them, up to a few roundings. Vertices inside move.
     constexpr uint32_t k_side = 64;
     const voile::engine::Mesh meshes[] = {
         spire(), voile::engine::make_sphere({0, 0.5f, 0}, 0.5f, 20),
@@ -360,7 +360,7 @@ TEST_CASE("the inside test is right at edges, at corners and in slivers")
             voile::MeshCollider description = collider(mesh);
             const auto exact = voile::engine::take(voile::MeshDistance::create(description));
             description.deforms = deforms;
-            ClothHarness harness({.feature_contact = false}); // recovery alone moves vertices
+            ClothHarness harness({.feature_contact = false}); // only depenetration moves vertices
             voile::GridCloth grid = sheet(k_side, 1, {0, 0, 0});
             voile::Material material;
             material.thickness = 1e-5f;
@@ -388,18 +388,18 @@ TEST_CASE("the inside test is right at edges, at corners and in slivers")
                     harness.solver.context().fn.vkCmdUpdateBuffer(cmd, streams.positions, streams.offset,
                                                                   points.size() * sizeof(glm::vec4), points.data());
                 });
-            harness.step({.substeps = 1, .gravity = glm::vec3(0), .air_density = 0}, 2); // in the first one it votes
+            harness.step({.substeps = 1, .gravity = glm::vec3(0), .air_density = 0}, 2); // the first step only votes
             const auto after = harness.positions(id);
             uint32_t wrong = 0;
             uint32_t inside = 0;
             for (size_t i = 0; i < points.size(); ++i)
             {
                 const glm::dvec3 p(points[i]);
-                if (std::abs(exact.nearest(p).signed_distance) < 2e-5) // contact's
+                if (std::abs(exact.nearest(p).signed_distance) < 2e-5) // left to contact
                     continue;
                 const bool expected = exact.winding_number(p) > 0.5;
                 inside += expected;
-                // What the place at the start left beside its float stays with the vertex.
+                // The vertex keeps the residual of its initial position.
                 wrong += expected != (glm::distance(glm::vec3(after[i]), glm::vec3(points[i])) > 1e-6f);
             }
             CHECK(inside > 100);
@@ -421,7 +421,7 @@ TEST_CASE("depenetration is recorded only with a solid, and is equal to the bit 
     for (size_t kind = 0; kind < 4; ++kind)
         for (int run = 0; run < (kind < 3 ? 1 : 2); ++run)
         {
-            ClothHarness harness({.feature_contact = false}); // which has passes of its own
+            ClothHarness harness({.feature_contact = false}); // it has its own passes
             const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(20, 0.8f, {0, 0.1f, 0})));
             (void)voile::engine::take(harness.solver.add_collider(kinds[kind]));
             harness.upload();

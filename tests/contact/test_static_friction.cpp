@@ -1,4 +1,4 @@
-// Static friction of real fabrics: every preset holds and slips within 1 % of the incline's tangent.
+// Static friction of real fabrics: every preset sticks and slips within 1 % of the incline's tangent.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/slide.hpp"
@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double k_angle = 30 * 3.14159265358979 / 180;
-constexpr float k_pressed = 5e-6f; // m: all vertices touch at once; large meshes are known to some 1e-6 m
+constexpr float k_pressed = 5e-6f; // m: all vertices touch at once; positions on large meshes are known to some 1e-6 m
 
 struct Patch
 {
@@ -53,7 +53,7 @@ void add_incline(voile::Solver& solver, float side, uint32_t cells, const glm::m
         .positions = positions, .triangles = triangles, .transform = glm::rotate(tilt, 0.4f, glm::vec3(0, 1, 0))}));
 }
 
-// 0: a plane; else a mesh of that side.
+// `side` 0: a plane; else a mesh of that side.
 void check_incline(float side, uint32_t cells, float spacing, uint32_t vertices)
 {
     CAPTURE(side);
@@ -102,7 +102,7 @@ void check_incline(float side, uint32_t cells, float spacing, uint32_t vertices)
         CAPTURE(patches[i].holds);
         const double distance = slid(starts[i], harness.positions(patches[i].id));
         if (patches[i].holds)
-            CHECK(std::abs(distance) < 4e-3 * slide); // measured: 1.1e-3, vertices that give way one after the other
+            CHECK(std::abs(distance) < 4e-3 * slide); // measured: 1.1e-3, vertices that slip one after the other
         else
             CHECK(distance == tests::close_to(slide, 0.03)); // measured: 9e-3
     }
@@ -119,7 +119,7 @@ TEST_CASE("every preset sticks and slips within 1 % of the incline's tangent")
 
 TEST_CASE("static friction holds on a collider of constant velocity as on one at rest")
 {
-    struct Way
+    struct Motion
     {
         std::string name;
         glm::vec3 velocity; // m/s, along the incline's axes
@@ -127,11 +127,12 @@ TEST_CASE("static friction holds on a collider of constant velocity as on one at
     };
     constexpr float k_frame = 1.f / 64;
     const glm::mat4 tilt = glm::rotate(glm::mat4(1.f), static_cast<float>(-k_angle), glm::vec3(0, 0, 1));
-    // Across, floats have each place exactly. Rounding of the others makes speeds jump by 4e-6 m/s from step to step.
-    for (const Way& way : {Way{"across", {0, 0, 0.5f}, 1.02}, Way{"fast", {0, 0, 4}, 1.05},
-                           Way{"down", {0.7f, 0, 0}, 1.05}, Way{"along the normal", {0, -0.2f, 0}, 1.05}})
+    // In the direction across the slope floats are exact. In the others rounding makes speeds jump by 4e-6 m/s per
+    // step.
+    for (const Motion& motion : {Motion{"across", {0, 0, 0.5f}, 1.02}, Motion{"fast", {0, 0, 4}, 1.05},
+                                 Motion{"down", {0.7f, 0, 0}, 1.05}, Motion{"along the normal", {0, -0.2f, 0}, 1.05}})
     {
-        CAPTURE(way.name);
+        CAPTURE(motion.name);
         tests::ClothHarness harness;
         const voile::ColliderId box = voile::engine::take(harness.solver.add_collider(
             voile::BoxCollider{.min = {-2, -0.25f, -2}, .max = {2, 0, 2}, .transform = tilt}));
@@ -139,7 +140,7 @@ TEST_CASE("static friction holds on a collider of constant velocity as on one at
         for (voile::Fabric fabric : {voile::silk(), voile::cotton()})
         {
             const double tangent = std::tan(k_angle);
-            fabric.static_friction = static_cast<float>(way.factor * tangent);
+            fabric.static_friction = static_cast<float>(motion.factor * tangent);
             fabric.kinetic_friction = static_cast<float>(0.5 * tangent);
             fabric.air_drag_normal = fabric.air_drag_tangential = 0;
             voile::GridCloth grid;
@@ -149,7 +150,7 @@ TEST_CASE("static friction holds on a collider of constant velocity as on one at
             grid.material = fabric;
             grid.transform = tilt;
             grid.transform[3] = tilt * glm::vec4(0, fabric.thickness - k_pressed, 0, 1);
-            grid.velocity = glm::vec3(tilt * glm::vec4(way.velocity, 0));
+            grid.velocity = glm::vec3(tilt * glm::vec4(motion.velocity, 0));
             ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
         }
         harness.upload();
@@ -159,12 +160,12 @@ TEST_CASE("static friction holds on a collider of constant velocity as on one at
         constexpr int k_steps = 6;
         for (int i = 1; i <= k_steps; ++i)
         {
-            const glm::vec3 place = static_cast<float>(i) * k_frame * way.velocity;
+            const glm::vec3 displacement = static_cast<float>(i) * k_frame * motion.velocity;
             voile::engine::take(harness.solver.move_collider(
-                box, glm::translate(glm::mat4(1.f), glm::vec3(tilt * glm::vec4(place, 0)))));
+                box, glm::translate(glm::mat4(1.f), glm::vec3(tilt * glm::vec4(displacement, 0)))));
             harness.step({.duration = k_frame});
         }
-        const double carried = static_cast<double>(way.velocity.x * k_frame) * k_steps;
+        const double carried = static_cast<double>(motion.velocity.x * k_frame) * k_steps;
         for (size_t i = 0; i < ids.size(); ++i)
         {
             CAPTURE(i);

@@ -1,5 +1,5 @@
-// Paths of vertices against spheres, capsules and boxes: nothing crosses one, at any speed and angle, however thin it
-// is, and nothing is stopped that misses it. What double precision says of each path decides.
+// Paths of vertices against spheres, capsules and boxes: no path crosses a solid, at any speed and angle, however thin
+// it is, and no path that misses it is stopped. A double-precision query decides.
 #include "reference/swept_reference.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -22,7 +22,7 @@ using tests::ClothHarness;
 constexpr uint32_t k_side = 32; // of the cloth, in vertices
 constexpr float k_step = 1.f / 600;
 
-// A solid, and what paths are aimed at: places within `spread` of the segment between two points.
+// A solid, and the targets of paths: points within `spread` of the segment between two points.
 struct Solid
 {
     std::string name;
@@ -64,8 +64,8 @@ Solid sphere(const std::string& name, float radius)
     return {name, voile::SphereCollider{.radius = radius}, glm::vec3(0), glm::vec3(0), glm::vec3(radius)};
 }
 
-// A path through the place, at the angle to one of the planes along two axes, as far before it as the speed goes in a
-// part of the substep.
+// A path through the target, at an angle to one of the planes along two axes. It starts before the target, by a
+// fraction of its displacement in the substep.
 struct Shot
 {
     glm::vec3 from;
@@ -81,7 +81,7 @@ public:
     {
         std::uniform_real_distribution<float> unit(0, 1);
         const glm::vec3 aside = 2.f * glm::vec3(unit(random_), unit(random_), unit(random_)) - 1.f;
-        const glm::vec3 place = glm::mix(solid_.from, solid_.to, unit(random_)) + aside * solid_.spread;
+        const glm::vec3 target = glm::mix(solid_.from, solid_.to, unit(random_)) + aside * solid_.spread;
         const float speed = std::pow(10.f, 3 * unit(random_)); // 1 to 1000 m/s
         const float angle = std::pow(10.f, -3 * unit(random_)) * (unit(random_) < 0.5f ? 1.5f : -1.5f);
         const float around = 6.2831853f * unit(random_);
@@ -90,7 +90,7 @@ public:
         direction[axis] = std::sin(angle);
         direction[(axis + 1) % 3] = std::cos(angle) * std::cos(around);
         direction[(axis + 2) % 3] = std::cos(angle) * std::sin(around);
-        return {place - unit(random_) * speed * k_step * direction, speed * direction};
+        return {target - unit(random_) * speed * k_step * direction, speed * direction};
     }
 
 private:
@@ -98,25 +98,25 @@ private:
     std::mt19937 random_;
 };
 
-// What became of the paths.
+// Counts of outcomes.
 struct Count
 {
     uint32_t entering = 0;
     uint32_t clear = 0;
-    uint32_t crossed = 0; // of those that enter: on another side in the end
-    uint32_t under = 0;   // of those that enter: nearer to the surface than a substep brings them
-    uint32_t held = 0;    // of those that are clear: not where they were going
+    uint32_t crossed = 0; // of paths that enter: on another side at the end
+    uint32_t under = 0;   // of paths that enter: nearer to the surface than a substep may leave them
+    uint32_t held = 0;    // of paths that miss: not at their destination
 };
 
-// Roundings of coordinates of about two meters, some ten of them.
+// Rounding of coordinates of about two meters, some ten of them.
 constexpr double k_rounding = 2e-6;
-// The nearest surface counts where it is on the side that the path came in by: a cosine.
+// The nearest surface counts if it is on the side where the path entered: a cosine.
 constexpr double k_same_side = 0.49;
 constexpr double k_recovery_speed = 0.75; // m/s
-// On a needle of 1 mm a rounding of the place turns the plane by 2e-4, and the path ends some 0.2 m farther.
+// On a needle of 1 mm a rounding of the position rotates the plane by 2e-4, and the path ends some 0.2 m farther.
 constexpr double k_direction = 0.98;
 
-// Of a path in the solid's space, and where contact leaves the vertex.
+// Judges a path in the solid's space and the position at which contact leaves the vertex.
 void judge(const reference::SignedDistance& distance, double thickness, const glm::dvec3& from, const glm::dvec3& to,
            const glm::dvec3& x, Count& count)
 {
@@ -147,11 +147,11 @@ glm::dvec3 transformed(const glm::dmat4& matrix, const glm::dvec3& p)
 
 struct Path
 {
-    glm::mat4 from{1.f}; // of the solids, in the substep
+    glm::mat4 from{1.f}; // poses of the solids in the substep
     glm::mat4 to{1.f};
 };
 
-// All solids in one place, each with a cloth per thickness on a layer of its own.
+// All solids at the same position, each with one cloth per thickness on its own layer.
 class Range
 {
 public:
@@ -165,7 +165,7 @@ public:
             for (const float thickness : thicknesses)
             {
                 voile::GridCloth grid{.columns = k_side, .rows = k_side};
-                voile::Material material; // no springs: each vertex on its own
+                voile::Material material; // no springs: vertices are independent
                 material.thickness = thickness;
                 grid.material = material;
                 grid.layers = 1u << i;
@@ -175,16 +175,16 @@ public:
         harness_.upload();
     }
 
-    // One substep, in which the solids go along the path.
+    // One substep in which the solids move along the path.
     void shoot(const Path& path)
     {
         step(path.from);
         for (Lane& lane : lanes_)
-            place(lane, path);
+            set_paths(lane, path);
         step(path.to);
     }
 
-    // What became of them: for each solid one entry per thickness.
+    // The outcomes: one entry per solid and thickness.
     [[nodiscard]] std::vector<Count> results(const Path& path)
     {
         const glm::dmat4 back = glm::inverse(glm::dmat4(path.to));
@@ -218,8 +218,8 @@ private:
         harness_.step({.duration = k_step, .substeps = 1, .gravity = glm::vec3(0), .air_density = 0});
     }
 
-    // Paths are straight in the solid's space, as contact sees them.
-    void place(Lane& lane, const Path& path)
+    // Sets the paths. They are straight in the solid's space, as contact treats them.
+    void set_paths(Lane& lane, const Path& path)
     {
         std::vector<glm::vec4> x = harness_.positions(lane.cloth);
         std::vector<glm::vec4> v(x.size());

@@ -1,4 +1,4 @@
-// Files in and out, and the words for what is in them.
+// Reading and writing files, and printable text.
 #include "voile/engine/assets/file.hpp"
 
 #include "support/test_folder.hpp"
@@ -34,7 +34,7 @@ TEST_CASE("only regular files are read, and only up to the size limit")
     const TestFolder folder;
     const std::string fifo = (folder / "pipe.obj").string();
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
-    CHECK(message(fifo) == fifo + ": cannot read: not a regular file"); // at once, although nobody writes into it
+    CHECK(message(fifo) == fifo + ": cannot read: not a regular file"); // at once, although there is no writer
     const fs::path endless = folder / "endless.ply";
     fs::create_symlink("/dev/zero", endless);
     CHECK(message(endless) == endless.string() + ": cannot read: not a regular file");
@@ -42,7 +42,7 @@ TEST_CASE("only regular files are read, and only up to the size limit")
     CHECK(voile::engine::load_mesh(fifo).error().message == message(fifo));
 
     const fs::path large = folder.write("large.obj", "v");
-    fs::resize_file(large, uint64_t{1} << 40); // a hole
+    fs::resize_file(large, uint64_t{1} << 40); // sparse
     CHECK(message(large) == large.string() + ": cannot read: larger than 4096 MiB");
     const fs::path small = folder.write("small.obj", std::string(3 << 20, 'x'));
     CHECK(message(small, 2 << 20) == small.string() + ": cannot read: larger than 2 MiB");
@@ -73,7 +73,7 @@ TEST_CASE("text from a file becomes one printable line")
     CHECK(voile::gpu::printable(std::string(300000, 'x')) == std::string(80, 'x') + "...");
     CHECK(voile::gpu::printable("abc", 3) == "abc");
     CHECK(voile::gpu::printable("abcd", 3) == "abc...");
-    CHECK(voile::gpu::printable("a\xe2\x82\xac", 3) == "a..."); // not within a character
+    CHECK(voile::gpu::printable("a\xe2\x82\xac", 3) == "a..."); // not inside a character
     CHECK(voile::engine::quoted_word("\x1b" + std::string(100, 'w')) == "'?" + std::string(39, 'w') + "...'");
     CHECK(voile::engine::path_text("dir/a\nb.obj") == "dir/a?b.obj");
     const std::string path = voile::engine::path_text(std::string(5000, 'd') + "/b.obj");

@@ -1,4 +1,4 @@
-// The frame loop as a whole: what it costs the host in steady state.
+// The frame loop: its host cost in steady state.
 #include "bench/allocations.hpp"
 
 #include "voile/cloth_component.hpp"
@@ -11,7 +11,7 @@
 
 TEST_CASE("frames after the first few allocate nothing on the heap")
 {
-    // Without validation: the layer's allocations would count.
+    // Without validation: the layer's allocations would be counted.
     voile::engine::App app({.extent = {64, 36}, .headless = true, .timestamps = true});
     auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
     world.collect_statistics = true;
@@ -27,7 +27,7 @@ TEST_CASE("frames after the first few allocate nothing on the heap")
     for (int i = 0; i < 4; ++i) // uploads, both slots, the driver's own first uses
         REQUIRE(app.frame());
     const uint64_t before = bench::allocations();
-    CHECK(before > 0); // it counts
+    CHECK(before > 0); // the counter works
     for (int i = 0; i < 8; ++i)
     {
         deforming.set_positions(ball.positions);

@@ -1,4 +1,4 @@
-// PNG in and out.
+// Reading and writing PNG.
 #include "voile/engine/assets/image_file.hpp"
 
 #include "support/test_folder.hpp"
@@ -13,7 +13,7 @@
 namespace
 {
 
-// Every channel differs from pixel to pixel, the rows too.
+// Every channel differs between pixels and between rows.
 voile::engine::Picture make_picture(uint32_t width, uint32_t height)
 {
     voile::engine::Picture picture{width, height, {}};
@@ -81,7 +81,7 @@ TEST_CASE("a PNG truncated anywhere is refused in one line with a reason")
     const TestFolder folder;
     REQUIRE(voile::engine::save_png(folder / "a.png", make_picture(16, 16)));
     const std::string whole = voile::engine::read_file(folder / "a.png").value();
-    // Nothing in the last twelve bytes, the IEND chunk, says anything about the picture.
+    // The last twelve bytes, the IEND chunk, contain nothing about the picture.
     for (size_t length = 1; length + 12 < whole.size(); ++length)
     {
         CAPTURE(length);
@@ -115,7 +115,7 @@ TEST_CASE("an invalid picture is not saved")
     const std::string path = (folder / "a.png").string();
     CHECK(save_message(path, {}) == path + ": a picture of 0 x 0 pixels cannot be written");
     CHECK(save_message(path, {16385, 1, {}}) == path + ": a picture of 16385 x 1 pixels cannot be written");
-    CHECK(save_message(path, {2, 2, {1, 2, 3}}) == path + ": a picture of 2 x 2 pixels has 3 bytes, needs 4 a pixel");
+    CHECK(save_message(path, {2, 2, {1, 2, 3}}) == path + ": a picture of 2 x 2 pixels has 3 bytes, needs 4 per pixel");
     CHECK(folder.is_empty());
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("a picture that cannot be written leaves nothing behind")
           nowhere + ": cannot be written: there is no folder " + (folder / "gone").string());
     CHECK(folder.is_empty());
 
-    std::filesystem::create_directory(folder / "a.png"); // in the way
+    std::filesystem::create_directory(folder / "a.png"); // occupies the path
     const std::string taken = (folder / "a.png").string();
     CHECK(save_message(taken, picture) == taken + ": cannot be written: it is a folder");
     std::filesystem::remove(folder / "a.png");

@@ -1,4 +1,4 @@
-// OBJ in and out.
+// Reading and writing OBJ.
 #include "voile/engine/assets/obj.hpp"
 
 #include "support/close_to.hpp"
@@ -39,7 +39,7 @@ Loaded load(const std::string& text)
     return loaded;
 }
 
-// What loading says about the text, the file called FILE.
+// The error message for the text, with FILE as the file's name.
 std::string message(const std::string& text)
 {
     const TestFolder folder;
@@ -76,7 +76,7 @@ TEST_CASE("polygons are triangulated, concave ones within their outline")
                                "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12 13\n");
     CHECK(loaded.mesh.triangles.size() == 7);
     CHECK(loaded.report.polygons_triangulated == 3);
-    CHECK(total_area(loaded.mesh) == tests::close_to(2. + 1. + 5., 1e-7)); // more if cut outside
+    CHECK(total_area(loaded.mesh) == tests::close_to(2. + 1. + 5., 1e-7)); // more if triangulated outside the outline
     CHECK(loaded.mesh.normals == std::vector<glm::vec3>(13, {0, 1, 0}));
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("texture coordinates and normals are read in all forms of a corner")
     const Loaded both = load(lists + "f 1/1/1 2/2/1 3/1/1\n");
     CHECK_FALSE(both.report.normals_computed);
     CHECK(both.mesh.texture_coordinates == std::vector<glm::vec2>{{0.5, 0.25}, {1, 0}, {0.5, 0.25}});
-    CHECK(both.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0})); // made unit length
+    CHECK(both.mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0})); // normalized
 
     const Loaded texture = load(lists + "f 1/1 2/2 3/-1\n");
     CHECK(texture.report.normals_computed);
@@ -125,7 +125,7 @@ TEST_CASE("texture coordinates and normals are read in all forms of a corner")
     CHECK(normal.mesh.normals == std::vector<glm::vec3>(3, {1, 0, 0}));
     CHECK(normal.mesh.texture_coordinates == std::vector<glm::vec2>(3, {0, 0}));
 
-    // One corner without a normal, or with one that points nowhere: all are computed.
+    // One corner without a normal, or with one of zero length: all are computed.
     CHECK(load(lists + "f 1//2 2//2 3\n").mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
     CHECK(load(lists + "vn 0 0 0\nf 1//2 2//2 3//3\n").mesh.normals == std::vector<glm::vec3>(3, {0, 1, 0}));
 }
@@ -153,7 +153,7 @@ TEST_CASE(
     "vertices by position are the file's own in its order, whatever texture coordinates and normals the corners have")
 {
     const TestFolder folder;
-    // Two triangles that share an edge but no texture coordinate and no normal; a vertex that nothing uses.
+    // Two triangles that share an edge but no texture coordinate and no normal, and an unused vertex.
     const std::string path =
         folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
                               "vn 0 1 0\nvn 0 0 1\nf 4/1/1 3/2/1 1/3/1\nf 1/1/2 5/2/2 4/3/2\n");
@@ -199,12 +199,12 @@ TEST_CASE("degenerate and duplicate triangles are dropped and counted")
 {
     const Loaded loaded = load(k_triangle + "v 0.5 0 0\nv 0 0 0\n"
                                             "f 1 2 3\n"
-                                            "f 1 4 3\n" // in a line
-                                            "f 1 1 2\n" // a corner twice
-                                            "f 1 5 2\n" // two at one place
+                                            "f 1 4 3\n" // collinear
+                                            "f 1 1 2\n" // a repeated corner
+                                            "f 1 5 2\n" // two corners at one position
                                             "f 2 3 1\n" // the first again
-                                            "f 3 2 1\n" // and turned over
-                                            "f 5 2 3\n" // and with a repeated position
+                                            "f 3 2 1\n" // the first, flipped
+                                            "f 5 2 3\n" // the first with a repeated position
     );
     CHECK(loaded.mesh.triangles.size() == 1);
     CHECK(loaded.report.degenerate_triangles == 3);
@@ -232,7 +232,7 @@ TEST_CASE("computed normals do not depend on the triangulation of a flat face")
 
 TEST_CASE("computed normals of a sphere are close to radial")
 {
-    // save_obj writes no normals; the seam's vertices see one side only, and the poles' a single triangle.
+    // save_obj writes no normals. The seam's vertices see one side only, the poles' a single triangle.
     const TestFolder folder;
     const uint32_t rings = 48;
     REQUIRE(voile::engine::save_obj(folder / "a.obj", voile::engine::make_sphere({0, 0, 0}, 1.f, rings)));
@@ -241,7 +241,7 @@ TEST_CASE("computed normals of a sphere are close to radial")
     REQUIRE(sphere);
     CHECK(report.normals_computed);
     CHECK(report.degenerate_triangles == 0);
-    // A triangle's normal is off by half its size at most, which is pi / 48 across.
+    // A triangle's normal deviates by half its size at most, which is pi / 48 across.
     for (size_t i = 0; i < sphere.value().positions.size(); ++i)
     {
         const glm::vec3 p = sphere.value().positions[i];
@@ -265,7 +265,7 @@ TEST_CASE("an error names the file, the line and the reason")
     CHECK(message("\n\nv 1 2 nan\n") == "FILE:3: coordinate is not finite");
     CHECK(message("v 1 -inf 2\n") == "FILE:1: coordinate is not finite");
     CHECK(message("v 1 1e999 2\n") == "FILE:1: coordinate is not finite");
-    CHECK(message("v 1 1e39 2\n") == "FILE:1: coordinate is not finite"); // no float
+    CHECK(message("v 1 1e39 2\n") == "FILE:1: coordinate is not finite"); // overflows a float
     CHECK(message("vt\n") == "FILE:1: texture coordinate has 0 coordinates, needs 1 to 3");
     CHECK(message("vt 0 0 0 0\n") == "FILE:1: texture coordinate has 4 coordinates, needs 1 to 3");
     CHECK(message("vn 1 0\n") == "FILE:1: normal has 2 coordinates, needs 3");
@@ -372,7 +372,7 @@ TEST_CASE("a mesh that cannot be written leaves nothing behind")
           below_file + ": cannot be written: there is no folder " + (folder / "file").string());
     std::filesystem::remove(folder / "file");
 
-    std::filesystem::create_directory(folder / "a.obj"); // in the way
+    std::filesystem::create_directory(folder / "a.obj"); // occupies the path
     const std::string taken = (folder / "a.obj").string();
     CHECK(voile::engine::save_obj(taken, mesh).error().message == taken + ": cannot be written: it is a folder");
     std::filesystem::remove(folder / "a.obj");
@@ -389,7 +389,7 @@ TEST_CASE("saving replaces the file and leaves nothing else")
     CHECK(folder.is_empty());
 }
 
-// VOILE_TEST_MESHES names a folder of OBJ files from elsewhere; without it there is nothing to test.
+// VOILE_TEST_MESHES names a folder of OBJ files from other sources. Without it there is nothing to test.
 TEST_CASE("meshes of other sources load")
 {
     const char* meshes = std::getenv("VOILE_TEST_MESHES");

@@ -1,4 +1,4 @@
-// PLY in, and the choice between mesh formats.
+// Reading PLY, and the selection of a mesh format.
 #include "voile/engine/assets/ply.hpp"
 
 #include "support/close_to.hpp"
@@ -37,7 +37,7 @@ Loaded load(const std::string& bytes)
     return loaded;
 }
 
-// What loading says about the bytes, the file called FILE.
+// The error message for the bytes, with FILE as the file's name.
 std::string message(const std::string& bytes)
 {
     const TestFolder folder;
@@ -311,8 +311,8 @@ TEST_CASE("an error in an ASCII body names its line")
     CHECK(message(ascii(3, 1, k_triangle + "-3 0 1 2\n")) == "FILE:13: list has -3 values");
     CHECK(message(ascii(3, 1, k_triangle + "3 0 1\n")) == "FILE:13: face has too few values");
     CHECK(message(ascii(3, 1, k_triangle + "4294967295 0 1 2\n")) == "FILE:13: face has too few values");
-    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n3 0 1 2\n")) == "FILE:14: something follows the last face");
-    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n\n \nmore\n")) == "FILE:16: something follows the last face");
+    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n3 0 1 2\n")) == "FILE:14: data follows the last face");
+    CHECK(message(ascii(3, 1, k_triangle + "3 0 1 2\n\n \nmore\n")) == "FILE:16: data follows the last face");
 }
 
 TEST_CASE("a truncated ASCII body is refused")
@@ -336,7 +336,7 @@ TEST_CASE("an error in a binary body names the vertex or face")
           "FILE: vertex 2 of 3: coordinate is not finite");
     CHECK(message(binary(join(std::numeric_limits<float>::infinity(), 0.f, 0.f))) ==
           "FILE: vertex 1 of 3: coordinate is not finite");
-    CHECK(message(binary(k_binary_triangle + face(2) + "x")) == "FILE: something follows the last face");
+    CHECK(message(binary(k_binary_triangle + face(2) + "x")) == "FILE: data follows the last face");
     CHECK(message(binary(k_binary_triangle + face(2) + "\n")) == "accepted");
 }
 

@@ -1,4 +1,4 @@
-// Pictures: what the renderer must show, pixel by pixel where that is exact, and a golden picture of a whole scene.
+// Pictures: the renderer's output, pixel by pixel where it is exact, and a golden picture of a whole scene.
 #include "support/gpu_fixture.hpp"
 #include "support/test_paths.hpp"
 
@@ -62,7 +62,7 @@ int brightness(const glm::ivec3& p)
     return p.r + p.g + p.b;
 }
 
-// Root mean square of the difference of all channels, of 255.
+// Root mean square of the difference of all channels, from 0 to 255.
 double difference(const voile::engine::Picture& a, const voile::engine::Picture& b)
 {
     REQUIRE(a.rgba.size() == b.rgba.size());
@@ -99,10 +99,10 @@ TEST_CASE("the ground fades into the horizon without an edge")
     stage.scene.camera = {.position = {0, 1.5f, 6}, .target = {0, 1.5f, 0}, .fov = 50};
     stage.scene.focus_radius = 2;
     const voile::engine::Picture picture = stage.draw();
-    // Down the middle column around the horizon (row 90), neighbors differ by little.
+    // In the middle column around the horizon (row 90), neighbors differ by little.
     for (uint32_t y = 80; y < 100; ++y)
         CHECK(std::abs(brightness(pixel(picture, 160, y)) - brightness(pixel(picture, 160, y + 1))) < 12);
-    CHECK(pixel(picture, 160, 170) != pixel(picture, 160, 91)); // and it is there
+    CHECK(pixel(picture, 160, 170) != pixel(picture, 160, 91)); // the ground is drawn
 }
 
 TEST_CASE("a sphere is lit from the sun's side, and its shadow falls on the other with a soft edge")
@@ -117,8 +117,8 @@ TEST_CASE("a sphere is lit from the sun's side, and its shadow falls on the othe
     stage.scene.add("ball").add<voile::engine::StaticMesh>(
         stage.uploads, voile::engine::make_sphere({0, 0.5f, 0}, 0.4f), voile::engine::Surface{});
     const voile::engine::Picture picture = stage.draw();
-    // 180 pixels show 3.2 m at the ground: 56 a meter. The ball's center appears at 160; its shadow's at x = -0.5 m,
-    // 132, and reaches 0.4 * sqrt(2) m along x, beyond the ball's own outline.
+    // 180 pixels show 3.2 m at the ground: 56 per meter. The ball's center appears at 160, its shadow's at x = -0.5 m,
+    // 132. The shadow extends 0.4 * sqrt(2) m along x, beyond the ball's own outline.
     CHECK(brightness(pixel(picture, 178, 90)) > brightness(pixel(picture, 146, 90)));
     const int open_ground = brightness(pixel(picture, 40, 90));
     const int shadow = brightness(pixel(picture, 122, 90));
@@ -157,7 +157,7 @@ TEST_CASE("edges are antialiased")
     stage.scene.add("ball").add<voile::engine::StaticMesh>(stage.uploads, voile::engine::make_sphere({0, 1, 0}, 0.5f),
                                                            white);
     const voile::engine::Picture picture = stage.draw();
-    // Where a row runs into the ball there is a pixel that is neither.
+    // Some pixels on the ball's edge have a mixed color.
     int levels = 0;
     for (uint32_t y = 70; y < 110; ++y)
         for (uint32_t x = 1; x + 1 < k_extent.width; ++x)
@@ -173,7 +173,7 @@ TEST_CASE("edges are antialiased")
 namespace
 {
 
-// Draws lines and dots from buffers of its own.
+// Draws lines and dots from its own buffers.
 class Marks : public voile::engine::Component
 {
 public:
@@ -206,7 +206,7 @@ bool is_red(const voile::engine::Picture& picture, uint32_t x, uint32_t y)
     return p.r > 200 && p.g < 60 && p.b < 60;
 }
 
-// A camera that shows the plane z = 0, 90 pixels a meter, its origin in the middle.
+// A camera that shows the plane z = 0 at 90 pixels per meter, its origin in the center.
 void look_at_plane(Stage& stage)
 {
     stage.scene.camera = {.position = {0, 0, 10}, .target = {0, 0, 0}, .fov = 2 * glm::degrees(std::atan(0.1f))};
@@ -233,12 +233,12 @@ TEST_CASE("lines have the given ends and width, and surfaces hide them")
         CHECK_FALSE(is_red(picture, x, 41));
         CHECK_FALSE(is_red(picture, x, 48));
     }
-    CHECK_FALSE(is_red(picture, 60, 45));  // before its beginning
+    CHECK_FALSE(is_red(picture, 60, 45));  // before its start
     CHECK_FALSE(is_red(picture, 220, 45)); // behind the wall
-    // The second comes from behind the camera; the third is wholly behind it and draws nothing.
+    // The second starts behind the camera. The third is entirely behind it and draws nothing.
     CHECK(is_red(picture, 160, 150));
     CHECK_FALSE(is_red(picture, 160, 90));
-    // Directions with a length, moved as a whole.
+    // Directions with a length, with a common transform.
     marks.lines.length = 0.5f;
     marks.lines.count = 1;
     marks.lines.model[3] = {0, -0.5f, 0, 1};
@@ -264,7 +264,7 @@ TEST_CASE("dots are round, have one size, and show only the requested flags")
         const voile::engine::Picture picture = stage.draw();
         CHECK(is_red(picture, 70, 90) == (mask != 2));
         CHECK(is_red(picture, 160, 90) == (mask != 1));
-        CHECK(is_red(picture, 169, 90)); // far away, and as large
+        CHECK(is_red(picture, 169, 90)); // far away, and of the same size
         CHECK(is_red(picture, 173, 90));
         CHECK_FALSE(is_red(picture, 173, 95)); // a corner of its square
         CHECK_FALSE(is_red(picture, 178, 90));
@@ -295,7 +295,7 @@ TEST_CASE("the golden picture")
     const auto expected = voile::engine::load_png(golden);
     REQUIRE(expected);
     // Rounding differs between drivers and moves folds, the more the longer the cloth has buckled: hence 20 frames.
-    // Without the cloth, or all black, the picture is far beyond the tolerance.
+    // Without the cloth, or all black, the picture is far outside the tolerance.
     constexpr double k_tolerance = 2; // an H200 and lavapipe differ by 0.2
     CHECK(difference(picture, expected.value()) < k_tolerance);
     Stage bare;

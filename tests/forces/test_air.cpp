@@ -1,4 +1,4 @@
-// The air: its force on a tilted plate, and the field of the wind and its gusts.
+// Air: its force on a tilted plate, and the field of wind and gusts.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -12,7 +12,7 @@ using tests::ClothHarness;
 
 constexpr voile::Step k_no_gravity{.substeps = 1, .gravity = glm::vec3(0)};
 
-// Vertices that nothing joins and the air drags along: after a short step their velocity is the wind's, times this.
+// Vertices without springs that the air drags along: after a short step their velocity is the wind's, times this.
 constexpr float k_dragged = 1e-3f;
 
 voile::GridCloth dust(uint32_t side, float size)
@@ -31,7 +31,7 @@ voile::GridCloth dust(uint32_t side, float size)
 std::vector<glm::dvec3> wind_over(ClothHarness& harness, voile::ClothId cloth, voile::Step step)
 {
     step.duration = k_dragged;
-    step.time -= 0.5 * static_cast<double>(step.duration); // so that the step is around the time
+    step.time -= 0.5 * static_cast<double>(step.duration); // centers the step on the time
     voile::engine::take(harness.solver.reset(cloth));
     harness.step(step);
     std::vector<glm::dvec3> winds;
@@ -110,7 +110,7 @@ TEST_CASE("gusts have the given strength and depend only on position and time")
     CHECK(glm::distance(mean, glm::dvec3(2, 0, 1)) < 3e-4);
     CHECK(std::sqrt(square) == tests::close_to(0.4 * std::sqrt(5.0), 3.5e-4));
 
-    // Another cloth feels the same where it has vertices, too; and the same again after the wind of another time.
+    // Another cloth feels the same wind at the same positions, also after the wind of another time.
     std::vector<glm::dvec3> shared;
     for (size_t row = 0; row < 129; row += 2)
         for (size_t column = 0; column < 129; column += 2)
@@ -122,7 +122,7 @@ TEST_CASE("gusts have the given strength and depend only on position and time")
     step.time = 12.5;
     CHECK(largest_difference(wind_over(harness, coarse, step), winds_of_coarse) == 0);
 
-    // Waves twice as long make the same field on a cloth twice as large.
+    // Twice the wavelength gives the same field on a cloth of twice the size.
     step.time = 0;
     const std::vector<glm::dvec3> start = wind_over(harness, coarse, step);
     step.gust_length = 8;
@@ -159,12 +159,12 @@ TEST_CASE("RK4 keeps fourth order in gusts, velocity Verlet second order")
 
 TEST_CASE("gusts are as smooth 16 km from the origin as at the origin")
 {
-    // m/s, the largest second difference along rows of vertices 1 cm apart.
-    const auto roughness = [](const glm::vec3& place)
+    // m/s: the largest second difference along rows of vertices 1 cm apart.
+    const auto roughness = [](const glm::vec3& origin)
     {
         ClothHarness harness;
         voile::GridCloth grid = dust(33, 0.32f);
-        grid.transform = tests::moved(place);
+        grid.transform = tests::moved(origin);
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         harness.upload();
         voile::Step step = k_no_gravity;

@@ -1,5 +1,5 @@
-// Fabrics against exact values: a hanging sheet, a falling plate, a catenary, the periods of a hanging chain; and the
-// same fabric on grids of different spacing.
+// Fabrics against exact values: a hanging sheet, a falling plate, a catenary, the periods of a hanging chain. The same
+// fabric on grids of different spacing.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -15,7 +15,7 @@ using tests::ClothHarness;
 
 constexpr double k_gravity = 9.81;
 
-// Hangs in the plane of x and y, its row 0 on top at y = 0, held there.
+// Hangs in the plane of x and y. Its row 0 is pinned on top at y = 0.
 voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, float width, float length, const voile::Fabric& fabric)
 {
     voile::GridCloth grid;
@@ -44,7 +44,7 @@ voile::Fabric still_air(float shear)
     return fabric;
 }
 
-// How much the middle of a hanging sheet's lower edge lies below its length, relative to it.
+// How far the center of a hanging sheet's lower edge lies below the sheet's length, relative to that length.
 double elongation(uint32_t columns, uint32_t rows, float width, float shear)
 {
     voile::Fabric fabric = still_air(shear);
@@ -66,10 +66,10 @@ TEST_CASE("a hanging sheet stretches by rho g L / 2k, on every grid")
     for (const uint32_t side : {5u, 9u, 17u})
     {
         CAPTURE(side);
-        // Positions near 1 m, in float: 6e-8 of 1e-3, and what has not died down after 0.6 s.
+        // Float positions near 1 m: 6e-8 of 1e-3, plus the motion left after 0.6 s.
         CHECK(std::abs(elongation(side, side, 1, 0) / exact - 1) < 2e-3);
     }
-    // With shear stiffness: a strip of square cells, three of them wide, is held in its width only near the top.
+    // With shear stiffness, a strip three square cells wide keeps its width only near the top.
     CHECK(std::abs(elongation(4, 33, 3.f / 32, 300) / exact - 1) < 0.02);
     // The diagonals of cells 1 : 4 alone would be 4 times as stiff.
     CHECK(std::abs(elongation(4, 5, 3.f / 16, 300) / exact - 1) < 0.02);
@@ -98,7 +98,8 @@ TEST_CASE("a plate that falls face on reaches its terminal speed")
         CHECK(exact == tests::close_to(1.58, 0.005));
         for (const glm::vec4& v : harness.velocities(id))
         {
-            CHECK(std::abs(-static_cast<double>(v.y) / exact - 1) < 1e-3); // borders and corners too: it stays flat
+            CHECK(std::abs(-static_cast<double>(v.y) / exact - 1) < 1e-3); // borders and corners too: the plate stays
+                                                                           // flat
             CHECK(std::abs(static_cast<double>(v.x) / exact) < 1e-3);
         }
     }
@@ -123,9 +124,9 @@ TEST_CASE("a strip held at both ends hangs in a catenary")
         grid.width = 1;
         grid.depth = 0.02f;
         grid.material = voile::make_material(fabric, 1.f / 64, 0.02f);
-        tests::raw(grid).linear_drag = 4 * tests::raw(grid).vertex_mass; // 1/s, near critical for its slow swinging
+        tests::raw(grid).linear_drag = 4 * tests::raw(grid).vertex_mass; // 1/s, near critical for its slow swing
         grid.held = {0, 64, 65, 129};
-        // Compressed to its span along x, and tilted a little, or symmetry would keep it on a line.
+        // Compressed to its span along x and tilted slightly: otherwise symmetry would keep it on a line.
         grid.transform[0] = {row.span, 0, 0, 0};
         ClothHarness harness;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -141,8 +142,8 @@ TEST_CASE("a strip held at both ends hangs in a catenary")
 
 TEST_CASE("a hanging strip swings with the periods of a chain")
 {
-    // Started in a mode's shape, J0(j sqrt(s / L)) with s the height above the free end (Daniel Bernoulli 1733), the
-    // strip swings in that mode alone: T = 4 pi sqrt(L / g) / j.
+    // Started in the shape of a mode, J0(j sqrt(s / L)) with s the height above the free end (Daniel Bernoulli 1733),
+    // the strip swings only in that mode: T = 4 pi sqrt(L / g) / j.
     struct Mode
     {
         double root; // of J0
@@ -158,8 +159,8 @@ TEST_CASE("a hanging strip swings with the periods of a chain")
         ClothHarness harness;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         harness.upload();
-        // A wind of the mode's shape cannot be given; a push of all alike excites the modes by known shares, and the
-        // projection onto the mode's shape, by mass, singles it out.
+        // No wind can have the mode's shape. A uniform push excites the modes by known fractions, and the mass-weighted
+        // projection onto the mode's shape isolates the mode.
         const auto shape = [&](uint32_t row)
         { return std::cyl_bessel_j(0, mode.root * std::sqrt(static_cast<double>(48 - row) / 48)); };
         const auto amplitude = [&]
@@ -198,7 +199,8 @@ TEST_CASE("every preset is found by name, is valid, and keeps its stretch and sh
         CHECK(voile::validate(*fabric));
         CHECK(fabric->static_friction >= fabric->kinetic_friction);
         CHECK(fabric->bending_model == voile::BendingModel::isometric);
-        // Shear is not so stiff that structural springs, which leave to the diagonals what these resist, would vanish.
+        // Shear must not be so stiff that the structural springs vanish, because they leave to the diagonals what these
+        // resist.
         const voile::Material material = voile::make_material(*fabric, 0.01f, 0.01f);
         CHECK(material.springs.structural_warp.stiffness > 0);
         CHECK(material.springs.structural_weft.stiffness > 0);

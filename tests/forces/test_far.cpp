@@ -1,4 +1,4 @@
-// Far from the origin, where floats of coordinates are coarse: positions keep what rounding takes away.
+// Far from the origin, where float coordinates are coarse: positions keep what rounding would lose.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -9,7 +9,7 @@
 namespace
 {
 
-// Hangs from its row 0 and has come to rest.
+// Hangs from its row 0, at rest.
 voile::Statistics hanging_cotton(float distance)
 {
     voile::Fabric fabric = voile::cotton();

@@ -1,5 +1,5 @@
-// The membrane of a mesh: stretch and shear of a fabric, whatever the triangles, like a grid's; its direction, its
-// momentum and its energy.
+// The membrane of a mesh: stretch and shear of a fabric on any triangles, like a grid's. Its direction, momentum and
+// energy.
 #include "support/close_to.hpp"
 #include "support/cloth_meshes.hpp"
 #include "support/energy_balance.hpp"
@@ -37,7 +37,7 @@ voile::Fabric soft_in_shear()
     return fabric;
 }
 
-// Inner vertices moved within the plane: a flat square of irregular triangles.
+// A flat square of irregular triangles: inner vertices are moved within the plane.
 ClothMesh unstructured(uint32_t side, float spacing)
 {
     ClothMesh mesh = tests::sheet(side, side, spacing);
@@ -59,7 +59,7 @@ ClothMesh unstructured(uint32_t side, float spacing)
     return mesh;
 }
 
-// N/m, of a patch of cloth under uniform strain: force per width along warp and weft, and of shear.
+// Stress of a patch of cloth under uniform strain, N/m: force per width along warp and weft, and shear.
 struct Stress
 {
     double warp = 0;
@@ -68,7 +68,7 @@ struct Stress
 };
 
 // From the forces of a patch whose vertices are displaced by `strain` (x' = x + strain x) from their start: the sum of
-// force times position over all of them is minus the stress times the area, whatever happens inside (the virial).
+// force times position over all vertices is minus the stress times the area, whatever the inner forces (the virial).
 Stress stress_of(ClothHarness& harness, voile::ClothId id, const glm::mat3& strain, double area)
 {
     constexpr float k_step = 1e-6f;
@@ -97,7 +97,7 @@ glm::mat3 strain_of(float warp, float weft, float shear)
     return strain;
 }
 
-// The stiffness of a strip along the warp that is held in its width, N/m: see make_material.
+// The stiffness of a strip along the warp with a fixed width, N/m: see make_material.
 double held_stiffness(const voile::Fabric& f)
 {
     const auto warp = static_cast<double>(f.stretch_stiffness[0]);
@@ -108,7 +108,7 @@ double held_stiffness(const voile::Fabric& f)
 
 constexpr float k_strain = 1e-3f;
 
-// Strains of 0.1 %: springs are linear to as much.
+// Strains of 0.1 %: springs are linear to that precision.
 void check_moduli(ClothHarness& harness, voile::ClothId id, const voile::Fabric& f, double area)
 {
     const double e = static_cast<double>(k_strain);
@@ -163,13 +163,13 @@ TEST_CASE("warp and weft follow the texture coordinates, or rotate with a mesh t
     const voile::Fabric fabric = soft_in_shear();
     const ClothMesh mesh = unstructured(k_side, k_spacing);
     const double area = std::pow(static_cast<double>(k_spacing) * (k_side - 1), 2);
-    std::vector<glm::vec2> across; // the warp along z, at any scale
+    std::vector<glm::vec2> across; // warp along z, at any scale
     for (const glm::vec3& p : mesh.positions)
         across.emplace_back(-3 * p.z, 5 * p.x);
-    const std::vector<glm::vec2> unusable(mesh.positions.size(), glm::vec2(0)); // as of files without any
+    const std::vector<glm::vec2> unusable(mesh.positions.size(), glm::vec2(0)); // like files without any
     voile::MeshCloth plain = mesh.cloth();
     plain.material = fabric;
-    voile::MeshCloth turned = plain; // x to z
+    voile::MeshCloth turned = plain; // rotated from x to z
     turned.transform[0] = {0, 0, 1, 0};
     turned.transform[2] = {-1, 0, 0, 0};
     voile::MeshCloth textured = plain;
@@ -196,7 +196,7 @@ TEST_CASE("warp and weft follow the texture coordinates, or rotate with a mesh t
 namespace
 {
 
-// A free mesh that is scaled in its plane after it was added: its triangles are squeezed or stretched.
+// A free mesh, scaled in its plane after it was added: its triangles are squeezed or stretched.
 struct Squeezed
 {
     ClothMesh mesh;
@@ -300,14 +300,14 @@ TEST_CASE("a crumpled free mesh conserves momentum and gains no spin")
         CAPTURE(i);
         const tests::Momenta end = tests::momenta_of(harness, subjects[i].id);
         CHECK(glm::length(end.linear) < 3e-7 * moving[i]); // measured: 8e-8
-        // m, measured: 3.4e-5, by the error of RK4 at its longest step; Verlet 1e-8.
+        // m, measured: 3.4e-5, from the error of RK4 at its longest step; Verlet 1e-8.
         CHECK(glm::length(end.angular) < 1e-4 * moving[i]);
     }
 }
 
 TEST_CASE("a mesh of a preset sticks and slips within 1 % of the incline's tangent")
 {
-    // As test_static_friction has it for grids: rounding must not shake stiff triangles by more than a vertex's weight.
+    // Like test_static_friction for grids: rounding must not shake stiff triangles by more than a vertex's weight.
     constexpr double k_angle = 30 * 3.14159265358979 / 180;
     const ClothMesh mesh = unstructured(9, 0.01f);
     const glm::mat4 tilt = glm::rotate(glm::mat4(1.f), static_cast<float>(-k_angle), glm::vec3(0, 0, 1));
@@ -330,7 +330,7 @@ TEST_CASE("a mesh of a preset sticks and slips within 1 % of the incline's tange
         ids.push_back(voile::engine::take(harness.solver.add_cloth(cloth)));
     }
     harness.upload();
-    const auto place = [&](voile::ClothId id)
+    const auto position = [&](voile::ClothId id)
     {
         const auto x = harness.positions(id);
         double sum = 0;
@@ -339,9 +339,9 @@ TEST_CASE("a mesh of a preset sticks and slips within 1 % of the incline's tange
         return sum;
     };
     for (const voile::ClothId id : ids)
-        start.push_back(place(id));
+        start.push_back(position(id));
     harness.step({.duration = 0.05f});
     const double slide = tests::slide_distance(k_angle, 0.99 * std::tan(k_angle), 0.5, 0.05);
-    CHECK(place(ids[0]) - start[0] == tests::close_to(slide, 0.01)); // measured: 2.5e-3
-    CHECK(std::abs(place(ids[1]) - start[1]) < 2e-6 * slide);        // measured: 6.1e-7
+    CHECK(position(ids[0]) - start[0] == tests::close_to(slide, 0.01)); // measured: 2.5e-3
+    CHECK(std::abs(position(ids[1]) - start[1]) < 2e-6 * slide);        // measured: 6.1e-7
 }

@@ -1,6 +1,5 @@
 // Meshes as cloth: one step against the double-precision reference, both list layouts, a triangulated grid against a
-// GridCloth, masses and materials of one's own. What a mesh is told to be, and what it may not be, is in
-// test_mesh_input.cpp.
+// GridCloth, custom masses and materials. test_mesh_input.cpp tests the report of a mesh and the refused meshes.
 #include "reference/mesh_reference.hpp"
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
@@ -21,7 +20,7 @@ voile::Fabric fabric_of(voile::BendingModel model)
 {
     voile::Fabric fabric;
     fabric.stretch_stiffness = {300, 500};
-    // So stiff that bending is as large a part of the forces as stretching is.
+    // So stiff that bending forces are as large as stretching forces.
     fabric.bending_stiffness = model == voile::BendingModel::isometric ? 1e-2f : 1;
     fabric.damping_ratio = 0.1f;
     fabric.air_drag_tangential = 0.2f;
@@ -29,12 +28,12 @@ voile::Fabric fabric_of(voile::BendingModel model)
     return fabric;
 }
 
-// Every fourth vertex of a moving mesh is held: after some steps all springs are stretched and all hinges folded.
+// Every fourth vertex of a moving mesh is pinned: after some steps all springs are stretched and all hinges folded.
 voile::MeshCloth pulled(const ClothMesh& mesh, const voile::ClothMaterial& material)
 {
     voile::MeshCloth cloth = mesh.cloth();
     cloth.transform = tests::tilted();
-    cloth.transform[3] = {0.1f, 0.2f, -0.3f, 1}; // near the origin, where float is finer
+    cloth.transform[3] = {0.1f, 0.2f, -0.3f, 1}; // near the origin, where floats are finer
     cloth.velocity = {0.6f, -0.9f, 0.5f};
     cloth.material = material;
     for (uint32_t i = 1; i < mesh.positions.size(); i += 4)
@@ -67,7 +66,7 @@ struct Run
     std::vector<State> after; // one step later
 };
 
-// All meshes in one solver: 10 ms of motion, then the step.
+// Adds all meshes to one solver: 10 ms of motion, then the step.
 Run one_step(const std::vector<voile::MeshCloth>& meshes, voile::MeshLayout layout)
 {
     voile::SolverOptions options;
@@ -108,19 +107,19 @@ void check_step(const voile::MeshCloth& mesh, const State& before, const State& 
     reference.state = exact(before);
     const auto still = reference.accelerations(reference.state, k_environment);
     reference.step(h, k_environment);
-    // Positions: stored in float, after a step that adds less than a hundredth to them; measured: 0.7 of these.
+    // Positions are stored in float, after a step that adds less than a hundredth to them; measured: 0.7 of the bound.
     CHECK(tests::relative_error(after.x, reference.state.x) < 2 * std::exp2(-24));
-    // Velocities: of each stage's places, differences of stored coordinates, a vertex is pulled by at most omega^2
-    // times their error, and weights and rest lengths in float are off by as much of the edges' length. Both errors are
-    // below 2^-24 of the coordinates; measured: a quarter of the bound.
+    // Velocities: a position error of a stage, from differences of stored coordinates, changes a vertex's acceleration
+    // by at most omega^2 times that error. Weights and rest lengths in float add errors of the same fraction of the
+    // edges' length. Both errors are below 2^-24 of the coordinates; measured: a quarter of the bound.
     const double bound =
         std::exp2(-24) * (largest(reference.state.v) + h * reference.omega_squared() * largest(reference.state.x));
     double error = 0;
     for (size_t i = 0; i < after.v.size(); ++i)
         error = std::max(error, glm::distance(glm::dvec3(after.v[i]), reference.state.v[i]));
     CHECK(error < bound);
-    CHECK(largest(still) > 3 * 9.81);         // inner forces there are (measured: 3.5 g at least),
-    CHECK(bound < 0.05 * h * largest(still)); // and a twentieth of them would show (measured: 0.013)
+    CHECK(largest(still) > 3 * 9.81);         // inner forces exist (measured: at least 3.5 g),
+    CHECK(bound < 0.05 * h * largest(still)); // and an error of a twentieth of them would show (measured: 0.013)
 }
 
 void check_steps(const std::vector<voile::MeshCloth>& meshes)
@@ -144,7 +143,7 @@ void check_fabrics(const std::vector<ClothMesh>& meshes)
     check_steps(cloths);
 }
 
-// How low the middle of the last row hangs.
+// The depth of the last row's center.
 double lowest_middle(ClothHarness& harness, voile::ClothId id, uint32_t columns, uint32_t rows)
 {
     return -static_cast<double>(harness.positions(id)[size_t{columns} * (rows - 1) + columns / 2].y);
@@ -171,14 +170,13 @@ TEST_CASE("a mesh of a raw material has equal springs and equal masses")
     material.vertex_mass = 0.02f;
     material.springs.structural_warp = {80, 0.1f};
     material.springs.bend_warp = {30, 0.05f};
-    material.springs.shear = {1e4f, 0}; // a grid's: has no meaning here
+    material.springs.shear = {1e4f, 0}; // a grid's parameter: unused here
     material.bending_stiffness = 5e-3f;
     material.bending_time = 1e-3f;
     material.linear_drag = 0.1f;
     material.air_drag_normal = 1;
     const ClothMesh open = tests::jittered_sheet(9, 7);
-    const ClothMesh closed =
-        tests::tetrahedron(); // opposite vertices that are an edge's ends, springs across two edges
+    const ClothMesh closed = tests::tetrahedron(); // opposite vertices that share an edge, springs across two edges
     check_steps({pulled(open, material), pulled(closed, material)});
 }
 
@@ -189,7 +187,7 @@ TEST_CASE("a mesh moves according to its given masses")
     for (uint32_t i = 0; i < mesh.positions.size(); ++i)
         cloth.inverse_masses.push_back(i % 5 == 0 ? 0 : 500.f * static_cast<float>(1 + i % 7));
     check_steps({cloth});
-    // Not the material's: these are 2000 to 8000 1/kg.
+    // Different from the material's: these are 2000 to 8000 1/kg.
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(cloth));
     harness.upload();
@@ -209,7 +207,7 @@ TEST_CASE("vertices without a triangle do not move")
     mesh.positions.emplace_back(0.5f, 0.3f, 0.2f);
     mesh.positions.emplace_back(0.6f, 0.3f, 0.2f);
     mesh.positions.emplace_back(0.7f, 0.3f, 0.2f);
-    mesh.triangles.emplace_back(26, 27, 28); // a line: no triangle
+    mesh.triangles.emplace_back(26, 27, 28); // collinear: not a triangle
     for (const bool given : {false, true})
     {
         ClothHarness harness;
@@ -226,25 +224,25 @@ TEST_CASE("vertices without a triangle do not move")
             CHECK(x[i] == glm::vec4(mesh.positions[i], 0));
             CHECK(harness.velocities(id)[i] == glm::vec4(0));
         }
-        CHECK(glm::distance(glm::vec3(x[0]), mesh.positions[0]) > 0.05f); // its triangles do
+        CHECK(glm::distance(glm::vec3(x[0]), mesh.positions[0]) > 0.05f); // it moves with its triangles
         CHECK(harness.statistics().nan_vertices == 0);
     }
 }
 
 TEST_CASE("a triangulated sheet hangs like a grid")
 {
-    // Without shear stiffness, a sheet held by its upper edge stretches by rho g L / 2 K.
+    // Without shear stiffness, a sheet pinned at its upper edge stretches by rho g L / 2 K.
     constexpr uint32_t k_side = 9;
     voile::Fabric fabric;
     fabric.areal_density = 0.2f;
     fabric.shear_stiffness = 0;
     fabric.bending_stiffness = 0;
     fabric.damping_ratio = 1;
-    fabric.air_drag_tangential = 100; // brakes the slow motion, in the sheet's plane
+    fabric.air_drag_tangential = 100; // damps the slow motion in the sheet's plane
     const ClothMesh mesh = tests::sheet(k_side, k_side, 1.f / (k_side - 1));
     voile::MeshCloth cloth = mesh.cloth();
     cloth.material = fabric;
-    cloth.transform[1] = {0, 0, 1, 0}; // z to -y
+    cloth.transform[1] = {0, 0, 1, 0}; // maps z to -y
     cloth.transform[2] = {0, -1, 0, 0};
     voile::GridCloth grid;
     grid.columns = grid.rows = k_side;
@@ -260,15 +258,15 @@ TEST_CASE("a triangulated sheet hangs like a grid")
     harness.upload();
     harness.step({.duration = 0.1f, .air_density = 1000}, 20);
     const double exact = 0.2 * 9.81 / (2 * 1000);
-    // Positions near 1 m in float are known to 6e-8 of 1e-3; measured: 2.7e-5 of both.
+    // Float positions near 1 m are known to 6e-8 of 1e-3; measured: 2.7e-5 of both.
     CHECK(lowest_middle(harness, as_mesh, k_side, k_side) - 1 == tests::close_to(exact, 1.3e-4));
     CHECK(lowest_middle(harness, as_grid, k_side, k_side) - 1 == tests::close_to(exact, 1.3e-4));
 }
 
 TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a grid")
 {
-    // A strip of 3 x 11 vertices 2 cm apart whose first two rows are held. Its deflection by the beam's difference
-    // equation: the curvature at row i is the moment of the rows beyond it over B.
+    // A strip of 3 x 11 vertices 2 cm apart with its first two rows pinned. Its deflection follows from the beam's
+    // difference equation: the curvature at row i is the moment of the rows beyond it over B.
     constexpr uint32_t k_rows = 11;
     constexpr double k_spacing = 0.02;
     voile::Fabric fabric;
@@ -281,7 +279,7 @@ TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a g
     voile::MeshCloth cloth = mesh.cloth();
     cloth.material = fabric;
     cloth.held = {0, 1, 2, 3, 4, 5};
-    cloth.integrator = voile::Integrator::verlet; // the time is not the point here
+    cloth.integrator = voile::Integrator::verlet; // only to save time
     voile::GridCloth grid;
     grid.columns = 3;
     grid.rows = k_rows;
@@ -294,16 +292,16 @@ TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a g
     const voile::ClothId as_mesh = voile::engine::take(harness.solver.add_cloth(cloth));
     const voile::ClothId as_grid = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
-    // Drag against speed squared: enough that it creeps down without swinging, then more of it for the last tenth of a
+    // Drag against speed squared: first enough for a creep without swinging, then more for the last tenth of a
     // millimeter.
     harness.step({.duration = 0.1f, .air_density = 3e3f}, 8);
     harness.step({.duration = 0.1f, .air_density = 2e4f}, 3);
-    REQUIRE(harness.solver.stable_substeps(0.1f) < voile::Step{}.max_substeps); // or it would be softened
+    REQUIRE(harness.solver.stable_substeps(0.1f) < voile::Step{}.max_substeps); // otherwise it would be softened
 
     double w[k_rows] = {};
     for (uint32_t i = 1; i + 1 < k_rows; ++i)
     {
-        double moment = 0; // a meter of width, N
+        double moment = 0; // per meter of width, N
         for (uint32_t j = i + 1; j < k_rows; ++j)
             moment += (j + 1 == k_rows ? 0.5 : 1) * 0.2 * 9.81 * k_spacing * k_spacing * (j - i);
         w[i + 1] = 2 * w[i] - w[i - 1] + k_spacing * k_spacing * moment / 0.04;

@@ -1,5 +1,4 @@
-// Meshes with a triangle that has next to no height: what it costs, that the rest of the cloth does not feel it, and
-// that nothing runs away.
+// Meshes with a triangle of almost no height: its cost, its lack of effect on the rest of the cloth, and stability.
 #include "support/random_cloths.hpp"
 #include "support/sliver_meshes.hpp"
 
@@ -22,7 +21,7 @@ using tests::Sliver;
 constexpr uint32_t k_side = 16;
 constexpr float k_spacing = 1.f / 15;
 
-// Held by its first row.
+// A sheet pinned at its first row.
 voile::MeshCloth sheet_of(const ClothMesh& mesh, const voile::Fabric& fabric, voile::Integrator integrator)
 {
     voile::MeshCloth cloth = mesh.cloth();
@@ -55,7 +54,7 @@ Sheets add_sheets(ClothHarness& harness, const voile::Fabric& fabric, voile::Int
     return sheets;
 }
 
-// Of the sheet's own vertices, how far they are from where those of the plain one are, m: root mean square.
+// The distance of the sheet's own vertices from those of the plain sheet, m: root mean square.
 double distance_to_plain(ClothHarness& harness, const Sheets& sheets, size_t sheet)
 {
     const auto plain = harness.positions(sheets.ids[0]);
@@ -66,7 +65,7 @@ double distance_to_plain(ClothHarness& harness, const Sheets& sheets, size_t she
     return std::sqrt(sum / static_cast<double>(plain.size()));
 }
 
-// Of the plain one's vertices, from where they started.
+// The displacement of the plain sheet's vertices from their start.
 double displacement(ClothHarness& harness, const Sheets& sheets, const glm::mat4& transform)
 {
     const auto x = harness.positions(sheets.ids[0]);
@@ -96,7 +95,7 @@ TEST_CASE("a sliver sets neither the substeps nor the stiffness of its mesh")
             {
                 CAPTURE(i);
                 const voile::Stability stability = harness.solver.stability(sheets.ids[i], step);
-                CHECK(stability.needed < 2.5 * plain); // measured: 2.2; a vertex in the middle of an edge makes it 2
+                CHECK(stability.needed < 2.5 * plain); // measured: 2.2; a vertex on the middle of an edge makes it 2
                 CHECK(stability.stiffness_share == 1);
                 CHECK(harness.solver.mesh_report(sheets.ids[i]).softened_edges >= 3);
                 CHECK(harness.solver.mesh_report(sheets.ids[i]).softened_edges <= 5);
@@ -126,9 +125,9 @@ TEST_CASE("a sheet with a sliver hangs like one without")
 {
     voile::Fabric fabric = voile::cotton();
     fabric.damping_ratio = 0.3f;
-    fabric.air_drag_tangential = 100; // brakes the slow motion, in the sheet's plane
+    fabric.air_drag_tangential = 100; // damps the slow motion in the sheet's plane
     glm::mat4 hanging(1);
-    hanging[1] = {0, 0, 1, 0}; // z to -y
+    hanging[1] = {0, 0, 1, 0}; // maps z to -y
     hanging[2] = {0, -1, 0, 0};
     ClothHarness harness;
     const Sheets sheets = add_sheets(harness, fabric, voile::Integrator::verlet, hanging);
@@ -184,7 +183,7 @@ TEST_CASE("no mesh with slivers blows up, whatever its material and however few 
         voile::Step step = draw_step(draw);
         CAPTURE(step.max_substeps);
         std::vector<double> bounds;
-        for (const voile::ClothId id : ids) // at rest: a mesh's transform is that of its shape at rest
+        for (const voile::ClothId id : ids) // at rest: a mesh's transform gives its rest shape
             bounds.push_back(energy_bound(motion_of(harness, id), 0, step));
         for (int i = 0; i < 30; ++i)
         {

@@ -1,4 +1,4 @@
-// Cloth with fewer substeps than it needs is softened: however it is treated, it gains no energy.
+// Cloth with fewer substeps than it needs is softened and never gains energy.
 #include "support/shots.hpp"
 
 namespace
@@ -12,7 +12,7 @@ constexpr float k_thick = 0.003f; // m, cotton's
 
 } // namespace
 
-// Velocity Verlet with 20 substeps of the 73 that cotton needs, stretched to four times its length; and with few or
+// Velocity Verlet with 20 substeps of the 73 that cotton needs, stretched to four times its length, and with few or
 // most of them.
 TEST_CASE("softened cloth gains no energy when it is shot at an edge")
 {
@@ -33,7 +33,7 @@ TEST_CASE("softened cloth with a strain limit gains no energy when it is shot at
                                            .strain_limit = 0.1f});
 }
 
-// 1 m in 20 substeps of the 116 that silk needs; no damping of its own, in 20 of 68.
+// 1 m of silk in 20 of its 116 substeps, and cloth without damping of its own in 20 of 68.
 TEST_CASE("softened silk and softened undamped cloth gain no energy when they are shot at an edge")
 {
     Shot shot{.vertices = 48, .size = 1, .speed = 40, .thickness = 0.002f, .frames = 8, .stiffness = 1, .substeps = 20};

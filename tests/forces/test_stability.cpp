@@ -1,5 +1,5 @@
-// Stability of both integrators over the whole range of materials: cloths drawn at random, thrown, stretched, crumpled
-// and blown at, in as few substeps as a step may be capped to.
+// Stability of both integrators over the whole range of materials: random cloths, thrown, stretched, crumpled and blown
+// at, in as few substeps as a step allows.
 #include "support/random_cloths.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ voile::GridCloth draw_grid(Draw& draw)
     grid.rows = draw.count(2, 11);
     grid.width = draw.in(0.02f, 5);
     grid.depth = draw.in(0.02f, 5);
-    grid.transform = draw_transform(draw, 0.02f, 4); // crumpled to a fiftieth, stretched to four times
+    grid.transform = draw_transform(draw, 0.02f, 4); // crumpled to a fiftieth or stretched to four times
     grid.velocity = draw.uniform(0, 60) * draw.direction();
     grid.material = draw_any_material(draw);
     grid.integrator = draw_integrator(draw);
@@ -106,8 +106,8 @@ TEST_CASE("no cloth blows up, whatever its material and however few its substeps
 
 TEST_CASE("damping of springs folded into one line is as stable as in a plane")
 {
-    // Flat, the damping of rows and columns acts in two directions; folded into one line in both, twice as strong in
-    // one. Stiffness is along the rows alone, and does not grow.
+    // On a flat sheet the damping of rows and columns acts in two directions. Folded into one line in both directions
+    // it acts twice as strong in one. Stiffness is along the rows only and does not grow.
     ClothHarness harness;
     std::vector<voile::ClothId> ids;
     for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})

@@ -37,9 +37,9 @@ void add_triangle(Soup& soup, const glm::vec3& a, const glm::vec3& b, const glm:
 Soup random_soup(uint32_t count, float size, uint32_t seed)
 {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<float> place(-1, 1);
+    std::uniform_real_distribution<float> coordinate(-1, 1);
     Soup soup{"random " + std::to_string(count), {}, {}};
-    const auto point = [&] { return glm::vec3(place(random), place(random), place(random)); };
+    const auto point = [&] { return glm::vec3(coordinate(random), coordinate(random), coordinate(random)); };
     for (uint32_t i = 0; i < count; ++i)
     {
         const glm::vec3 center = point();
@@ -60,7 +60,7 @@ std::vector<Soup> soups()
         add_triangle(same, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     result.push_back(same);
 
-    Soup shrinking{"sizes from 1 to 1e-30", {}, {}}; // splits one at a time, as deep as a tree can get
+    Soup shrinking{"sizes from 1 to 1e-30", {}, {}}; // splits off one at a time: the deepest possible tree
     for (int i = 0; i < 200; ++i)
     {
         const float s = std::pow(0.7f, static_cast<float>(i));
@@ -108,7 +108,7 @@ uint32_t check_child(const voile::Bvh& bvh, uint32_t child, const glm::vec3& min
     return depth + 1;
 }
 
-// Which nodes are come by, left before right; leaves' triangles must follow each other.
+// The order in which a left-first walk visits nodes. The leaves' triangles must be consecutive.
 void walk(const voile::Bvh& bvh, uint32_t child, std::vector<uint32_t>& order, uint32_t& triangles)
 {
     if ((child & VOILE_BVH_LEAF_BIT) != 0)
@@ -137,7 +137,7 @@ std::optional<voile::RayHit> brute_hit(const Soup& soup, const glm::dvec3& origi
     return best;
 }
 
-// Where a barycentric grid of samples comes nearest: an upper bound that needs no case distinction.
+// The nearest point of a barycentric grid of samples: an upper bound without case distinctions.
 double sampled_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int steps)
 {
     double best = std::numeric_limits<double>::infinity();
@@ -220,7 +220,7 @@ TEST_CASE("the nodes of a hierarchy are in depth-first order")
 TEST_CASE("random rays hit the triangles that brute force finds")
 {
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> place(-1.5, 1.5);
+    std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
     for (const Soup& soup : soups())
     {
         CAPTURE(soup.name);
@@ -228,8 +228,8 @@ TEST_CASE("random rays hit the triangles that brute force finds")
         uint32_t hits = 0;
         for (int i = 0; i < 400; ++i)
         {
-            const glm::dvec3 origin(place(random), place(random), place(random));
-            glm::dvec3 direction(place(random), place(random), place(random));
+            const glm::dvec3 origin(coordinate(random), coordinate(random), coordinate(random));
+            glm::dvec3 direction(coordinate(random), coordinate(random), coordinate(random));
             if (i % 2 == 1) // aimed at a triangle
             {
                 const glm::uvec3& t = soup.triangles[static_cast<size_t>(i) % soup.triangles.size()];
@@ -237,7 +237,7 @@ TEST_CASE("random rays hit the triangles that brute force finds")
                 direction = sum / 3.0 - origin;
             }
             if (i % 8 == 0)
-                direction = {0, i % 16 == 0 ? 1 : -1, 0}; // along an axis: divisions by zero
+                direction = {0, i % 16 == 0 ? 1 : -1, 0}; // along an axis: division by zero
             const double limit = i % 3 == 0 ? 0.4 : 100;
             const auto expected = brute_hit(soup, origin, direction, limit);
             const auto found = voile::nearest_hit(bvh, origin, direction, limit);
@@ -245,7 +245,7 @@ TEST_CASE("random rays hit the triangles that brute force finds")
             if (!expected)
                 continue;
             ++hits;
-            CHECK(found->t == expected->t); // the same arithmetic on the same triangle, or its twin
+            CHECK(found->t == expected->t); // the same arithmetic on the same triangle, or its duplicate
         }
         CHECK(hits > 100);
     }
@@ -254,14 +254,14 @@ TEST_CASE("random rays hit the triangles that brute force finds")
 TEST_CASE("nearest points equal those of brute force")
 {
     std::mt19937 random(4);
-    std::uniform_real_distribution<double> place(-1.5, 1.5);
+    std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
     for (const Soup& soup : soups())
     {
         CAPTURE(soup.name);
         const voile::Bvh bvh = voile::build_bvh(soup.positions, soup.triangles);
         for (int i = 0; i < 100; ++i)
         {
-            const glm::dvec3 p(place(random), place(random), place(random));
+            const glm::dvec3 p(coordinate(random), coordinate(random), coordinate(random));
             double expected = std::numeric_limits<double>::infinity();
             for (const glm::uvec3& t : soup.triangles)
                 expected = std::min(expected, voile::nearest_on_triangle(p, soup.positions[t.x], soup.positions[t.y],
@@ -278,8 +278,8 @@ TEST_CASE("nearest points equal those of brute force")
 TEST_CASE("the nearest point of a triangle is nearer than any sample, by at most the samples' spacing")
 {
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> place(-1, 1);
-    const auto point = [&] { return glm::dvec3(place(random), place(random), place(random)); };
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto point = [&] { return glm::dvec3(coordinate(random), coordinate(random), coordinate(random)); };
     std::array<int, 7> features{};
     for (int i = 0; i < 300; ++i)
     {
@@ -303,10 +303,11 @@ TEST_CASE("the signed distance of a sphere's mesh is right inside and outside, w
 {
     const glm::vec3 center(0.3f, -0.2f, 0.5f);
     voile::engine::Mesh mesh = voile::engine::make_sphere(center, 1, 48);
-    // A chord of a band of 1/48 of half a turn lies 1 - cos(pi / 96) inside the sphere; squares of bands twice that.
+    // A chord of a band of 1/48 of half a turn lies 1 - cos(pi / 96) inside the sphere, the squares of bands twice
+    // that.
     const double sagitta = 2 * (1 - std::cos(3.14159265358979 / 96)) + 1e-6;
     std::mt19937 random(6);
-    std::uniform_real_distribution<double> place(-2, 2);
+    std::uniform_real_distribution<double> coordinate(-2, 2);
     for (const bool inside_out : {false, true})
     {
         if (inside_out)
@@ -317,7 +318,7 @@ TEST_CASE("the signed distance of a sphere's mesh is right inside and outside, w
         CHECK(distance.value().closed());
         for (int i = 0; i < 500; ++i)
         {
-            const glm::dvec3 p(place(random), place(random), place(random));
+            const glm::dvec3 p(coordinate(random), coordinate(random), coordinate(random));
             const double exact = glm::distance(p, glm::dvec3(center)) - 1;
             const double found = distance.value().nearest(p).signed_distance;
             CHECK(found >= exact - 1e-6);
@@ -351,18 +352,19 @@ TEST_CASE("an open bowl has no inside, a closed sphere has")
     std::erase_if(sphere.triangles, [&](const glm::uvec3& t) { return sphere.positions[t.x].y > 0.6f; });
     const voile::MeshDistance bowl = voile::engine::take(voile::MeshDistance::create(collider(sphere)));
     CHECK_FALSE(bowl.has_sides());
-    // Without the cap above y = 0.6, which takes (1 - 0.6) / 2 of the directions from the center, give or take a band.
+    // The cap above y = 0.6 is missing. It covers (1 - 0.6) / 2 of the directions from the center, plus or minus a
+    // band.
     CHECK(bowl.winding_number({0, 0, 0}) == tests::close_to(0.8, 0.1));
     CHECK(bowl.winding_number({0, -0.9, 0}) > 0.8);
     CHECK(bowl.winding_number({0.7, -0.9, 0}) < 0.1);       // past the surface, within the box
-    CHECK(std::abs(bowl.winding_number({0, 9, 0})) < 0.01); // it is open there
+    CHECK(std::abs(bowl.winding_number({0, 9, 0})) < 0.01); // the opening is there
 }
 
 TEST_CASE("intersecting triangles are counted in pairs, neighbors are not")
 {
     const std::vector<glm::vec3> positions{{0, 0, 0},        {1, 0, 0},       {0, 0, 1},
                                            {1, 0, 1},                                          // a square, y = 0
-                                           {0.2f, -1, 0.2f}, {0.3f, 1, 0.2f}, {0.2f, 1, 0.3f}, // stabs its half
+                                           {0.2f, -1, 0.2f}, {0.3f, 1, 0.2f}, {0.2f, 1, 0.3f}, // pierces one half
                                            {5, 0, 0},        {6, 0, 0},       {5, 0, 1}};      // far away
     const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
     CHECK(voile::count_self_intersections(positions, triangles) == 1);

@@ -1,4 +1,4 @@
-// Welding and closedness against definitions written down without regard to speed.
+// Welding and closedness against definitions that are written without regard to speed.
 #include "geometry/closedness.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
@@ -24,7 +24,7 @@ Triangles tetrahedron()
     return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-// Every corner a vertex of its own.
+// Every corner is a separate vertex.
 Triangles torn_apart(const Triangles& mesh)
 {
     Triangles result;
@@ -71,10 +71,10 @@ bool is_closed(const Triangles& mesh)
 TEST_CASE("vertices are welded to the first one at their position, with 0 equal to -0")
 {
     std::mt19937 random(1);
-    std::uniform_int_distribution<int> place(-3, 3);
+    std::uniform_int_distribution<int> coordinate(-3, 3);
     std::vector<glm::vec3> positions;
     for (int i = 0; i < 2000; ++i)
-        positions.push_back(0.25f * glm::vec3(place(random), place(random), place(random)));
+        positions.push_back(0.25f * glm::vec3(coordinate(random), coordinate(random), coordinate(random)));
     positions.emplace_back(-0.f, 0.f, -0.f);
     positions.emplace_back(1e30f, -1e-38f, 0.f);
     CHECK(voile::weld(positions) == welded_by_search(positions));

@@ -1,4 +1,4 @@
-// What the solver tells of a mesh that is a cloth, and the meshes that it refuses.
+// The solver's report of a cloth mesh, and the meshes that it refuses.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/cloth_meshes.hpp"
@@ -20,7 +20,7 @@ voile::MeshReport report_of(const ClothMesh& mesh)
     return harness.solver.mesh_report(voile::engine::take(harness.solver.add_cloth(mesh.cloth())));
 }
 
-// All counts are 0 unless a test says otherwise.
+// All counts are 0 unless a test states otherwise.
 void check(const voile::MeshReport& found, const voile::MeshReport& expected)
 {
     CHECK(found.components == expected.components);
@@ -73,7 +73,7 @@ TEST_CASE("the report of a mesh counts pieces, borders and irregularities")
     SUBCASE("triangles without area, one with vertices that others use")
     {
         ClothMesh mesh = tests::sheet(3, 2, 0.1f);
-        mesh.triangles.emplace_back(0, 1, 2); // on one line
+        mesh.triangles.emplace_back(0, 1, 2); // collinear
         mesh.triangles.emplace_back(3, 3, 4);
         mesh.positions.emplace_back(1, 1, 1);
         mesh.triangles.emplace_back(6, 6, 6);
@@ -109,8 +109,8 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is u
     line.triangles = {{0, 1, 2}, {1, 1, 2}};
     ClothMesh broken_index = good;
     broken_index.triangles[2].y = 9;
-    ClothMesh broken_place = good;
-    broken_place.positions[4].z = k_nan;
+    ClothMesh broken_position = good;
+    broken_position.positions[4].z = k_nan;
     struct Case
     {
         voile::MeshCloth mesh;
@@ -120,7 +120,7 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is u
         {{.positions = good.positions}, "the mesh has no triangles"},
         {line.cloth(), "none of its 2 triangles has an area"},
         {broken_index.cloth(), "triangle 2 refers to position 9 of 9"},
-        {broken_place.cloth(), "position 4 is not finite"},
+        {broken_position.cloth(), "position 4 is not finite"},
     };
     const auto add = [&](const std::string& message, const std::function<void(voile::MeshCloth&)>& spoil)
     {
@@ -152,7 +152,7 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is u
         CHECK(harness.solver.vertex_count() == 9);
         CHECK(harness.solver.triangle_count() == 8);
     }
-    harness.upload(); // and what was there still works
+    harness.upload(); // existing objects still work
     harness.step({}, 2);
     CHECK(harness.statistics().nan_vertices == 0);
 }

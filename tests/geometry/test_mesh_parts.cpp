@@ -1,4 +1,4 @@
-// Parts of meshes: what hangs together, what lies in what, and which parts are turned.
+// Parts of meshes: connectivity, nesting, and the parts that are flipped.
 #include "colliders/mesh_input.hpp"
 #include "geometry/closedness.hpp"
 #include "geometry/mesh_parts.hpp"
@@ -17,7 +17,7 @@
 namespace
 {
 
-// A ball of a mesh, and whether it is inside-out in it.
+// A ball of a mesh, and whether it is inside-out.
 struct Part
 {
     glm::vec3 center{0.f};
@@ -57,7 +57,7 @@ double volume_of(const voile::engine::Mesh& mesh, size_t first, size_t last)
     return sum;
 }
 
-// One letter a part: o if it ends up facing outwards, i if inwards.
+// One letter per part: o if it ends up facing outward, i if inward.
 std::string faces(const std::vector<Part>& parts)
 {
     voile::engine::Mesh mesh = mesh_of(parts);
@@ -69,7 +69,7 @@ std::string faces(const std::vector<Part>& parts)
     return result;
 }
 
-// The same in an order of its own.
+// Reorders the same triangles and vertices.
 void shuffle(voile::engine::Mesh& mesh, uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -117,7 +117,7 @@ TEST_CASE("triangles that share a vertex or its position are one part")
 
     voile::engine::Mesh tips = voile::engine::make_box(glm::vec3(0), glm::vec3(1));
     const voile::engine::Mesh other =
-        voile::engine::make_box(glm::vec3(1), glm::vec3(2)); // a corner is the first one's
+        voile::engine::make_box(glm::vec3(1), glm::vec3(2)); // a corner is shared with the first
     const auto first = static_cast<uint32_t>(tips.positions.size());
     tips.positions.insert(tips.positions.end(), other.positions.begin(), other.positions.end());
     for (const glm::uvec3& t : other.triangles)
@@ -136,7 +136,7 @@ TEST_CASE("a part lies in another only if all of it does")
     CHECK(enclosing({{k_left}, {k_right}}) == Lists{{}, {}});
     CHECK(enclosing({{{}, 3}, {{}, 2}, {{}, 1}}) == Lists{{}, {0}, {0, 1}});
     CHECK(enclosing({{{}, 1}, {{}, 3, true}, {{}, 2}}) == Lists{{1, 2}, {}, {1}});
-    CHECK(enclosing({{{}, 3}, {{2.5f, 0, 0}}}) == Lists{{}, {}});             // cut each other
+    CHECK(enclosing({{{}, 3}, {{2.5f, 0, 0}}}) == Lists{{}, {}});             // intersecting
     CHECK(enclosing({{{}, 3}, {{2.1f, 2.1f, 0}, 0.5f}}) == Lists{{}, {}});    // in its box, and pokes out
     CHECK(enclosing({{{}, 3}, {{1.9f, 1.9f, 1.9f}, 0.5f}}) == Lists{{}, {}}); // in its box, and beside it
     CHECK(enclosing({{{}, 3}, {{1.3f, 1.3f, 1.3f}, 0.2f}}) == Lists{{}, {0}});
@@ -152,14 +152,14 @@ TEST_CASE("inside-out parts are flipped, and cavities are kept")
     CHECK(faces({{k_left, 1, true}, {o}, {k_right, 1, true}}) == "ooo");
     CHECK(faces({{o, 2}, {o, 1, true}}) == "oi"); // hollow
     CHECK(faces({{o, 1, true}, {o, 2}}) == "io");
-    CHECK(faces({{o, 2, true}, {o, 1}}) == "oi");                // hollow, and all of it inside-out
+    CHECK(faces({{o, 2, true}, {o, 1}}) == "oi");                // hollow, entirely inside-out
     CHECK(faces({{o, 2}, {o, 1}}) == "oo");                      // solid in solid
-    CHECK(faces({{o, 2, true}, {o, 1, true}}) == "oo");          // likewise
+    CHECK(faces({{o, 2, true}, {o, 1, true}}) == "oo");          // the same, both inside-out
     CHECK(faces({{o, 3}, {o, 2, true}, {o, 1, true}}) == "oio"); // inside-out in a cavity
     CHECK(faces({{o, 3}, {o, 2, true}, {o, 1}}) == "oio");
     CHECK(faces({{o, 3, true}, {o, 2}, {o, 1, true}}) == "oio");
     CHECK(faces({{o, 2}, {o, 1, true}, {2.f * k_right, 1, true}}) == "oio");
-    CHECK(faces({{o, 2}, {{1.9f, 0, 0}, 1, true}}) == "oo"); // half outside: no cavity
+    CHECK(faces({{o, 2}, {{1.9f, 0, 0}, 1, true}}) == "oo"); // half outside: not a cavity
 }
 
 TEST_CASE("the flipped parts do not depend on positions, sizes and orders")
@@ -196,7 +196,7 @@ TEST_CASE("distances have the signs of the parts")
         CHECK(std::abs(distance.winding_number({-3, 0, 0})) < 1e-9);
         CHECK(distance.winding_number({3, 0, 0}) == tests::close_to(1, 1e-9));
     }
-    mesh.triangles.pop_back(); // one part is open now: so is the whole, and nothing is turned
+    mesh.triangles.pop_back(); // one part is open now, so the whole mesh is, and nothing is flipped
     const voile::MeshDistance distance = distance_to(mesh, false);
     CHECK_FALSE(distance.closed());
     CHECK_FALSE(distance.has_sides());

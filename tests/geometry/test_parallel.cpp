@@ -1,4 +1,4 @@
-// Sharing out work among threads.
+// Dividing work among threads.
 #include "geometry/parallel.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ TEST_CASE("every piece of a range is processed once, by any number of threads")
         {
             CAPTURE(count);
             CAPTURE(threads);
-            std::vector<int> done(count); // one writer an entry
+            std::vector<int> done(count); // one writer per entry
             std::atomic<bool> aligned = true;
             voile::parallel_for(
                 count, 100,

@@ -1,4 +1,4 @@
-// Energy balance: the total energy of a cloth never exceeds what it had at the start and what the world put into it.
+// Energy balance: the total energy of a cloth never exceeds its initial energy plus the work done on it.
 #include "support/energy_balance.hpp"
 #include "support/random_cloths.hpp"
 
@@ -23,8 +23,8 @@ voile::Fabric fabric(float density, float stiffness, float shear, float damping_
     return f;
 }
 
-// A free square of n x n vertices and 1 m, scaled in its plane, each vertex a little aside: nothing vanishes by
-// symmetry.
+// A free square of n x n vertices and 1 m, scaled in its plane, each vertex slightly displaced: symmetry cancels
+// nothing.
 voile::GridCloth scaled_sheet(uint32_t n, float scale, const voile::Fabric& material, Integrator integrator)
 {
     voile::GridCloth grid;
@@ -81,7 +81,7 @@ void add(ClothHarness& harness, std::vector<Subject>& subjects)
 
 TEST_CASE("squeezed and stretched cloth never exceeds its initial energy")
 {
-    // Without damping there is nothing but the integrator to keep them from heating up.
+    // Without damping, only the integrator keeps them from gaining energy.
     std::vector<Subject> subjects;
     for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
         for (const float damping : {0.f, 0.002f, 0.005f})
@@ -159,7 +159,7 @@ TEST_CASE("a strain limit adds no energy to cotton that falls on a sphere")
     CHECK(worst < 0.05); // measured: 0.033 with 0.1 %, 0.030 with 1 %
     for (const Subject& s : subjects)
     {
-        CHECK(s.most < 1.0002 * s.start); // unguarded, the limit made it 1.26 times as much
+        CHECK(s.most < 1.0002 * s.start); // unguarded, the limit gave 1.26 times the energy
         CHECK(s.last < 0.7 * s.start);
     }
 }
@@ -207,15 +207,15 @@ TEST_CASE("cloth between pins too far apart comes to rest, whatever its tethers 
     for (size_t i = 0; i < subjects.size(); ++i)
     {
         CAPTURE(i);
-        CHECK(subjects[i].most < 1.0001 * subjects[i].start);  // snapped back by tethers: 15 times as much
-        CHECK(kinetic_energy(harness, subjects[i].id) < 1e-3); // J, of 10 J; snapped back, 17 J
+        CHECK(subjects[i].most < 1.0001 * subjects[i].start);  // tethers that snap back: 15 times as much
+        CHECK(kinetic_energy(harness, subjects[i].id) < 1e-3); // J, of 10 J; 17 J after snapping back
     }
 }
 
 namespace
 {
 
-// J, since the cloth was in the origin's plane.
+// J, relative to the cloth in the origin's plane.
 double work_of_gravity(ClothHarness& harness, voile::ClothId id)
 {
     double work = 0;
@@ -235,7 +235,7 @@ TEST_CASE("cloth squeezed between two capsules comes to rest")
         grid.columns = grid.rows = 7;
         grid.width = grid.depth = 0.28f;
         voile::Fabric fabric = voile::denim();
-        fabric.bending_stiffness = 8.06e-5f; // as it was found with
+        fabric.bending_stiffness = 8.06e-5f; // the value that showed the fault
         grid.material = fabric;
         grid.integrator = integrator;
         grid.transform[0] /= 6;
@@ -248,7 +248,7 @@ TEST_CASE("cloth squeezed between two capsules comes to rest")
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         harness.upload();
         harness.step({}, 120);
-        // J, of 65 J at the start; measured: 8e-4 and 1.5e-3. It may have slipped out between them, and fall.
+        // J, of 65 J at the start; measured: 8e-4 and 1.5e-3. It may have slipped out from between them and fall.
         CHECK(kinetic_energy(harness, id) - work_of_gravity(harness, id) < 3e-3);
     }
 }

@@ -1,5 +1,5 @@
-// Energy balance over random cloths: only colliders and pins at rest and still air act on them, so that none may ever
-// have more energy than at its start.
+// Energy balance over random cloths: only static colliders, static pins and still air act on them, so none may ever
+// exceed its initial energy.
 #include "support/energy_balance.hpp"
 #include "support/random_cloths.hpp"
 
@@ -39,10 +39,10 @@ struct Subject
 {
     std::string text;
     voile::ClothId id{};
-    bool decays = false;  // it is damped and starts with springs that are not at rest
-    double stiffness = 1; // what the step leaves of it
-    double scale = 0; // J, what it has at the start, against rest on the ground or as far below its pins as it is long
-    double start = 0; // J
+    bool decays = false;  // it is damped and starts with strained springs
+    double stiffness = 1; // fraction that the step leaves of it
+    double scale = 0;     // J, initial energy relative to rest on the ground, or as far below its pins as it is long
+    double start = 0;     // J
     double most = 0;
     double last = 0;
     std::function<double(ClothHarness&, const Subject&)> energy;
@@ -57,8 +57,8 @@ std::function<double(ClothHarness&, const Subject&)> measure(Reference reference
     { return tests::energy_of(harness, s.id, *kept, glm::dvec3(0, -9.81, 0)); };
 }
 
-// Where a cloth starts: above what stands on the ground.
-glm::mat4 draw_place(Draw& draw, float scale)
+// The start of a cloth: above the colliders on the ground.
+glm::mat4 draw_start(Draw& draw, float scale)
 {
     glm::mat4 transform = draw.chance(0.5) ? tests::tilted() : glm::mat4(1);
     transform[0] *= scale;
@@ -102,7 +102,7 @@ Subject add_grid(ClothHarness& harness, Draw& draw, const voile::Step& step)
     const voile::Fabric fabric = draw_moderate_fabric(draw);
     grid.material = fabric;
     const float scale = draw_scale(draw);
-    grid.transform = draw_place(draw, scale);
+    grid.transform = draw_start(draw, scale);
     grid.integrator = tests::draw_integrator(draw);
     if (draw.chance(0.4))
         grid.held = {0, grid.columns - 1};
@@ -125,7 +125,7 @@ Subject add_mesh(ClothHarness& harness, Draw& draw, const voile::Step& step, con
     voile::MeshCloth mesh = shape.cloth();
     const voile::Fabric fabric = draw_moderate_fabric(draw);
     mesh.material = fabric;
-    mesh.transform = draw_place(draw, 1);
+    mesh.transform = draw_start(draw, 1);
     mesh.integrator = tests::draw_integrator(draw);
     mesh.velocity = draw.chance(0.3) ? 3.f * draw.direction() : glm::vec3(0);
     Subject s;
@@ -184,7 +184,7 @@ void run_cloths(uint32_t seed, uint32_t cloths, uint32_t frames)
     }
 }
 
-// More of them by hand: VOILE_ENERGY_SEEDS=first,last.
+// More seeds by hand: VOILE_ENERGY_SEEDS=first,last.
 std::optional<std::array<uint32_t, 2>> seeds_by_hand()
 {
     const char* seeds = std::getenv("VOILE_ENERGY_SEEDS");
@@ -277,7 +277,7 @@ voile::GridCloth draw_distorted_grid(Draw& draw)
     return grid;
 }
 
-// Neighbors resist with 6 N/m, vertices two apart with 25,000: what the limit shortens the others pay for.
+// Neighbors resist with 6 N/m, vertices two apart with 25,000: shortening the former compresses the latter.
 voile::GridCloth stiff_against_bending(const glm::mat4& transform)
 {
     voile::Material m;
@@ -294,7 +294,7 @@ voile::GridCloth stiff_against_bending(const glm::mat4& transform)
     return grid;
 }
 
-// Threads of one direction alone: their modes take up all of what substeps are made for.
+// Threads of one direction only: their modes take up the whole stability limit.
 voile::GridCloth threads(float warp, float weft, voile::Integrator integrator)
 {
     voile::Fabric f;
@@ -334,7 +334,7 @@ TEST_CASE("threads of one direction keep velocity Verlet within its stability li
 
 TEST_CASE("undamped cloth far from its rest shape never exceeds its initial energy under Verlet")
 {
-    std::vector<uint32_t> seeds{9, 14, 16, 26, 33, 71}; // with a third of the viscosity up to 4.7 times
+    std::vector<uint32_t> seeds{9, 14, 16, 26, 33, 71}; // up to 4.7 times with a third of the viscosity
     if (const auto by_hand = seeds_by_hand())
     {
         seeds.resize(1 + (*by_hand)[1] - (*by_hand)[0]);

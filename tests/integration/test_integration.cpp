@@ -1,5 +1,5 @@
-// RK4 on the GPU: against the double-precision reference at awkward sizes, its order, free fall, held vertices, many
-// cloths, and equality of two runs to the bit.
+// RK4 on the GPU: against the double-precision reference at awkward sizes, its order, free fall, pinned vertices, many
+// cloths, and two runs equal to the bit.
 #include "reference/cloth_reference.hpp"
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
@@ -12,7 +12,7 @@ namespace
 
 using tests::ClothHarness;
 
-// Every spring stretched or compressed, and no two families alike.
+// Every spring is stretched or compressed, each family differently.
 voile::GridCloth uneven_sheet(uint32_t columns, uint32_t rows)
 {
     voile::GridCloth grid = tests::stretched_sheet(columns, rows);
@@ -36,7 +36,7 @@ TEST_CASE("one step equals the double-precision reference at awkward sizes")
         uint32_t columns;
         uint32_t rows;
     };
-    // 4, 63, 64, 65, 1234 and 16384 vertices, and strips as narrow as a grid can be.
+    // 4, 63, 64, 65, 1234 and 16384 vertices, and strips of the smallest width.
     const Size sizes[] = {{2, 2}, {9, 7}, {8, 8}, {13, 5}, {617, 2}, {2, 617}, {128, 128}};
     for (const Size& size : sizes)
     {
@@ -52,9 +52,9 @@ TEST_CASE("one step equals the double-precision reference at awkward sizes")
         harness.step({.duration = k_step, .substeps = 1, .wind = {1, 0.5f, -2}});
         reference.step(k_step, {.wind = {1, 0.5, -2}});
 
-        // Positions: stored in float, so half an ulp of coordinates of size |x| each, twice (upload and result).
+        // Positions are stored in float: half an ulp of coordinates of size |x| each, twice (upload and result).
         CHECK(tests::relative_error(harness.positions(id), reference.state.x) < 4 * std::exp2(-24));
-        // Velocities: what the step adds is a sum of 16 spring forces whose elongation l - L loses |x| / (l - L) of its
+        // Velocities: a step adds the sum of 16 spring forces. Their elongation l - L loses |x| / (l - L) of its
         // relative accuracy to cancellation: coordinates of 2 m and more against elongations near 5 mm.
         double added = 0;
         double size_of_v = 0;
@@ -81,7 +81,7 @@ TEST_CASE("a short trajectory follows the reference")
     harness.step({.duration = 0.05f, .substeps = 50}, 2);
     for (int i = 0; i < 100; ++i)
         reference.step(1e-3, {});
-    // 100 steps of rounding at 2^-24 of meters, amplified by the motion's own divergence, which is mild over 0.1 s.
+    // Rounding of 100 steps at 2^-24 of meters, amplified by the motion's own divergence, which is mild over 0.1 s.
     CHECK(tests::relative_error(harness.positions(id), reference.state.x) < 100 * std::exp2(-24));
     const auto x = harness.positions(id);
     CHECK(x[0].y == tests::close_to(reference.state.x[0].y, 1e-7));
@@ -110,7 +110,7 @@ TEST_CASE("internal damping does not affect free fall")
 
 TEST_CASE("a spring pair swings with period 2 pi sqrt(m / 2 k)")
 {
-    // A 2 x 2 grid with springs along rows only is two pairs. Stretched by 5 % and let go without gravity.
+    // A 2 x 2 grid with springs only along rows is two pairs. They start 5 % stretched, without gravity.
     voile::GridCloth grid;
     grid.columns = grid.rows = 2;
     grid.transform[0] *= 1.05f;
@@ -131,7 +131,7 @@ TEST_CASE("a spring pair swings with period 2 pi sqrt(m / 2 k)")
 
 TEST_CASE("the error falls with the fourth power of the step")
 {
-    // The same pair with a large amplitude, so that truncation stands far above float rounding.
+    // The same pair with a large amplitude, so that truncation errors far exceed float rounding.
     voile::GridCloth grid;
     grid.columns = grid.rows = 2;
     grid.width = 1;
@@ -141,7 +141,7 @@ TEST_CASE("the error falls with the fourth power of the step")
     tests::raw(grid).springs.structural_warp = {50, 0};
     const double omega = std::sqrt(2 * 50.0);
     const double t = 1;
-    std::vector<double> errors; // in phase space, where amplitude and phase errors cannot cancel
+    std::vector<double> errors; // in phase space, where errors of amplitude and phase cannot cancel
     for (const uint32_t substeps : {20u, 40u, 80u})
     {
         ClothHarness harness;
@@ -239,12 +239,12 @@ TEST_CASE("normals of a folded sheet are the cross products of its central diffe
             const glm::dvec3 along_column = at(std::min(row + 1, 16u), column) - at(row == 0 ? 0 : row - 1, column);
             const glm::dvec3 expected = glm::normalize(glm::cross(along_column, along_row));
             const glm::dvec3 found(normals[size_t{row} * 23 + column]);
-            // Differences of coordinates near 2 m over 5 cm or less, in float.
+            // Differences of float coordinates near 2 m over 5 cm or less.
             CHECK(glm::distance(found, expected) < 16 * std::exp2(-24) * 2 / 0.05);
             straightest = std::min(
                 straightest, glm::dot(expected, glm::normalize(glm::cross(at(1, 0) - at(0, 0), at(0, 1) - at(0, 0)))));
         }
-    CHECK(straightest < 0.9); // it is curved
+    CHECK(straightest < 0.9); // the sheet is curved
 }
 
 TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for one")
@@ -269,7 +269,7 @@ TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for
             const auto count = [&]
             {
                 harness.upload();
-                harness.step(step); // from then on without edits
+                harness.step(step); // no edits from the second step on
                 uint32_t dispatches = 0;
                 harness.run(
                     [&](VkCommandBuffer cmd)
@@ -281,7 +281,7 @@ TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for
                 CHECK(dispatches == harness.solver.dispatches(step));
                 return dispatches;
             };
-            for (int i = 0; everything && i < 9; ++i) // enough for lists of those near; they have edges, but far away
+            for (int i = 0; everything && i < 9; ++i) // enough for near lists; they have edges, but far away
                 (void)voile::engine::take(
                     harness.solver.add_collider(voile::BoxCollider{.min = {9, 9, 9}, .max = {10, 10, 10}}));
             add();

@@ -54,7 +54,7 @@ double largest_difference(const std::vector<glm::vec4>& a, const std::vector<glm
     return result;
 }
 
-// Two masses on a spring, twice; stretched along x and let go. `apart` is 1 m at rest.
+// Two masses on a spring, twice. They start stretched along x. `apart` is 1 m at rest.
 voile::GridCloth pairs(float stretch, float mass, voile::Spring spring)
 {
     voile::GridCloth grid;
@@ -73,7 +73,7 @@ struct Swing
     double rate;   // m/s
 };
 
-// The pair in the w of its spring after `duration` seconds in `substeps`, in one step.
+// The state of the pair in its spring after `duration` seconds in `substeps`, in one step.
 Swing swing(const voile::GridCloth& grid, double duration, uint32_t substeps)
 {
     ClothHarness harness;
@@ -120,17 +120,18 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
             reference::Cloth& reference = references[i];
             reference.verlet_step(static_cast<double>(k_step), substeps, {.wind = {1, 0.5, -2}},
                                   static_cast<double>(harness.solver.stability(ids[i], step).load));
-            // Positions round once when uploaded and once a substep. Velocities: rounded places give a force that is
-            // off by up to omega^2 times their error, twice a substep; omega^2 <= 2 * 400 * 16 / (0.15 * 0.7^2), from
-            // 16 springs at most of 400 N/m. Substeps add their errors, and the places move by h times those of v.
-            const double place = std::exp2(-24) * largest(reference.state.x);
+            // Positions round once at upload and once per substep. Velocities: rounded positions give an acceleration
+            // that is off by up to omega^2 times their error, twice per substep; omega^2 <= 2 * 400 * 16 / (0.15 *
+            // 0.7^2), from at most 16 springs of 400 N/m. The errors of substeps add up, and positions move by h times
+            // the errors of v.
+            const double rounding = std::exp2(-24) * largest(reference.state.x);
             const double omega_squared = 2 * 400 * 16 / (0.15 * 0.49);
             const double h = static_cast<double>(k_step);
             const double bound_v =
-                steps * (2 * h * omega_squared * place + 2 * std::exp2(-24) * largest(reference.state.v));
+                steps * (2 * h * omega_squared * rounding + 2 * std::exp2(-24) * largest(reference.state.v));
             CHECK(largest_difference(harness.velocities(ids[i]), reference.state.v) < bound_v);
             CHECK(largest_difference(harness.positions(ids[i]), reference.state.x) <
-                  2 * steps * place + steps * h * bound_v);
+                  2 * steps * rounding + steps * h * bound_v);
         }
     }
 }
@@ -181,7 +182,7 @@ TEST_CASE("a short Verlet trajectory of a grid and of meshes follows the referen
 
 TEST_CASE("Verlet's error falls with the square of the step")
 {
-    // x'' = -w^2 x - d x' for the stretch of a pair; twice the spring's constants and the drag over the mass.
+    // x'' = -w^2 x - d x' for the stretch of a pair: twice the spring's constants and the drag, over the mass.
     struct Case
     {
         const char* name;
@@ -200,7 +201,7 @@ TEST_CASE("Verlet's error falls with the square of the step")
         const double decay = 0.4 * std::exp(-d / 2 * t);
         const double stretch = decay * (std::cos(damped * t) + d / 2 / damped * std::sin(damped * t));
         const double rate = -decay * omega * omega / damped * std::sin(damped * t);
-        std::vector<double> errors; // in phase space, where amplitude and phase errors cannot cancel
+        std::vector<double> errors; // in phase space, where errors of amplitude and phase cannot cancel
         for (const uint32_t substeps : {40u, 80u, 160u})
         {
             const Swing s = swing(grid, t, substeps);
@@ -216,16 +217,16 @@ TEST_CASE("Verlet's error falls with the square of the step")
 
 TEST_CASE("a spring pair under Verlet swings with the period of the discrete method")
 {
-    // The method swings at 2 / h asin(w h / 2), not at w: after the former's period the pair is back where it was.
+    // The method swings with 2 / h asin(w h / 2) instead of w: after that period the pair is back at its start.
     const voile::GridCloth grid = pairs(0.05f, 0.2f, {50, 0});
     const double omega = std::sqrt(2 * 50 / 0.2);
     const uint32_t substeps = 40;
     const double two_pi = 2 * 3.14159265358979;
-    const double h = 2 / omega * std::sin(two_pi / substeps / 2); // 40 substeps are one of the method's periods
+    const double h = 2 / omega * std::sin(two_pi / substeps / 2); // 40 substeps are one period of the method
     CHECK(substeps * h == tests::close_to(two_pi / omega, 2e-3));
     const Swing whole = swing(grid, 4 * substeps * h, 4 * substeps);
-    // Lengths near 1 m, rounded in each of 160 substeps to 2^-24 of it; a rounding in one is w h = 0.16 of it in
-    // others.
+    // Lengths near 1 m, rounded in each of 160 substeps to 2^-24. One rounding becomes w h = 0.16 of it in other
+    // substeps.
     CHECK(std::abs(whole.length - 1.05) < 160 * std::exp2(-24));
     CHECK(std::abs(whole.rate / omega) < 160 * std::exp2(-24));
     CHECK(std::abs(swing(grid, substeps * h / 2, substeps / 2).length - 0.95) < 20 * std::exp2(-24));
@@ -233,7 +234,7 @@ TEST_CASE("a spring pair under Verlet swings with the period of the discrete met
 
 TEST_CASE("free fall under Verlet is exact")
 {
-    // x and v are quadratic and linear in time, which the method has exactly; internal damping sees nothing.
+    // x and v are quadratic and linear in time, which the method reproduces exactly. Internal damping has no effect.
     voile::GridCloth grid;
     grid.columns = 17;
     grid.rows = 9;
@@ -280,9 +281,9 @@ TEST_CASE("an undamped cloth that flaps freely keeps its energy for 10 s")
             return reference.energy({});
         };
         const double start = energy();
-        // What swings to and fro is the potential energy of the fall: the sheet's weight times half its depth.
+        // The exchanged energy is the potential energy of the fall: the sheet's weight times half its depth.
         const double swings = 40 * 0.1 * 9.81 * 0.25;
-        // omega h = 0.09 for the fastest mode, 126 1/s, hence errors of (omega h)^2 / 8 of its energy at most: 0.1 %.
+        // omega h = 0.09 for the fastest mode, 126 1/s, so errors are at most (omega h)^2 / 8 of its energy: 0.1 %.
         double furthest = 0;
         for (int i = 0; i < 10; ++i)
         {
@@ -290,7 +291,7 @@ TEST_CASE("an undamped cloth that flaps freely keeps its energy for 10 s")
             furthest = std::max(furthest, std::abs(energy() - start));
         }
         CHECK(furthest < 1e-3 * swings);
-        CHECK(harness.statistics().kinetic_energy > 0.02 * swings); // it flaps indeed
+        CHECK(harness.statistics().kinetic_energy > 0.02 * swings); // the sheet does flap
     }
 }
 
@@ -304,7 +305,7 @@ TEST_CASE("RK4 and Verlet cloths in one solver change no bit of each other")
     ball.transform[3] = {0.1f, 2.1f, -0.3f, 1};
     ball.velocity = {0, -0.5f, 0};
     ball.integrator = voile::Integrator::verlet;
-    // Which corners and edges count depends on all cloths together; here there are none.
+    // The choice of feature edges and vertices depends on all cloths together; here there are none.
     const voile::SolverOptions options{.feature_contact = false};
     for (const bool contact : {false, true})
     {
@@ -315,7 +316,7 @@ TEST_CASE("RK4 and Verlet cloths in one solver change no bit of each other")
                 voile::engine::take(
                     harness.solver.add_collider(voile::SphereCollider{.center = {0.1f, 1.7f, -0.3f}, .radius = 0.3f}));
         };
-        // 7 and 4 substeps a step, and one, so that each way of passing the state on is taken.
+        // 7 and 4 substeps per step, and one, so that each exchange of state buffers is covered.
         const auto run = [](ClothHarness& harness)
         {
             harness.upload();
@@ -354,7 +355,7 @@ TEST_CASE("a Verlet cloth with contact stays above the surface")
         voile::GridCloth grid;
         grid.columns = grid.rows = 17;
         grid.transform[3] = {0, fast ? 0.7f : 0.5f, 0, 1};
-        grid.velocity = {0, fast ? -20.f : 0, 0}; // 20 m/s: a third of a meter a step
+        grid.velocity = {0, fast ? -20.f : 0, 0}; // 20 m/s: a third of a meter per step
         grid.integrator = voile::Integrator::verlet;
         ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
     }

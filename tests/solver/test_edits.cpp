@@ -1,4 +1,4 @@
-// What changes while a cloth is there: materials, reset, teleport, velocity, and snapshots to the bit.
+// Changes of an existing cloth: materials, reset, teleport, velocity, and snapshots to the bit.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -28,7 +28,7 @@ voile::Fabric stretchy(float stiffness)
     return fabric;
 }
 
-// Hangs by its first row.
+// Hangs from its first row.
 voile::GridCloth hanging(const voile::ClothMaterial& material)
 {
     voile::GridCloth grid;
@@ -75,7 +75,7 @@ TEST_CASE("a material changes while the cloth hangs, without new buffers")
     voile::engine::take(harness.solver.set_material(id, heavy));
     CHECK(settled() == tests::close_to(3 * weight / (2 * 100), 0.01));
     CHECK(1 / harness.positions(id)[40].w == tests::close_to(0.6f / 64, 1e-7));
-    CHECK(harness.positions(id)[0].w == 0); // still held
+    CHECK(harness.positions(id)[0].w == 0); // still pinned
     CHECK(harness.solver.vertices(id).positions == buffer);
 }
 
@@ -118,10 +118,10 @@ TEST_CASE("a cloth is reset, teleported and given a velocity")
     const auto untouched = harness.positions(other);
     voile::engine::take(harness.solver.reset(id));
     harness.step({}, 20);
-    CHECK(same_bits(harness.positions(id), first)); // the same fall once more
+    CHECK(same_bits(harness.positions(id), first)); // the same fall again
     CHECK_FALSE(same_bits(harness.positions(other), untouched));
 
-    // Nothing but the edit and one tiny step without gravity.
+    // Only the edit and one tiny step without gravity.
     const voile::Step still{.duration = 1e-6f, .gravity = {0, 0, 0}};
     voile::engine::take(harness.solver.reset(id));
     voile::engine::take(harness.solver.set_velocity(id, {0, 0, 0}));
@@ -153,7 +153,7 @@ TEST_CASE("a snapshot restores the state to the bit, also through the host")
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         (void)voile::engine::take(
             harness.solver.add_collider(voile::SphereCollider{.center = {0, -0.8f, 0.1f}, .radius = 0.2f}));
-        CHECK_FALSE(harness.solver.create_snapshot().ok()); // nothing uploaded yet
+        CHECK_FALSE(harness.solver.create_snapshot().ok()); // nothing is uploaded yet
         harness.upload();
         const voile::Step step{.wind = {0, 0, 3}, .gust = 0.5f};
         harness.step(step, 25);
@@ -180,8 +180,8 @@ TEST_CASE("a snapshot restores the state to the bit, also through the host")
     }
 }
 
-// A sheet in the middle of a box, which does not know by itself on which side to come out; and one that was let go
-// stretched, whose strain limit gives back what it took.
+// A sheet in the middle of a box, which has no preferred side to leave, and a sheet released in a stretched state,
+// whose strain limit returns the energy that it took.
 std::array<voile::ClothId, 2> add_remembering(ClothHarness& harness)
 {
     voile::GridCloth buried = tests::flat_sheet(12, 0.4f, 0.001f);
@@ -228,7 +228,7 @@ TEST_CASE("a snapshot contains the state of depenetration and of the strain limi
         harness.step(k_forty, 12);
         CHECK((states(harness, ids) == first));
 
-        ClothHarness other; // as a program that reads a file
+        ClothHarness other; // like a program that reads a file
         const auto read_ids = add_remembering(other);
         voile::Snapshot read = voile::engine::take(other.solver.create_snapshot());
         voile::engine::take(read.assign(snapshot.bytes()));

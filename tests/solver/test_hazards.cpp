@@ -1,6 +1,6 @@
-// That validation sees a missing barrier: otherwise "no messages" would prove nothing. And that it sees none in a whole
-// step, also where each dispatch stands in a command buffer of its own, so that validation of the submission compares
-// them all (inside one command buffer this layer misses writes that follow writes).
+// Checks that validation reports a missing barrier: otherwise "no messages" would prove nothing. Checks that it reports
+// none in a whole step. There each dispatch has its own command buffer, so that validation of the submission compares
+// them all: within one command buffer this layer misses writes after writes.
 #include "support/cloth_harness.hpp"
 
 #include "colliders/refit.hpp"
@@ -42,7 +42,7 @@ public:
         recorder.dispatch(kernels_.statistics_reduce, b, 64, 64, push);
     }
 
-    // The messages of a run, taken out of the log.
+    // Returns the messages of a run and removes them from the log.
     std::vector<std::string> messages_of(const std::function<void(VkCommandBuffer)>& record_commands)
     {
         tests::device().validation().echo = false;
@@ -71,7 +71,7 @@ private:
     voile::gpu::BindingPool pool_;
 };
 
-// Ends each command buffer after its dispatch and goes on in a new one; submits them all at once.
+// Ends each command buffer after its dispatch, continues in a new one, and submits them all at once.
 class OneDispatchEach
 {
 public:
@@ -201,8 +201,8 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     voile::engine::take(harness.solver.record(recorder, {.substeps = 3}));
     voile::engine::take(harness.solver.record(recorder, {.substeps = 2}));
     buffers.submit();
-    // One a dispatch, and the one that follows the last: six a substep; normals, recovery, which needs the normals of
-    // the start, and one look at what comes near features a step.
+    // One per dispatch, and one after the last: six per substep, and per step normals, depenetration, which needs the
+    // normals of the start, and one query of the patches near features.
     CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
 }
 

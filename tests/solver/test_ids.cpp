@@ -1,4 +1,4 @@
-// Ids that are not valid: default-constructed, of nothing, and what every function answers to them.
+// Invalid ids: default-constructed or of another object, and the answer of every function to them.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -75,7 +75,7 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
             CHECK(solver.mesh_report(none).components == 0);
         }
     }
-    // Nothing of it stays for the next step.
+    // Nothing is left over for the next step.
     harness.step({});
     CHECK(harness.statistics().nan_vertices == 0);
     CHECK(solver.holds(id).empty());

@@ -1,4 +1,4 @@
-// What has to outlive what, what is found where it does not, and what several threads may do at once.
+// Lifetimes of objects, the checks that enforce them, and concurrent use by several threads.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/test_paths.hpp"
@@ -21,7 +21,7 @@ namespace
 
 using tests::ClothHarness;
 
-// Commands that the GPU has begun and does not finish: they wait for an event that nobody sets.
+// Commands that the GPU has begun and cannot finish: they wait for an event that is never set.
 class Stuck
 {
 public:
@@ -30,7 +30,7 @@ public:
     {
     }
 
-    // Submits what `record` records, stuck at the first dispatch, and returns once the GPU is there.
+    // Submits the commands of `record`, stuck at the first dispatch, and returns once the GPU has reached it.
     template <typename Record>
     void submit(const Record& record)
     {
@@ -77,11 +77,11 @@ private:
 
 struct End
 {
-    int signal = 0; // that a shell tells: 128 and more
+    int signal = 0; // as a shell reports it: 128 and more
     std::string output;
 };
 
-// Runs a test case of this program that is left out otherwise, as a process of its own.
+// Runs a skipped test case of this program in a separate process.
 End run_case(const std::string& name)
 {
     const std::string command = "'" + tests::program("test_lifetime").string() + "' --no-skip -tc='" + name + "' 2>&1";
@@ -116,7 +116,7 @@ TEST_CASE("an upload and a snapshot may outlive their solver")
     float first = 0;
     std::memcpy(&first, snapshot->bytes().data(), sizeof(first));
     CHECK(first == -0.25f);
-    const tests::GpuFixture fixture; // which fails on a message
+    const tests::GpuFixture fixture; // fails on a validation message
     upload = voile::Upload();
     snapshot.reset();
 }
@@ -182,7 +182,7 @@ TEST_CASE("several threads create, fill and record solvers of one device at once
     const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.4f, 24);
     std::array<std::string, 2> errors;
     std::deque<voile::engine::FrameRing>
-        rings; // a pool each; they wait for the queue when they go, so not in the threads
+        rings; // one pool each; their destructors wait for the queue, so not in the threads
     std::vector<std::thread> threads;
     for (std::string& error : errors)
     {

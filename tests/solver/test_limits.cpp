@@ -1,5 +1,5 @@
-// Limits of devices: each is obeyed or refused with a line. What the test device does not limit is asked of a device
-// that is made up.
+// Limits of devices: each is obeyed, or exceeding it is an error. Limits that the test device does not have are tested
+// on a fake device.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -13,7 +13,7 @@ namespace
 using tests::ClothHarness;
 using tests::reason;
 
-// The least that Vulkan asks of a device.
+// The minimum that Vulkan guarantees.
 VkPhysicalDeviceLimits least_limits()
 {
     VkPhysicalDeviceLimits limits{};
@@ -28,7 +28,7 @@ VkPhysicalDeviceLimits least_limits()
     return limits;
 }
 
-// All that the solver asks for, and the rest at the least.
+// The solver's requirements, and otherwise the minimum.
 VkPhysicalDeviceLimits required_limits()
 {
     VkPhysicalDeviceLimits limits = least_limits();
@@ -41,7 +41,7 @@ VkPhysicalDeviceLimits required_limits()
 TEST_CASE("a device that meets requirements() is enough for the default options")
 {
     CHECK(reason(voile::check_limits(required_limits(), {})) == "accepted");
-    // And it is no more than what is needed.
+    // No requirement exceeds the need.
     VkPhysicalDeviceLimits limits = required_limits();
     --limits.maxPerStageDescriptorStorageBuffers;
     const std::string most = std::to_string(voile::requirements().storage_buffers);
@@ -111,7 +111,7 @@ TEST_CASE("every workgroup size works without a validation message or is refused
     for (const uint32_t size : {1u, 512u, 1024u, 2048u})
     {
         CAPTURE(size);
-        const tests::GpuFixture fixture; // which fails on a message
+        const tests::GpuFixture fixture; // fails on a validation message
         const voile::SolverOptions options{.workgroup_size = size};
         const auto solver = voile::Solver::create(tests::device().context().handles, options);
         CHECK(reason(solver) == reason(voile::check_limits(limits, options)));
@@ -126,7 +126,7 @@ TEST_CASE("objects that need more workgroups than a dispatch may have are refuse
 {
     const uint32_t most = tests::device().context().limits.maxComputeWorkGroupCount[0];
     if (most > 1'000'000)
-        return; // no sheet of the test's size reaches it
+        return; // no sheet of the test's size exceeds the limit
     ClothHarness harness({.workgroup_size = 1});
     voile::GridCloth grid = tests::flat_sheet(2, 1, 0);
     grid.columns = 256;
@@ -138,7 +138,7 @@ TEST_CASE("objects that need more workgroups than a dispatch may have are refuse
     --grid.rows;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     CHECK(reason(harness.solver.add_cloth(tests::flat_sheet(16, 1, 0))).find("65536 workgroups") != std::string::npos);
-    // A deforming mesh's vertices take a dispatch of their own.
+    // The vertices of a deforming mesh have their own dispatch.
     std::vector<glm::vec3> positions(most + 1);
     positions[1] = {1, 0, 0};
     positions[2] = {0, 0, 1};
@@ -147,5 +147,5 @@ TEST_CASE("objects that need more workgroups than a dispatch may have are refuse
     CHECK(reason(harness.solver.add_collider(mesh)) ==
           "collider \"mesh\": its vertices need 65536 workgroups of 1, the device dispatches at most 65535; a larger "
           "SolverOptions::workgroup_size needs fewer");
-    CHECK(harness.solver.vertices(id).vertices == 0); // and nothing is uploaded
+    CHECK(harness.solver.vertices(id).vertices == 0); // nothing is uploaded
 }

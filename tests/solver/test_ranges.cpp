@@ -1,5 +1,5 @@
-// Ranges of the input: what lies outside is refused with a line that names it, and no corner of what lies within makes
-// a vertex that is not finite.
+// Ranges of the input: values outside are refused with a line that names them, and no extreme of the ranges makes a
+// vertex that is not finite.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -22,7 +22,7 @@ using tests::reason;
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
-// One of a few values, deterministic.
+// Picks one of a few values, deterministically.
 class Corners
 {
 public:
@@ -64,7 +64,7 @@ voile::ClothMaterial random_material(Corners& corners)
     return fabric;
 }
 
-// At the border of the positions, scaled to a millionth or to all of them, or as cloth mostly is.
+// At the limit of the positions, scaled to a millionth or to the whole range, or of typical size.
 glm::mat4 random_transform(Corners& corners, float size)
 {
     const float scale = std::min(corners.one_of({1e-6f, 1.f, 1.f, 1e3f, 1e9f}), voile::k_most_coordinate / size);
@@ -113,7 +113,7 @@ glm::mat4 random_teleport(Corners& corners)
     return glm::scale(moved(corners.vector(2 * voile::k_most_coordinate)), glm::vec3(scale));
 }
 
-// A sheet on springs, one on leashes and one pinned, all three on an anchor that moves.
+// A sheet on springs, one on max-distance constraints and one pinned, all three on a moving anchor.
 class Held
 {
 public:
@@ -141,7 +141,7 @@ public:
         }
     }
 
-    // As fast as the host may move it, within the world.
+    // As fast as the host may move it within the world.
     void move(voile::Solver& solver, Corners& corners, float duration)
     {
         const glm::vec3 bound(voile::k_most_coordinate);
@@ -216,7 +216,7 @@ TEST_CASE("a step out of range is refused by name, and nothing is recorded")
     const auto after = harness.positions(id);
     for (size_t i = 0; i < start.size(); ++i)
         CHECK(after[i] == start[i]);
-    harness.step({.gravity = glm::vec3(0)}); // what waited for a step has waited on
+    harness.step({.gravity = glm::vec3(0)}); // pending changes are still pending
     CHECK(harness.velocities(id)[5].x == tests::close_to(3, 1e-5));
 }
 

@@ -1,4 +1,4 @@
-// Additions beside a cloth that moves already: what an upload keeps, and what goes on while one is due.
+// Additions beside a moving cloth: what an upload preserves, and what continues while one is due.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
@@ -18,7 +18,7 @@ using tests::moved;
 
 constexpr float k_frame = 1.f / 60; // s
 
-// Fixes vertices of the first row to a rod of the host's, which it also returns.
+// Attaches vertices of the first row to a rod of the host's and returns its anchor.
 voile::AnchorId hold_first_row(ClothHarness& harness, voile::ClothId id, uint32_t columns, voile::Hold hold)
 {
     const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(moved({0, 0, 0})));
@@ -114,22 +114,22 @@ TEST_CASE("pins rest and move with their anchor while an upload is due")
 TEST_CASE("colliders rest and move while an upload is due")
 {
     const voile::engine::Mesh ground = voile::engine::make_ground(1);
-    for (const bool late : {false, true}) // the first motion is not before the upload is due
+    for (const bool late : {false, true}) // the first motion comes after the addition
     {
         CAPTURE(late);
         ClothHarness harness;
-        // A sheet on a table that moves, and one on a table that deforms, 5 m away.
+        // A sheet on a moving table, and one on a deforming table 5 m away.
         std::vector<voile::ClothId> ids;
         std::vector<voile::ColliderId> tables;
         for (const bool deforms : {false, true})
         {
             voile::GridCloth grid = flat_sheet(6, 0.5f, 0);
             tests::fabric_of(grid).static_friction = tests::fabric_of(grid).kinetic_friction = 50;
-            const glm::vec3 place(deforms ? 5 : 0, 0, 0);
-            grid.transform = moved(place + glm::vec3(0, tests::fabric_of(grid).thickness, 0));
+            const glm::vec3 position(deforms ? 5 : 0, 0, 0);
+            grid.transform = moved(position + glm::vec3(0, tests::fabric_of(grid).thickness, 0));
             ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
             voile::MeshCollider table = deforms ? tests::deforming(ground) : collider(ground);
-            table.transform = moved(place);
+            table.transform = moved(position);
             tables.push_back(voile::engine::take(harness.solver.add_collider(table)));
         }
         harness.upload();
@@ -152,7 +152,7 @@ TEST_CASE("colliders rest and move while an upload is due")
             }
         };
         if (!late)
-            rise(0.01f); // 0.6 m/s: the cloth flies on to 18 mm above it, and falls back
+            rise(0.01f); // 0.6 m/s: the cloth flies to 18 mm above it and falls back
         (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -100}));
         REQUIRE(harness.solver.needs_upload());
         if (late)
@@ -175,8 +175,9 @@ TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
     harness.step({}, 10);
     const voile::ClothId other = voile::engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 3)));
     const voile::Hold corner{.vertex = 0};
-    voile::engine::take(harness.solver.set_holds(id, {&corner, 1}));    // there is room, but it waits for the upload
-    voile::engine::take(harness.solver.set_velocity(other, {7, 0, 0})); // and so does this
+    voile::engine::take(harness.solver.set_holds(id, {&corner, 1}));    // the capacity suffices, but the change waits
+                                                                        // for the upload
+    voile::engine::take(harness.solver.set_velocity(other, {7, 0, 0})); // this waits, too
     voile::engine::take(harness.solver.reset(id));
     voile::engine::take(harness.solver.set_velocity(id, {2, 0, 0}));
     harness.step({.gravity = glm::vec3(0)});
@@ -191,7 +192,7 @@ TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
     CHECK(harness.positions(id)[20].x > before[20].x);
     CHECK(harness.velocities(other)[5].x == tests::close_to(7, 1e-6));
 
-    // What is let go while an upload is due falls once that is done.
+    // Vertices released while an upload is due fall after the upload.
     (void)voile::engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 6)));
     voile::engine::take(harness.solver.set_holds(id, {}));
     harness.step({}, 2);
@@ -253,7 +254,7 @@ TEST_CASE("statistics in flight survive an upload")
     CHECK(energy > 0.1f);
     CHECK(harness.solver.statistics(1).kinetic_energy == 0); // nothing was recorded into this slot
     (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -100}));
-    // In one submission, as with frames in flight: the reduction, then an upload.
+    // In one submission, like frames in flight: the reduction, then an upload.
     voile::Upload kept;
     harness.run(
         [&](VkCommandBuffer cmd)

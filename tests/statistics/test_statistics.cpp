@@ -1,4 +1,4 @@
-// Statistics on the GPU against the same sums on the CPU, and what they must see: penetration and values that are not
+// Statistics on the GPU against the same sums on the CPU, and their counts of penetration and of values that are not
 // finite.
 #include "reference/cloth_reference.hpp"
 #include "support/close_to.hpp"
@@ -32,7 +32,7 @@ Expected expected_statistics(const voile::GridCloth& grid)
     double springs = 0;
     for (const reference::Spring& spring : reference.springs)
     {
-        // Structural and shear springs join neighbors: no farther than a diagonal.
+        // Structural and shear springs join neighbors, at most a diagonal apart.
         const double diagonal = std::hypot(0.05, 0.06);
         if (spring.rest_length > 1.01 * diagonal)
             continue;
@@ -48,7 +48,7 @@ Expected expected_statistics(const voile::GridCloth& grid)
     return result;
 }
 
-// The sum of the angles that triangles fill seen from a point (Van Oosterom and Strackee 1983), over all directions.
+// The sum of the solid angles of the triangles, seen from a point (Van Oosterom and Strackee 1983), over 4 pi.
 double winding_number(const voile::engine::Mesh& mesh, const glm::dvec3& point)
 {
     double angles = 0;
@@ -85,7 +85,7 @@ TEST_CASE("stretch and energy equal the CPU's at awkward sizes")
         (void)voile::engine::take(harness.solver.add_cloth(grid));
         harness.upload();
         const voile::Statistics found = harness.statistics();
-        // A stretch is a difference of coordinates of up to `extent` over a rest length of 5 cm, in float.
+        // A stretch is a difference of float coordinates of up to `extent` over a rest length of 5 cm.
         const double extent = 3 + 0.06 * std::max(size.columns, size.rows);
         const double bound = 4 * std::exp2(-24) * extent / 0.05;
         CHECK(std::abs(static_cast<double>(found.max_stretch) - expected.max_stretch) < bound);
@@ -122,7 +122,7 @@ TEST_CASE("vertices under a surface are counted, and the deepest is measured")
 
 TEST_CASE("a vertex is inside a mesh if the mesh winds around it, at any depth")
 {
-    // A ball whose top is pushed down through its bottom: what hangs out below is inside-out and solid nowhere.
+    // A ball with its top pushed down through its bottom: the part below is inside-out and solid nowhere.
     voile::engine::Mesh folded = voile::engine::make_sphere({0, 0, 0}, 0.4f, 16);
     for (glm::vec3& p : folded.positions)
         p.y -= p.y > 0.2f ? 5 * (p.y - 0.2f) : 0;
@@ -159,8 +159,8 @@ TEST_CASE("a vertex is inside a mesh if the mesh winds around it, at any depth")
     };
     std::mt19937 random(9);
     std::uniform_real_distribution<float> within(-0.7f, 0.7f);
-    // All in one solver, each with a cloth on a layer of its own; another solver's kernels would take longer than the
-    // rest.
+    // All in one solver, each with a cloth on its own layer. Another solver's kernels would take longer to make than
+    // the rest of the test.
     ClothHarness harness;
     std::vector<voile::ClothId> sheets;
     uint32_t layer = 1;
@@ -177,7 +177,7 @@ TEST_CASE("a vertex is inside a mesh if the mesh winds around it, at any depth")
         layer <<= 1;
     }
     harness.upload();
-    harness.step({.duration = 1e-6f, .substeps = 1}); // refits what may deform
+    harness.step({.duration = 1e-6f, .substeps = 1}); // refits the deforming mesh
     const std::vector<glm::vec4> away(400, glm::vec4(5, 0, 0, 1));
     for (const voile::ClothId sheet : sheets)
         harness.set_positions(sheet, away);
@@ -208,7 +208,7 @@ TEST_CASE("a vertex is inside a mesh if the mesh winds around it, at any depth")
         harness.set_positions(sheets[i], points);
         const voile::Statistics found = harness.statistics();
         CHECK(found.penetrating_vertices == inside);
-        CHECK(std::abs(static_cast<double>(found.deepest_penetration) - deepest) <= 5e-7 * deepest); // 0 where it is 0
+        CHECK(std::abs(static_cast<double>(found.deepest_penetration) - deepest) <= 5e-7 * deepest); // 0 if it is 0
         CHECK((inside > 5) == (c.has_inside && c.name != "bowl turned, with one side"));
         harness.set_positions(sheets[i], away);
     }

@@ -22,7 +22,7 @@ inline glm::mat4 tilted()
     return m;
 }
 
-// The masses and springs of a grid that has them outright.
+// The Material of a grid that has one, with its masses and springs.
 inline voile::Material& raw(voile::GridCloth& grid)
 {
     return std::get<voile::Material>(grid.material);
@@ -32,7 +32,7 @@ inline const voile::Material& raw(const voile::GridCloth& grid)
     return std::get<voile::Material>(grid.material);
 }
 
-// A moving sheet in which every spring is stretched or compressed: its transform scales what its rest lengths do not.
+// A moving sheet whose springs are all stretched or compressed: its transform scales positions but not rest lengths.
 inline voile::GridCloth stretched_sheet(uint32_t columns, uint32_t rows)
 {
     voile::GridCloth grid;
@@ -48,8 +48,8 @@ inline voile::GridCloth stretched_sheet(uint32_t columns, uint32_t rows)
     return grid;
 }
 
-// Values that were read back, all of them finite and at least one. A NaN is lost in std::max and in whatever is counted
-// by a comparison, and a loop over nothing checks nothing: either fails the test here.
+// Values that were read back: at least one, all finite. std::max and comparisons drop a NaN, and a loop over nothing
+// checks nothing; both fail the test here.
 inline std::vector<glm::vec4> checked(std::vector<glm::vec4> values)
 {
     if (values.empty())
@@ -86,7 +86,7 @@ public:
     {
         run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_statistics(cmd, 0)); });
         const voile::Statistics found = solver.statistics(0);
-        CHECK(found.nan_vertices == expected_nan_vertices); // their energy is 0, and nothing penetrates
+        CHECK(found.nan_vertices == expected_nan_vertices); // their energy is 0, and they do not penetrate
         return found;
     }
 
@@ -108,10 +108,10 @@ public:
         return checked(read<glm::vec4>(streams.normals, streams.vertices, streams.offset));
     }
 
-    // One value per vertex, in place of what the buffer holds.
+    // Overwrites the buffer's values, one per vertex.
     void write(VkBuffer buffer, VkDeviceSize offset, const std::vector<glm::vec4>& values)
     {
-        constexpr size_t k_most = 4096; // of vec4, that one update takes
+        constexpr size_t k_most = 4096; // of vec4, the limit of one update
         run(
             [&](VkCommandBuffer cmd)
             {
@@ -133,7 +133,7 @@ public:
     }
 
     voile::Solver solver;
-    uint32_t expected_nan_vertices = 0; // in the statistics; positions() and the like take none
+    uint32_t expected_nan_vertices = 0; // in the statistics; positions() and the like accept none
 };
 
 // ||a - b|| / ||b|| over all components.

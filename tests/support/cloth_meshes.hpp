@@ -1,4 +1,4 @@
-// Meshes to be worn as cloth by the tests: sheets and closed surfaces, irregular on purpose, and deterministic.
+// Cloth meshes of the tests: sheets and closed surfaces, irregular on purpose, deterministic.
 #pragma once
 
 #include "voile/descriptions.hpp"
@@ -17,11 +17,11 @@ struct ClothMesh
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
 
-    // Refers to this mesh, which has to live on.
+    // Refers to this mesh, which must outlive it.
     [[nodiscard]] voile::MeshCloth cloth() const { return {.positions = positions, .triangles = triangles}; }
 };
 
-// Flat in x and z like a GridCloth of the given spacing, all diagonals alike.
+// Flat in x and z like a GridCloth of the given spacing, with parallel diagonals.
 inline ClothMesh sheet(uint32_t columns, uint32_t rows, float spacing)
 {
     ClothMesh mesh;
@@ -38,10 +38,10 @@ inline ClothMesh sheet(uint32_t columns, uint32_t rows, float spacing)
     return mesh;
 }
 
-inline void jitter(ClothMesh& mesh, float reach)
+inline void jitter(ClothMesh& mesh, float amount)
 {
     std::mt19937 random(7);
-    std::uniform_real_distribution<float> offset(-reach, reach);
+    std::uniform_real_distribution<float> offset(-amount, amount);
     for (glm::vec3& p : mesh.positions)
         p += glm::vec3(offset(random), offset(random), offset(random));
 }

@@ -1,4 +1,4 @@
-// What the tests of colliders put into their scenes: sheets, mesh colliders, places, and why something was refused.
+// Parts of the collider tests' scenes: sheets, mesh colliders, transforms, and error messages.
 #pragma once
 
 #include "voile/descriptions.hpp"
@@ -13,12 +13,12 @@
 namespace tests
 {
 
-inline glm::mat4 moved(const glm::vec3& way)
+inline glm::mat4 moved(const glm::vec3& displacement)
 {
-    return glm::translate(glm::mat4(1.f), way);
+    return glm::translate(glm::mat4(1.f), displacement);
 }
 
-// Both refer to the mesh, which has to live on until the collider is added.
+// Both refer to the mesh, which must live until the collider is added.
 inline voile::MeshCollider collider(const voile::engine::Mesh& mesh)
 {
     return {.positions = mesh.positions, .triangles = mesh.triangles};
@@ -50,7 +50,7 @@ inline voile::GridCloth flat_sheet(uint32_t vertices, float size, float height)
     return grid;
 }
 
-// The fabric of a grid that has one.
+// The Fabric of a grid that has one.
 inline voile::Fabric& fabric_of(voile::GridCloth& grid)
 {
     return std::get<voile::Fabric>(grid.material);
@@ -60,7 +60,7 @@ inline const voile::Fabric& fabric_of(const voile::GridCloth& grid)
     return std::get<voile::Fabric>(grid.material);
 }
 
-// Why something was refused.
+// The error message of a refused call.
 template <typename Result>
 std::string reason(const Result& result)
 {

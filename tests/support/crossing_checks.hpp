@@ -1,5 +1,5 @@
-// Whether cloth and collider cut each other as surfaces, and how deep, in double precision: what a check of vertices
-// alone does not see.
+// Checks in double precision whether cloth and collider intersect as surfaces, and how deep. A check of vertices alone
+// misses that.
 #pragma once
 
 #include "colliders/mesh_input.hpp"
@@ -25,16 +25,16 @@ namespace tests
 
 struct Crossings
 {
-    uint64_t collider_edges = 0; // pairs of a collider's edge and a triangle of the cloth that it passes through
-    uint64_t cloth_edges = 0;    // pairs of a cloth's edge and a triangle of the collider
+    uint64_t collider_edges = 0; // pairs of a collider's edge and a triangle of the cloth that it pierces
+    uint64_t cloth_edges = 0;    // pairs of a cloth's edge and a triangle of the collider that it pierces
     double depth = 0;            // m: of a closed collider, how far the cloth that is cut lies below its surface; of an
                                  // open one, how far the shorter end of an edge of the cloth sticks through
 
     [[nodiscard]] uint64_t count() const { return collider_edges + cloth_edges; }
 };
 
-// Which of its edges a triangle stands for, bit by bit: each edge of a mesh belongs to the first triangle that has it.
-// Vertices at the same place count as one.
+// Which of its edges a triangle owns, one bit each: an edge of a mesh belongs to the first triangle that has it.
+// Vertices at the same position count as one.
 inline std::vector<uint8_t> owned_edges(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)
 {
     std::set<std::pair<uint32_t, uint32_t>> known;
@@ -51,7 +51,7 @@ inline std::vector<uint8_t> owned_edges(std::span<const uint32_t> welded, std::s
     return result;
 }
 
-// Of a mesh none of whose vertices are one place.
+// For a mesh without coincident vertices.
 inline std::vector<uint32_t> all_different(std::span<const glm::uvec3> triangles)
 {
     uint32_t count = 0;
@@ -62,8 +62,7 @@ inline std::vector<uint32_t> all_different(std::span<const glm::uvec3> triangles
     return result;
 }
 
-// A cloth's triangles against those of a collider that keeps its shape. Positions of the cloth are in the collider's
-// space.
+// Tests a cloth's triangles against those of a rigid collider. The cloth's positions are in the collider's space.
 class CrossingCheck
 {
 public:

@@ -10,7 +10,7 @@
 namespace tests
 {
 
-// A grid with its springs given outright: what the reference takes.
+// The grid with its Fabric converted to a Material, which the reference takes.
 inline voile::GridCloth with_springs(const voile::GridCloth& grid)
 {
     voile::GridCloth raw = grid;
@@ -20,8 +20,8 @@ inline voile::GridCloth with_springs(const voile::GridCloth& grid)
     return raw;
 }
 
-// The energy of the isometric model on a grid, J: B / 2 times the squared second differences along rows and columns and
-// twice the squared twist of each cell, over areas.
+// The energy of the isometric model on a grid, J: B / 2 times the squared second differences along rows and columns
+// plus twice the squared twist of each cell, over areas.
 inline double bending_energy(const voile::GridCloth& raw, const std::vector<glm::dvec3>& x)
 {
     const auto& material = std::get<voile::Material>(raw.material);
@@ -45,7 +45,7 @@ inline double bending_energy(const voile::GridCloth& raw, const std::vector<glm:
     return 0.5 * static_cast<double>(material.bending_stiffness) * sum;
 }
 
-// A grid's reference, with the energy of isometric bending, which reference::Cloth does not have.
+// A grid's reference with the energy of isometric bending, which reference::Cloth lacks.
 struct GridReference : reference::Cloth
 {
     explicit GridReference(const voile::GridCloth& grid) : reference::Cloth(with_springs(grid)), raw(with_springs(grid))
@@ -57,7 +57,7 @@ struct GridReference : reference::Cloth
         return reference::Cloth::energy(environment) + bending_energy(raw, state.x);
     }
 
-    // Scales what stores energy, as a step does that is too long for it.
+    // Scales the elastic energy like a step that is too long for it.
     void soften(double stiffness)
     {
         for (reference::Spring& spring : springs)
@@ -78,7 +78,7 @@ inline reference::MeshCloth reference_of(const voile::MeshCloth& mesh)
     return reference::MeshCloth(mesh);
 }
 
-// Kinetic, elastic and potential energy, J, of the cloth's present state on the device.
+// Kinetic, elastic and potential energy, J, of the cloth's current state on the device.
 template <typename Reference>
 double energy_of(ClothHarness& harness, voile::ClothId id, Reference& reference, const glm::dvec3& gravity)
 {

@@ -17,7 +17,7 @@
 namespace tests
 {
 
-// One a process: making a device takes longer than most tests. Tests run one after another.
+// One per process: making a device takes longer than most tests. Tests run one after another.
 inline voile::engine::Device& device()
 {
     static voile::engine::Device instance(
@@ -49,7 +49,7 @@ public:
         frames_.wait(frame.slot);
     }
 
-    // The values of a device buffer that was made with TRANSFER_SRC usage.
+    // The values of a device buffer with TRANSFER_SRC usage.
     template <typename T>
     std::vector<T> read(VkBuffer buffer, size_t count, VkDeviceSize offset = 0)
     {

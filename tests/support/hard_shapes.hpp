@@ -1,4 +1,5 @@
-// Shapes that are hard to collide with: thin, pointed, open, lumpy. y is up, meters, wound outwards or upwards.
+// Shapes that are hard to collide with: thin, pointed, open, lumpy. y is up, units are meters, winding is outward or
+// upward.
 #pragma once
 
 #include "voile/engine/assets/shapes.hpp"
@@ -29,8 +30,8 @@ inline voile::engine::Mesh needle(float length, float thin)
     return mesh;
 }
 
-// A closed cylinder, or prism, about the z axis from `first` to `last`: two triangles a flat, as long as it is, and
-// fans at both ends.
+// A closed cylinder, or prism, about the z axis from `first` to `last`: two triangles per flat, over its whole length,
+// and fans at both ends.
 inline voile::engine::Mesh closed_cylinder(double radius, double first, double last, uint32_t sides)
 {
     voile::engine::Mesh mesh;
@@ -53,7 +54,7 @@ inline voile::engine::Mesh closed_cylinder(double radius, double first, double l
     return mesh;
 }
 
-// Half a sphere, open at the top, its lowest point at y = 0; it faces inwards.
+// Half a sphere, open at the top, its lowest point at y = 0. It faces inward.
 inline voile::engine::Mesh round_bowl(float radius)
 {
     constexpr uint32_t k_rings = 16;
@@ -80,15 +81,15 @@ inline voile::engine::Mesh round_bowl(float radius)
     return mesh;
 }
 
-// Three squares that meet in a corner, the lowest point, at the origin: a cube on its corner, open at the top. It faces
-// inwards.
+// Three squares that share a corner, the lowest point, at the origin: a cube on its corner, open at the top. It faces
+// inward.
 inline voile::engine::Mesh corner_bowl(float side)
 {
     const float radius = side * std::sqrt(2.f / 3);
     const float rise = side / std::sqrt(3.f);
     voile::engine::Mesh mesh;
     mesh.positions.emplace_back(0, 0, 0);
-    for (int corner = 0; corner < 6; ++corner) // at one and two rises in turn
+    for (int corner = 0; corner < 6; ++corner) // alternating one and two rises
     {
         const float around = std::numbers::pi_v<float> / 3 * static_cast<float>(corner) + 0.2f;
         mesh.positions.emplace_back(radius * std::cos(around), corner % 2 == 0 ? rise : 2 * rise,
@@ -104,7 +105,7 @@ inline voile::engine::Mesh corner_bowl(float side)
     return mesh;
 }
 
-// A closed lump with two ears, star-shaped about the origin, some 0.3 m in radius: 4 `rings` squared triangles.
+// A closed lump with two ears, star-shaped about the origin, about 0.3 m in radius: 4 * `rings`^2 triangles.
 inline voile::engine::Mesh lump_with_ears(uint32_t rings)
 {
     const glm::vec3 ears[] = {glm::normalize(glm::vec3(0.5f, 1, 0.1f)), glm::normalize(glm::vec3(-0.45f, 1, 0.2f))};
@@ -121,7 +122,7 @@ inline voile::engine::Mesh lump_with_ears(uint32_t rings)
     return mesh;
 }
 
-inline void place(voile::engine::Mesh& mesh, const glm::mat4& transform)
+inline void transform_mesh(voile::engine::Mesh& mesh, const glm::mat4& transform)
 {
     for (glm::vec3& p : mesh.positions)
         p = glm::vec3(transform * glm::vec4(p, 1));

@@ -1,4 +1,4 @@
-// What tests ask about meshes.
+// Checks of meshes.
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-// Every directed edge stands in one triangle, and its reverse in another.
+// Every directed edge belongs to one triangle, and its reverse to another.
 inline bool is_closed(const voile::engine::Mesh& mesh)
 {
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
@@ -21,7 +21,7 @@ inline bool is_closed(const voile::engine::Mesh& mesh)
                                          });
 }
 
-// Positive for a closed mesh that is wound outwards.
+// Positive for a closed mesh that is wound outward.
 inline double signed_volume(const voile::engine::Mesh& mesh)
 {
     double volume = 0;
@@ -32,7 +32,7 @@ inline double signed_volume(const voile::engine::Mesh& mesh)
     return volume;
 }
 
-// Sum of the triangles' areas.
+// The sum of the triangles' areas.
 inline double total_area(const voile::engine::Mesh& mesh)
 {
     double area = 0;

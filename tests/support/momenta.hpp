@@ -11,7 +11,7 @@ struct Momenta
     glm::dvec3 moment{0};  // kg m, of the masses about the origin
     glm::dvec3 linear{0};  // kg m/s
     glm::dvec3 angular{0}; // kg m^2/s, about the center of mass
-    double speeds = 0;     // kg m/s, of all vertices whatever their direction
+    double speeds = 0;     // kg m/s, the sum of all magnitudes
 };
 
 inline Momenta momenta_of(ClothHarness& harness, voile::ClothId id)

@@ -1,4 +1,4 @@
-// Cloths drawn at random over the whole range of materials, and what the tests of stability ask of them.
+// Random cloths over the whole range of materials, and the bounds of the stability tests.
 #pragma once
 
 #include "reference/mesh_reference.hpp"
@@ -22,7 +22,7 @@ public:
     bool chance(double p) { return unit() < p; }
     float uniform(float low, float high) { return low + (high - low) * static_cast<float>(unit()); }
     uint32_t count(uint32_t low, uint32_t high) { return low + static_cast<uint32_t>(unit() * (high - low + 1)); }
-    // Log-uniform; one in eight is either end.
+    // Log-uniform; one in eight is one of the ends.
     float in(float low, float high)
     {
         const double end = unit();
@@ -30,7 +30,7 @@ public:
                                unit() * std::log(static_cast<double>(high) / static_cast<double>(low));
         return end < 0.125 ? low : end < 0.25 ? high : std::clamp(static_cast<float>(std::exp(between)), low, high);
     }
-    // The same from 0, which is one in four.
+    // Log-uniform, and 0 in one of four cases.
     float from_zero(float least, float high) { return chance(0.25) ? 0 : in(least, high); }
     glm::vec3 direction()
     {
@@ -115,7 +115,7 @@ inline voile::Step draw_step(Draw& draw)
     return step;
 }
 
-// Kinetic energy, J, and the mass that moves, kg.
+// Kinetic energy, J, and the moving mass, kg.
 struct Motion
 {
     double energy = 0;
@@ -148,16 +148,15 @@ inline double elastic_energy(const voile::MeshCloth& mesh)
     return reference.energy({.gravity = glm::dvec3(0)});
 }
 
-// What a cloth's kinetic energy stays below in steps to come, half a second of them at most, J. `elastic`: J that the
-// step's share of its springs has at the start.
+// An upper bound of a cloth's kinetic energy in the next steps, half a second at most, J. `elastic`: J of its springs
+// at the start, times the fraction of their stiffness that the step keeps.
 //
-// Springs and damping take energy or keep it; gravity adds g t to a cloth's mean speed at most; drag pulls towards the
-// wind, whose speed is at most W with all gusts at their height, and what it puts into springs on the way may come back
+// Springs and damping conserve or remove energy. Gravity adds at most g t to a cloth's mean speed. Drag pulls toward
+// the wind, whose speed is at most W with all gusts at their peak, and the energy that it puts into springs may return
 // as speed once more. The integrators' own energy is up to 1 / (1 - 0.9^2) = 5.3 times smaller than the true one, in
-// modes that take the whole step (Verlet's is v^2 + omega^2 x^2 (1 - (omega h / 2)^2)). What runs away grows by a
-// factor each substep, and is past any bound within 30 steps.
-// Springs whose force turns round within a step do not heat up a cloth: Verlet makes fast springs viscous
-// (forces.glsl).
+// modes at the stability limit of the step (Verlet's is v^2 + omega^2 x^2 (1 - (omega h / 2)^2)). An instability grows
+// by a factor per substep and exceeds any bound within 30 steps.
+// Springs whose force reverses within a step add no energy: Verlet makes fast springs viscous (forces.glsl).
 inline double energy_bound(const Motion& start, double elastic, const voile::Step& step)
 {
     const double wind = static_cast<double>(glm::length(step.wind)) * (1 + 2.74 * static_cast<double>(step.gust));

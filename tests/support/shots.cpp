@@ -14,14 +14,15 @@ namespace tests
 namespace
 {
 
-constexpr double k_rounding = 1e-6; // m, of coordinates near 1 in float
+constexpr double k_rounding = 1e-6; // m, for float coordinates near 1
 
 voile::GridCloth sheet(const ShotScene& scene, const Shot& shot)
 {
     voile::GridCloth grid;
     grid.columns = grid.rows = shot.vertices;
     grid.width = grid.depth = shot.size;
-    grid.transform = glm::rotate(moved({0.013f, scene.height, 0.007f}), 0.3f, glm::vec3(0, 1, 0)); // along nothing
+    grid.transform = glm::rotate(moved({0.013f, scene.height, 0.007f}), 0.3f, glm::vec3(0, 1, 0)); // parallel to no
+                                                                                                   // axis
     grid.velocity = {0, -shot.speed, 0};
     grid.integrator = voile::Integrator::verlet;
     voile::Fabric fabric = shot.fabric;
@@ -72,8 +73,8 @@ public:
         seen.fastest = std::max({seen.fastest, seen.speed, velocity()});
     }
 
-    // How high the cloth reaches now, and what the surfaces do to each other.
-    void look()
+    // Records the cloth's current height and the intersections of the surfaces.
+    void observe()
     {
         const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
         seen.highest = std::max_element(now_.begin(), now_.end(), lower)->y;
@@ -88,7 +89,7 @@ public:
     Seen seen{};
 
 private:
-    // m/s, root mean square. Not each way of a frame shows what swings to and fro in it.
+    // m/s, root mean square. The displacement over a frame would miss oscillations within it.
     [[nodiscard]] double velocity()
     {
         const std::vector<glm::dvec3> velocities = exact(harness_.velocities(id_));
@@ -135,12 +136,12 @@ Seen shoot(const ShotScene& scene, const Shot& shot)
     for (uint32_t frame = 0; frame < shot.frames; ++frame)
     {
         run.frame();
-        run.look();
+        run.observe();
     }
     CHECK(run.seen.wrong == 0);
     CHECK(run.seen.deepest < k_rounding);
     CHECK(run.penetrating() == 0);
-    // Nothing gives it energy but its fall, of no more than its height and size.
+    // Its energy comes only from its fall, by at most its height and size.
     const double fall = 2 * 9.81 * static_cast<double>(scene.height + shot.size);
     CHECK(run.seen.fastest < std::sqrt(static_cast<double>(shot.speed * shot.speed) + fall));
     if (scene.apart_when_slow && shot.speed <= k_slow_shot)
@@ -163,7 +164,7 @@ ShotScene edge_of_a_box(bool formula)
                     .ground = true,
                     .apart_when_slow = true,
                     .apart_at_rest = true};
-    place(scene.mesh, box.transform);
+    transform_mesh(scene.mesh, box.transform);
     scene.top = k_middle + box.max.x * std::numbers::sqrt2_v<float>;
     if (!formula)
         return scene;

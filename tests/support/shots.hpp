@@ -1,4 +1,4 @@
-// Cloth that is shot at a collider, followed frame by frame, and checked for what must hold in each.
+// Cloth that is shot at a collider, observed frame by frame, and checked in each.
 #pragma once
 
 #include "support/cloth_harness.hpp"
@@ -13,21 +13,21 @@
 namespace tests
 {
 
-constexpr float k_shot_duration = 1.f / 60; // s, of a frame
-constexpr float k_slow_shot = 5;            // m/s; from 20 m/s on edges may cut, and where they do they stay
+constexpr float k_shot_duration = 1.f / 60; // s, per frame
+constexpr float k_slow_shot = 5;            // m/s; from 20 m/s on edges may cut the cloth and then stay
 
 struct ShotScene
 {
     std::string name;
-    voile::engine::Mesh mesh;                // the collider, in the world
-    std::optional<voile::BoxCollider> box{}; // given in place of the mesh
-    float height = 0;                        // m, where the cloth starts
+    voile::engine::Mesh mesh;                // the collider, in world space
+    std::optional<voile::BoxCollider> box{}; // replaces the mesh
+    float height = 0;                        // m, initial height of the cloth
     bool ground = false;                     // a plane at y = 0
-    bool traced = false;               // read after each substep: what is thin can be jumped over, and gone around
-    std::optional<glm::dvec3> focus{}; // of a bowl: all that it holds is in sight from here
-    std::optional<float> top{};        // m: some of the cloth comes to rest above this
-    bool apart_when_slow = false;      // the slowest shot never cuts the collider, nor it the cloth
-    bool apart_at_rest = false;        // nor what came to rest
+    bool traced = false;               // read after each substep: a thin collider could be jumped over or passed around
+    std::optional<glm::dvec3> focus{}; // of a bowl: all of its inside is visible from here
+    std::optional<float> top{};        // m: part of the cloth comes to rest above this
+    bool apart_when_slow = false;      // the slowest shot never makes collider and cloth intersect
+    bool apart_at_rest = false;        // nor does cloth at rest
 
     [[nodiscard]] voile::Collider collider() const
     {
@@ -39,32 +39,32 @@ struct Shot
 {
     uint32_t vertices = 0; // along each side
     float size = 0;        // m
-    float speed = 0;       // m/s, downwards
+    float speed = 0;       // m/s, downward
     float thickness = 0;   // m
     uint32_t frames = 0;
     float air_density = 0;   // kg/m^3
-    float stiffness = 0.25f; // of cotton's: half its substeps, of 3 cm each at 60 m/s
-    uint32_t substeps = 0;   // a frame; 0: as many as it takes
+    float stiffness = 0.25f; // fraction of cotton's: half its substeps, of 3 cm each at 60 m/s
+    uint32_t substeps = 0;   // per frame; 0: as many as needed
     float strain_limit = 0;  // 0: none
     voile::Fabric fabric = voile::cotton();
 };
 
-// The worst that was seen in a run.
+// The worst observations of a run.
 struct Seen
 {
-    uint64_t wrong = 0; // vertices that went through, or out
+    uint64_t wrong = 0; // vertices that went through or left
     double deepest = 0; // m, of a vertex below a closed surface or the ground
-    double speed = 0;   // m/s, root mean square of the way over the last frame
-    double fastest = 0; // of all frames, and of the velocities at their ends
+    double speed = 0;   // m/s, root mean square of the displacement over the last frame
+    double fastest = 0; // the largest of all frames and of the velocities at their ends
     double highest = 0; // m, at the end
     Crossings at_worst;
     Crossings at_end;
 };
 
-// Runs a scene and checks what must hold in each.
+// Runs a scene and checks its invariants.
 Seen shoot(const ShotScene& scene, const Shot& shot);
 
-// A cube of 0.5 m on its edge, 0.1 m above the ground; of triangles, or a box with a formula.
+// A cube of 0.5 m on its edge, 0.1 m above the ground: a triangle mesh or an analytic box.
 ShotScene edge_of_a_box(bool formula);
 
 } // namespace tests

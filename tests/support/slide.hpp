@@ -1,4 +1,4 @@
-// How far a patch slides down an incline under the module's law of friction (friction.glsl).
+// How far a patch slides down an incline under the module's friction law (friction.glsl).
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 namespace tests
 {
 
-// m, from rest in `time` s down a slope of `angle` rad, without drag. The coefficient falls from the static to the
-// kinetic one while the speed rises to 1 mm/s: v' = g (sin - mu(v) cos) is linear in v until then, and constant after.
+// m, from rest in `time` s down a slope of `angle` rad, without drag. The coefficient falls from static to kinetic
+// while the speed rises to 1 mm/s: until then v' = g (sin - mu(v) cos) is linear in v, afterward constant.
 inline double slide_distance(double angle, double static_friction, double kinetic_friction, double time)
 {
     constexpr double k_gravity = 9.81;

@@ -1,4 +1,4 @@
-// Sheets with one triangle that has next to no height, as modeling tools and clean-ups leave them.
+// Sheets with one triangle of almost no height, like the output of modeling and cleanup tools.
 #pragma once
 
 #include "support/cloth_meshes.hpp"
@@ -11,15 +11,15 @@ namespace tests
 enum class Sliver
 {
     none,
-    loose,  // a piece of its own, 3 cm long
+    loose,  // a separate piece, 3 cm long
     border, // along an edge of the border
-    corner, // on a vertex of the border, that vertex its sharp end
-    inside, // between two triangles, where one of them has a vertex on the other's edge
-    needle, // two, at the ends of an edge as short as they are high
+    corner, // at a vertex of the border, which is its sharp end
+    inside, // between two triangles, one of which has a vertex on the other's edge
+    needle, // two, at the ends of an edge as short as the slivers are high
 };
 constexpr Sliver k_slivers[] = {Sliver::loose, Sliver::border, Sliver::corner, Sliver::inside, Sliver::needle};
 
-// Splits the edge from `at` to its right neighbor for the triangle above it alone.
+// Splits the edge from `at` to its right neighbor, only for the triangle above it.
 inline void add_inside(ClothMesh& mesh, uint32_t columns, uint32_t at, float height)
 {
     const auto middle = static_cast<uint32_t>(mesh.positions.size());
@@ -31,7 +31,7 @@ inline void add_inside(ClothMesh& mesh, uint32_t columns, uint32_t at, float hei
     mesh.triangles.emplace_back(at, at + 1, middle);
 }
 
-// Parts the sheet at a vertex: the triangles on its right get a copy of it.
+// Separates the sheet at a vertex: the triangles on its right get a copy of it.
 inline void add_needle(ClothMesh& mesh, uint32_t columns, uint32_t at, float height)
 {
     const auto copy = static_cast<uint32_t>(mesh.positions.size());
@@ -53,8 +53,8 @@ inline void add_sliver(ClothMesh& mesh, uint32_t columns, uint32_t rows, Sliver 
     const uint32_t middle = rows / 2 * columns + columns / 2;
     const uint32_t border = (rows - 1) * columns + columns / 2;
     const auto added = static_cast<uint32_t>(mesh.positions.size());
-    const glm::vec3 place = mesh.positions[border];
-    const auto add = [&](float x, float z) { mesh.positions.push_back(place + glm::vec3(x, 0, z)); };
+    const glm::vec3 position = mesh.positions[border];
+    const auto add = [&](float x, float z) { mesh.positions.push_back(position + glm::vec3(x, 0, z)); };
     if (sliver == Sliver::loose)
     {
         add(0, 0.5f);
@@ -64,7 +64,7 @@ inline void add_sliver(ClothMesh& mesh, uint32_t columns, uint32_t rows, Sliver 
     }
     if (sliver == Sliver::border)
     {
-        add(0.5f * (mesh.positions[border + 1].x - place.x), height);
+        add(0.5f * (mesh.positions[border + 1].x - position.x), height);
         mesh.triangles.emplace_back(border, added, border + 1);
     }
     if (sliver == Sliver::corner)

@@ -1,4 +1,4 @@
-// The check of crossings against cases that can be counted by hand.
+// Tests the intersection checks against cases that are counted by hand.
 #include "support/cloth_meshes.hpp"
 #include "support/crossing_checks.hpp"
 #include "support/hard_shapes.hpp"
@@ -17,10 +17,10 @@ tests::Crossings crossings(const voile::engine::Mesh& collider, const tests::Clo
         .count(std::vector<glm::dvec3>(cloth.positions.begin(), cloth.positions.end()));
 }
 
-void move(tests::ClothMesh& cloth, const glm::vec3& way)
+void move(tests::ClothMesh& cloth, const glm::vec3& displacement)
 {
     for (glm::vec3& p : cloth.positions)
-        p += way;
+        p += displacement;
 }
 
 } // namespace
@@ -43,7 +43,7 @@ TEST_CASE("the depth of a sheet in a box is exact")
     const voile::engine::Mesh box = voile::engine::make_box({-0.115f, 0, -0.115f}, {0.115f, 0.3f, 0.115f});
     const tests::Crossings result = crossings(box, cloth);
     CHECK(result.cloth_edges > 0);
-    CHECK(result.collider_edges == 8); // the upright ones, and the diagonals of their faces
+    CHECK(result.collider_edges == 8); // the upright edges, and the diagonals of their faces
     CHECK(std::abs(result.depth - 0.01) < 1e-6);
     move(cloth, {0, 0.02f, 0});
     CHECK(crossings(box, cloth).count() == 0);
@@ -55,7 +55,7 @@ TEST_CASE("the depth of a strip through an open ground is its shorter end")
     for (glm::vec3& p : cloth.positions)
         p = {p.x + 0.4f, p.z - 0.02f, 0.3f}; // upright
     const tests::Crossings result = crossings(voile::engine::make_ground(1), cloth);
-    CHECK(result.cloth_edges == 5); // three upright ones, two diagonals
+    CHECK(result.cloth_edges == 5); // three upright edges, two diagonals
     CHECK(result.collider_edges == 0);
     CHECK(std::abs(result.depth - 0.02) < 1e-6);
 }

@@ -1,4 +1,4 @@
-// A folder of its own for a test that works with files.
+// A temporary folder for a test with files.
 #pragma once
 
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-// Made empty, removed with everything in it when the test ends.
+// Created empty. Removed with its contents when the test ends.
 class TestFolder
 {
 public:
@@ -42,7 +42,7 @@ public:
         std::ifstream file(path_ / name, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
-    // How many files and folders are in it, hidden ones too.
+    // The number of files and folders in it, including hidden ones.
     [[nodiscard]] size_t entries() const
     {
         return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));

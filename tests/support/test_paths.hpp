@@ -1,5 +1,4 @@
-// Where a test program finds what it works with, also in a pack of the tests on another machine
-// (scripts/pack_tests.sh).
+// Paths of the programs and files of a test, also in a pack of the tests on another machine (scripts/pack_tests.sh).
 #pragma once
 
 #include <cstdlib>
@@ -14,7 +13,7 @@ inline std::filesystem::path program(const char* name)
     return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
 }
 
-// A file of the repository. VOILE_TEST_SOURCES is where a pack keeps those that tests read.
+// A file of the repository. In a pack VOILE_TEST_SOURCES is the folder of the files that tests read.
 inline std::filesystem::path source(const char* path)
 {
     const char* sources = std::getenv("VOILE_TEST_SOURCES");
