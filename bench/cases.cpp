@@ -246,7 +246,7 @@ constexpr Case k_cases[] = {
     {"air-128", "air drag", add_changed_sheet<feel_air>},
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,
      0.3f},
-    {"strain-limit-128", "a strain limit of 5 %, once a frame", add_changed_sheet<limit_strain>},
+    {"strain-limit-128", "a strain limit of 5 %, once per frame", add_changed_sheet<limit_strain>},
     {"tethers-128", "a row of pins, a tether for every other vertex", add_held_sheet<true>},
     {"max-distance-128", "a row of pins, a max-distance constraint for every other vertex", add_held_sheet<false>},
     {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>, k_nearest, 0, false,

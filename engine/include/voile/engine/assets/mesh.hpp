@@ -35,7 +35,7 @@ struct Bounds
 
 Bounds bounds(const Mesh& mesh); // zero for a mesh without positions
 
-// What loading changed. Explains counts that differ from the file.
+// The changes that loading made. They explain counts that differ from the file.
 struct MeshReport
 {
     uint32_t polygons_triangulated = 0; // faces with more than three corners
