@@ -191,16 +191,16 @@ Cloths add_box(voile::Solver& solver)
 
 // The first row is pinned and moves. All other vertices have a tether to it, or a max-distance constraint.
 template <bool tethers>
-Cloths add_held_sheet(voile::Solver& solver)
+Cloths add_pinned_sheet(voile::Solver& solver)
 {
     const voile::ClothId id = voile::engine::take(solver.add_cloth(drape_grid(128)));
-    std::vector<voile::Hold> holds;
+    std::vector<voile::Attachment> attachments;
     for (uint32_t i = 0; i < 128 * 128; ++i)
         if (i < 128)
-            holds.push_back({.vertex = i});
+            attachments.push_back(voile::pin(i));
         else if (!tethers)
-            holds.push_back({.vertex = i, .stiffness = 0, .max_distance = 10});
-    voile::engine::take(solver.set_holds(id, holds));
+            attachments.push_back(voile::max_distance(i, 10));
+    voile::engine::take(solver.set_attachments(id, attachments));
     if (tethers)
         voile::engine::take(solver.set_tethers(id, voile::Tethers{}));
     return {id};
@@ -247,8 +247,8 @@ constexpr Case k_cases[] = {
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,
      0.3f},
     {"strain-limit-128", "a strain limit of 5 %, once per frame", add_changed_sheet<limit_strain>},
-    {"tethers-128", "a row of pins, a tether for every other vertex", add_held_sheet<true>},
-    {"max-distance-128", "a row of pins, a max-distance constraint for every other vertex", add_held_sheet<false>},
+    {"tethers-128", "a row of pins, a tether for every other vertex", add_pinned_sheet<true>},
+    {"max-distance-128", "a row of pins, a max-distance constraint for every other vertex", add_pinned_sheet<false>},
     {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
     {"mesh-128-compact", "its lists of springs not interleaved", add_mesh_sheet<false, false>, k_nearest, 0, false,

@@ -80,7 +80,7 @@ struct Scene
 Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshCollider& heart, uint32_t workgroup_size)
 {
     voile::SolverOptions options;
-    options.workgroup_size = workgroup_size;
+    options.tuning.workgroup_size = workgroup_size;
     Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     voile::GridCloth grid = drape_grid(item.side);
     grid.integrator = item.integrator;

@@ -22,8 +22,8 @@ struct Options
     bool list_devices = false;
     std::string device;
     std::string csv;
-    uint32_t repetitions = 0; // 0: depends on the device
-    uint32_t workgroup = voile::SolverOptions().workgroup_size;
+    uint32_t repetitions = 0; // 0: by device
+    uint32_t workgroup = voile::Tuning().workgroup_size;
     bool passes = false;
 };
 

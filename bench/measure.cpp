@@ -199,9 +199,9 @@ double measure_visits(TimedQueue& queue, const voile::Solver& solver, voile::Clo
 Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, const Settings& settings)
 {
     voile::SolverOptions options;
-    options.contact_method = item.method;
-    options.workgroup_size = settings.workgroup_size;
-    options.mesh_layout = item.layout;
+    options.tuning.contact_method = item.method;
+    options.tuning.workgroup_size = settings.workgroup_size;
+    options.tuning.mesh_layout = item.layout;
     voile::Solver solver = voile::engine::take(voile::Solver::create(queue.context().handles, options));
     const std::vector<voile::ClothId> cloths = item.build(solver);
     {

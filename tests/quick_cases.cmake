@@ -56,7 +56,7 @@ quick(test_hard_contacts
     "the depth of a strip through an open ground is its shorter end")
 quick(test_hazards)
 quick(test_hello_cloth)
-quick(test_holds
+quick(test_attachments
     "pins follow an anchor exactly, move with its velocity, and stop with it"
     "pins change at run time, and released vertices fall"
     "a max-distance constraint keeps a vertex near a moving point, a backstop in front of it"

@@ -64,7 +64,7 @@ add_test(NAME "consumer: find_package"
 set_tests_properties("consumer: clean" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: clean")
 set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
-voile_add_test(test_holds SOURCES constraints/test_holds.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_edits SOURCES solver/test_edits.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)

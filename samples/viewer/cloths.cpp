@@ -7,6 +7,7 @@
 #include "voile/engine/assets/load_mesh.hpp"
 #include "voile/engine/assets/words.hpp"
 
+#include <map>
 #include <utility>
 
 namespace viewer
@@ -75,26 +76,31 @@ std::vector<uint32_t> pinned_vertices(const Vertices& vertices, const PinEntry& 
     return box_vertices(vertices, std::get<BoxPin>(pin.at));
 }
 
-// The holds of all pins; where two pins name a vertex, the later one holds it.
+// What a pin of the scene does to a vertex: a pin, or a spring and a maximum distance.
+voile::Attachment make_attachment(const PinEntry& entry, uint32_t vertex)
+{
+    voile::Attachment attachment = voile::pin(vertex);
+    if (entry.stiffness || entry.max_distance)
+        attachment = voile::spring(vertex, entry.stiffness.value_or(0), entry.damping);
+    return entry.max_distance ? attachment.with_max_distance(*entry.max_distance) : attachment;
+}
+
+// The attachments of all pins; where two pins name a vertex, the later one counts.
 voile::gpu::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
                                   const Vertices& vertices, AddedCloth& added)
 {
-    std::vector<std::optional<voile::Hold>> held(vertices.start.size());
+    std::map<uint32_t, voile::Attachment> attached;
     for (const PinEntry& pin : entry.pins)
     {
-        voile::Hold hold;
+        std::optional<voile::AnchorId> anchor;
         if (pin.motion)
         {
-            auto anchor = solver.add_anchor(matrix(*pin.motion, 0));
-            if (!anchor)
-                return error_at(scene, pin.place, anchor.error().message);
-            hold.anchor = anchor.value();
-            added.moving_pins.push_back({anchor.value(), *pin.motion});
+            auto id = solver.add_anchor(matrix(*pin.motion, 0));
+            if (!id)
+                return error_at(scene, pin.place, id.error().message);
+            anchor = id.value();
+            added.moving_pins.push_back({id.value(), *pin.motion});
         }
-        if (pin.stiffness || pin.max_distance)
-            hold.stiffness = pin.stiffness.value_or(0);
-        hold.damping = pin.damping;
-        hold.max_distance = pin.max_distance.value_or(hold.max_distance);
         const std::vector<uint32_t> pinned = pinned_vertices(vertices, pin);
         if (pinned.empty())
             return error_at(scene, pin.place, "cloth " + in_quotes(entry.name) + ": no vertex lies in the pin's box");
@@ -104,18 +110,17 @@ voile::gpu::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene,
                 return error_at(scene, pin.place,
                                 "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
                                     ", but it has " + std::to_string(vertices.start.size()) + " vertices");
-            hold.vertex = vertex;
-            hold.place.reset();
-            if (hold.anchor) // as seen from the anchor, which is at its place of time 0
-                hold.place = glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(vertices.start[vertex], 1));
-            held[vertex] = hold;
+            voile::Attachment attachment = make_attachment(pin, vertex);
+            if (anchor) // as seen from the anchor, which is at its place of time 0
+                attachment = attachment.to(*anchor).at(
+                    glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(vertices.start[vertex], 1)));
+            attached[vertex] = attachment;
         }
     }
-    std::vector<voile::Hold> holds;
-    for (const std::optional<voile::Hold>& hold : held)
-        if (hold)
-            holds.push_back(*hold);
-    if (auto set = solver.set_holds(added.id, holds); !set)
+    std::vector<voile::Attachment> attachments;
+    for (const auto& [vertex, attachment] : attached)
+        attachments.push_back(attachment);
+    if (auto set = solver.set_attachments(added.id, attachments); !set)
         return error_at(scene, entry.place, set.error().message);
     if (!entry.tethers)
         return {};

@@ -220,8 +220,8 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_place(reader, reader.required(field, "at"), grid, pin);
-        reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_hold_stiffness), pin.stiffness);
-        reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_hold_damping), pin.damping);
+        reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness), pin.stiffness);
+        reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_attachment_damping), pin.damping);
         reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
         if (!reader.failed() && has("damping") && !has("stiffness"))
             reader.fail(SceneReader::child(field, "damping"), "is a spring's; it needs a \"stiffness\"");

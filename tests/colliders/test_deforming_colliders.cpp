@@ -236,7 +236,7 @@ TEST_CASE("vertices inside a deforming mesh are counted before the first step an
 {
     ClothHarness harness;
     voile::GridCloth grid = flat_sheet(3, 0.2f, 0);
-    grid.held = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    grid.pins = {0, 1, 2, 3, 4, 5, 6, 7, 8};
     (void)voile::engine::take(harness.solver.add_cloth(grid));
     const voile::engine::Mesh box = voile::engine::make_box(glm::vec3(-0.5f), glm::vec3(0.5f));
     const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(deforming(box)));

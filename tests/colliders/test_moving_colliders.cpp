@@ -120,7 +120,7 @@ TEST_CASE("a ball shot through a curtain carries it along")
             voile::GridCloth grid = flat_sheet(64, 1.5f, 0);
             grid.transform = glm::rotate(glm::mat4(1.f), std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0)); // hangs
             for (uint32_t column = 0; column < 64; ++column)
-                grid.held.push_back(column);
+                grid.pins.push_back(column);
             const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
             const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(kind));
             harness.upload();
@@ -155,9 +155,10 @@ TEST_CASE("cloth attached to a collider follows it, however far it jumps")
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(collider(ball)));
     (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{}));
-    const std::vector<voile::Hold> holds = voile::engine::take(harness.solver.holds_on_surface(id, with, 0.03f));
-    REQUIRE(holds.size() > 4);
-    REQUIRE(harness.solver.set_holds(id, holds));
+    const std::vector<voile::Attachment> attachments =
+        voile::engine::take(harness.solver.attachments_on_surface(id, with, 0.03f));
+    REQUIRE(attachments.size() > 4);
+    REQUIRE(harness.solver.set_attachments(id, attachments));
     harness.upload();
     harness.step({}, 30);
     glm::mat4 there(1.f);
@@ -167,9 +168,9 @@ TEST_CASE("cloth attached to a collider follows it, however far it jumps")
         REQUIRE(harness.solver.move_collider(with, there));
         harness.step({});
         const auto positions = harness.positions(id);
-        for (const voile::Hold& hold : holds)
-            CHECK(glm::distance(glm::vec3(positions[hold.vertex]),
-                                glm::vec3(there * glm::vec4(hold.place.value_or(glm::vec3(0)), 1))) < 1e-5f);
+        for (const voile::Attachment& attachment : attachments)
+            CHECK(glm::distance(glm::vec3(positions[attachment.vertex]),
+                                glm::vec3(there * glm::vec4(attachment.position.value_or(glm::vec3(0)), 1))) < 1e-5f);
         CHECK(harness.statistics().nan_vertices == 0);
         CHECK(harness.statistics().deepest_penetration < 1e-6f); // attached vertices lie on the surface itself
         harness.step({}, 30);

@@ -35,7 +35,7 @@ voile::GridCloth sheet(uint32_t side, voile::Integrator integrator)
     grid.material = soft();
     grid.integrator = integrator;
     for (uint32_t column = 0; column < side; ++column)
-        grid.held.push_back(column);
+        grid.pins.push_back(column);
     return grid;
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("the strain limit keeps momentum and center of mass of a free cloth")
         CAPTURE(columns);
         voile::GridCloth grid = sheet(16, voile::Integrator::rk4);
         grid.columns = columns;
-        grid.held = {};
+        grid.pins = {};
         grid.transform[0] *= 1.3f; // stretched far beyond the limit
         grid.velocity = {1, 0.5f, -0.3f};
         ClothHarness harness;

@@ -138,7 +138,8 @@ TEST_CASE("a substep with contact equals the double-precision brute force")
                 CAPTURE(ray);
                 const voile::engine::Mesh& mesh = closed ? sphere : ground;
                 const reference::TriangleMesh exact = mesh_of(mesh, closed);
-                ClothHarness harness({.contact_method = method, .feature_contact = false, .recovery = false});
+                ClothHarness harness(
+                    {.feature_contact = false, .recovery = false, .tuning = {.contact_method = method}});
                 (void)voile::engine::take(harness.solver.add_collider(collider(mesh)));
                 const Comparison result =
                     compare(harness, falling_sheet(size.columns, size.rows), k_step,
@@ -222,7 +223,7 @@ TEST_CASE("a sheet draped over a mesh never enters it")
     grid.velocity = {0, 0, 0};
     for (const auto method : {voile::ContactMethod::nearest_point, voile::ContactMethod::normal_ray})
     {
-        ClothHarness harness({.contact_method = method, .feature_contact = false});
+        ClothHarness harness({.feature_contact = false, .tuning = {.contact_method = method}});
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         (void)voile::engine::take(harness.solver.add_collider(collider(sphere)));
         (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{}));

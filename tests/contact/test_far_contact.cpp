@@ -78,7 +78,7 @@ voile::GridCloth spectator(const glm::vec3& point)
 {
     voile::GridCloth grid = tests::flat_sheet(2, 0.1f, 0);
     grid.transform = tests::moved(point + glm::vec3(0, 1000, 0));
-    grid.held = {0, 1, 2, 3};
+    grid.pins = {0, 1, 2, 3};
     grid.layers = 1u << 31;
     return grid;
 }

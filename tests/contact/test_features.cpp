@@ -149,33 +149,32 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
     for (const bool mesh : {false, true})
     {
         CAPTURE(mesh);
-        const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.feature_threads = 1});
-        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // without feature contact it
-                                                                                         // would fall on
-        for (const voile::SolverOptions& options : {voile::SolverOptions{.workgroup_size = 1, .feature_threads = 1},
-                                                    voile::SolverOptions{.workgroup_size = 2, .feature_threads = 2},
-                                                    voile::SolverOptions{.workgroup_size = 32, .feature_threads = 4},
-                                                    voile::SolverOptions{.workgroup_size = 128, .feature_threads = 8},
-                                                    voile::SolverOptions{.workgroup_size = 64, .feature_threads = 64}})
+        const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.tuning = {.feature_threads = 1}});
+        CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
+        for (const voile::Tuning& tuning : {voile::Tuning{.workgroup_size = 1, .feature_threads = 1},
+                                            voile::Tuning{.workgroup_size = 2, .feature_threads = 2},
+                                            voile::Tuning{.workgroup_size = 32, .feature_threads = 4},
+                                            voile::Tuning{.workgroup_size = 128, .feature_threads = 8},
+                                            voile::Tuning{.workgroup_size = 64, .feature_threads = 64}})
         {
-            CAPTURE(options.workgroup_size);
-            CAPTURE(options.feature_threads);
-            CHECK(farthest(usual, fall_on_walls(mesh, options)) < 1e-4f);
+            CAPTURE(tuning.workgroup_size);
+            CAPTURE(tuning.feature_threads);
+            CHECK(farthest(usual, fall_on_walls(mesh, {.tuning = tuning})) < 1e-4f);
         }
     }
 }
 
 TEST_CASE("options with an invalid enumerator are refused")
 {
-    const auto refused = [](const voile::SolverOptions& options)
+    const auto refused = [](const voile::Tuning& tuning)
     {
-        const auto solver = voile::Solver::create(tests::device().context().handles, options);
+        const auto solver = voile::Solver::create(tests::device().context().handles, {.tuning = tuning});
         return solver ? "accepted" : solver.error().message;
     };
     CHECK(refused({.contact_method = static_cast<voile::ContactMethod>(5)}) ==
-          "SolverOptions: contact_method is 5, must be normal_ray or nearest_point");
+          "Tuning: contact_method is 5, must be normal_ray or nearest_point");
     CHECK(refused({.mesh_layout = static_cast<voile::MeshLayout>(2)}) ==
-          "SolverOptions: mesh_layout is 2, must be compact or interleaved");
+          "Tuning: mesh_layout is 2, must be compact or interleaved");
 }
 
 TEST_CASE("feature threads are a power of two of at most the workgroup size")
@@ -183,9 +182,9 @@ TEST_CASE("feature threads are a power of two of at most the workgroup size")
     for (const uint32_t threads : {3u, 128u})
     {
         const auto solver = voile::Solver::create(tests::device().context().handles,
-                                                  {.workgroup_size = 64, .feature_threads = threads});
+                                                  {.tuning = {.workgroup_size = 64, .feature_threads = threads}});
         REQUIRE(!solver);
-        CHECK(solver.error().message == "SolverOptions: feature_threads is " + std::to_string(threads) +
+        CHECK(solver.error().message == "Tuning: feature_threads is " + std::to_string(threads) +
                                             ", must be 0 or a power of two up to workgroup_size");
     }
 }

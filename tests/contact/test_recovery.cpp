@@ -304,7 +304,7 @@ TEST_CASE("pins, cloth of other layers and cloth in two-sided meshes stay inside
         voile::GridCloth grid = sheet(6, 0.1f, {0, 0.1f, 0});
         grid.layers = c.layers;
         if (c.pinned)
-            grid.held = {0, 14, 15, 35};
+            grid.pins = {0, 14, 15, 35};
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         voile::MeshCollider description = collider(ball);
         description.sidedness = c.sides;

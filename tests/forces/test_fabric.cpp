@@ -29,7 +29,7 @@ voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, float width, flo
     grid.material =
         voile::make_material(fabric, width / static_cast<float>(columns - 1), length / static_cast<float>(rows - 1));
     for (uint32_t column = 0; column < columns; ++column)
-        grid.held.push_back(column);
+        grid.pins.push_back(column);
     return grid;
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("a strip held at both ends hangs in a catenary")
         grid.depth = 0.02f;
         grid.material = voile::make_material(fabric, 1.f / 64, 0.02f);
         tests::raw(grid).linear_drag = 4 * tests::raw(grid).vertex_mass; // 1/s, near critical for its slow swing
-        grid.held = {0, 64, 65, 129};
+        grid.pins = {0, 64, 65, 129};
         // Compressed to its span along x and tilted slightly: otherwise symmetry would keep it on a line.
         grid.transform[0] = {row.span, 0, 0, 0};
         ClothHarness harness;

@@ -19,7 +19,7 @@ voile::Statistics hanging_cotton(float distance)
     grid.transform[2] = {0, -1, 0, 0};
     grid.transform[3] = {distance, distance, -distance, 1};
     for (uint32_t column = 0; column < grid.columns; ++column)
-        grid.held.push_back(column);
+        grid.pins.push_back(column);
     tests::ClothHarness harness;
     (void)voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();

@@ -37,7 +37,7 @@ voile::MeshCloth pulled(const ClothMesh& mesh, const voile::ClothMaterial& mater
     cloth.velocity = {0.6f, -0.9f, 0.5f};
     cloth.material = material;
     for (uint32_t i = 1; i < mesh.positions.size(); i += 4)
-        cloth.held.push_back(i);
+        cloth.pins.push_back(i);
     return cloth;
 }
 
@@ -70,8 +70,8 @@ struct Run
 Run one_step(const std::vector<voile::MeshCloth>& meshes, voile::MeshLayout layout)
 {
     voile::SolverOptions options;
-    options.workgroup_size = 64;
-    options.mesh_layout = layout;
+    options.tuning.workgroup_size = 64;
+    options.tuning.mesh_layout = layout;
     ClothHarness harness(options);
     std::vector<voile::ClothId> ids;
     for (const voile::MeshCloth& mesh : meshes)
@@ -250,8 +250,8 @@ TEST_CASE("a triangulated sheet hangs like a grid")
     grid.transform = cloth.transform;
     grid.transform[3] = {0.5f, -0.5f, 0, 1};
     for (uint32_t i = 0; i < k_side; ++i)
-        cloth.held.push_back(i);
-    grid.held = cloth.held;
+        cloth.pins.push_back(i);
+    grid.pins = cloth.pins;
     ClothHarness harness;
     const voile::ClothId as_mesh = voile::engine::take(harness.solver.add_cloth(cloth));
     const voile::ClothId as_grid = voile::engine::take(harness.solver.add_cloth(grid));
@@ -278,7 +278,7 @@ TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a g
     const ClothMesh mesh = tests::sheet(3, k_rows, static_cast<float>(k_spacing));
     voile::MeshCloth cloth = mesh.cloth();
     cloth.material = fabric;
-    cloth.held = {0, 1, 2, 3, 4, 5};
+    cloth.pins = {0, 1, 2, 3, 4, 5};
     cloth.integrator = voile::Integrator::verlet; // only to save time
     voile::GridCloth grid;
     grid.columns = 3;
@@ -286,7 +286,7 @@ TEST_CASE("a cantilever with isometric bending sags equally as a mesh and as a g
     grid.width = 0.04f;
     grid.depth = 0.2f;
     grid.material = fabric;
-    grid.held = cloth.held;
+    grid.pins = cloth.pins;
     grid.integrator = cloth.integrator;
     ClothHarness harness;
     const voile::ClothId as_mesh = voile::engine::take(harness.solver.add_cloth(cloth));

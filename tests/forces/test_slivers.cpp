@@ -28,7 +28,7 @@ voile::MeshCloth sheet_of(const ClothMesh& mesh, const voile::Fabric& fabric, vo
     cloth.material = fabric;
     cloth.integrator = integrator;
     for (uint32_t i = 0; i < k_side; ++i)
-        cloth.held.push_back(i);
+        cloth.pins.push_back(i);
     return cloth;
 }
 

@@ -27,7 +27,7 @@ voile::GridCloth draw_grid(Draw& draw)
     grid.material = draw_any_material(draw);
     grid.integrator = draw_integrator(draw);
     if (draw.chance(0.3))
-        grid.held = {0, grid.columns - 1};
+        grid.pins = {0, grid.columns - 1};
     return grid;
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("damping of springs folded into one line is as stable as in a plane")
         grid.transform[0] = {0.6f, 0.8f, 0, 0};
         grid.transform[2] = {0.222f, 0.296f, 0, 0};
         grid.velocity = {3, 4, 1};
-        grid.held = {0, 40};
+        grid.pins = {0, 40};
         voile::Material material;
         material.springs.structural_warp = {100, 20};
         material.springs.structural_weft = {0, 20};

@@ -133,7 +133,7 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is u
         [](voile::MeshCloth& m) { (m.inverse_masses = std::vector<float>(9, 1))[3] = -1; });
     add("inverse mass 0 is nan 1/kg, must be 0 to 1e+09",
         [](voile::MeshCloth& m) { m.inverse_masses.assign(9, std::abs(k_nan)); });
-    add("held vertex 9 of 9", [](voile::MeshCloth& m) { m.held = {0, 9}; });
+    add("pinned vertex 9 of 9", [](voile::MeshCloth& m) { m.pins = {0, 9}; });
     add("its transform is not finite", [](voile::MeshCloth& m) { m.transform[3].x = k_nan; });
     add("its transform takes vertex 0 to (3e+38, 0, 0), each must be -1e+06 to 1e+06 m",
         [](voile::MeshCloth& m) { m.transform[0].x = m.transform[3].x = 3e38f; });

@@ -176,8 +176,8 @@ voile::GridCloth stretched_between_pins(float stretch, float limit, Integrator i
     grid.integrator = integrator;
     for (uint32_t row = 0; row < grid.rows; ++row)
     {
-        grid.held.push_back(row * grid.columns);
-        grid.held.push_back(row * grid.columns + grid.columns - 1);
+        grid.pins.push_back(row * grid.columns);
+        grid.pins.push_back(row * grid.columns + grid.columns - 1);
     }
     return grid;
 }
@@ -262,7 +262,7 @@ TEST_CASE("cloth whose density changes by a factor of 10,000 in every frame stay
             voile::GridCloth grid = sheet_at(2, limited_cotton(limit, 0.02f));
             grid.columns = grid.rows = 8;
             grid.integrator = integrator;
-            grid.held = {0, 7};
+            grid.pins = {0, 7};
             subjects.push_back({grid});
         }
     ClothHarness harness;

@@ -105,14 +105,14 @@ Subject add_grid(ClothHarness& harness, Draw& draw, const voile::Step& step)
     grid.transform = draw_start(draw, scale);
     grid.integrator = tests::draw_integrator(draw);
     if (draw.chance(0.4))
-        grid.held = {0, grid.columns - 1};
-    const float tether = !grid.held.empty() && draw.chance(0.5) ? draw.uniform(0, 0.1f) : -1;
+        grid.pins = {0, grid.columns - 1};
+    const float tether = !grid.pins.empty() && draw.chance(0.5) ? draw.uniform(0, 0.1f) : -1;
     Subject s;
     s.id = voile::engine::take(harness.solver.add_cloth(grid));
     if (tether >= 0)
         voile::engine::take(harness.solver.set_tethers(s.id, voile::Tethers{tether}));
     s.text = tests::describe(grid) + " limit " + std::to_string(fabric.strain_limit) + " tether " +
-             std::to_string(tether) + " held " + std::to_string(grid.held.size()) + " " + std::to_string(grid.columns) +
+             std::to_string(tether) + " held " + std::to_string(grid.pins.size()) + " " + std::to_string(grid.columns) +
              " x " + std::to_string(grid.rows) + " scale " + std::to_string(glm::length(glm::vec3(grid.transform[0])));
     s.decays = fabric.damping_ratio > 0 && scale != 1;
     s.stiffness = static_cast<double>(harness.solver.stability(s.id, step).stiffness_share);

@@ -73,7 +73,7 @@ TEST_CASE("one step equals the double-precision reference at awkward sizes")
 TEST_CASE("a short trajectory follows the reference")
 {
     voile::GridCloth grid = uneven_sheet(13, 11);
-    grid.held = {0, 12};
+    grid.pins = {0, 12};
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -194,7 +194,7 @@ TEST_CASE("the workgroup size changes no bit of the result")
     for (const uint32_t size : {32u, 64u, 128u})
     {
         voile::SolverOptions options;
-        options.workgroup_size = size;
+        options.tuning.workgroup_size = size;
         ClothHarness harness(options);
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(uneven_sheet(23, 17)));
         harness.upload();
@@ -223,7 +223,7 @@ TEST_CASE("normals are the normals of a curved sheet")
 TEST_CASE("normals of a folded sheet are the cross products of its central differences")
 {
     voile::GridCloth grid = uneven_sheet(23, 17);
-    grid.held = {0, 22};
+    grid.pins = {0, 22};
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -259,11 +259,11 @@ TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for
             const auto add = [&]
             {
                 const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(voile::GridCloth{
-                    .columns = 9, .rows = 7, .material = fabric, .integrator = integrator, .held = {0}}));
+                    .columns = 9, .rows = 7, .material = fabric, .integrator = integrator, .pins = {0}}));
                 if (!everything)
                     return;
-                const std::vector<voile::Hold> holds{{.vertex = 0}, {.vertex = 3, .stiffness = 10}};
-                voile::engine::take(harness.solver.set_holds(id, holds));
+                const std::vector<voile::Attachment> attachments{{.vertex = 0}, {.vertex = 3, .stiffness = 10}};
+                voile::engine::take(harness.solver.set_attachments(id, attachments));
                 voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{}));
             };
             const auto count = [&]

@@ -101,7 +101,7 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
     for (const Size& size : {Size{2, 2}, Size{9, 7}, Size{8, 8}, Size{13, 5}, Size{617, 2}})
     {
         grids.push_back(uneven_sheet(size.columns, size.rows));
-        grids.back().held = {1};
+        grids.back().pins = {1};
         ids.push_back(voile::engine::take(harness.solver.add_cloth(grids.back())));
     }
     harness.upload();
@@ -139,7 +139,7 @@ TEST_CASE("a Verlet step of one and of several substeps equals the double-precis
 TEST_CASE("a short Verlet trajectory of a grid and of meshes follows the reference")
 {
     voile::GridCloth grid = uneven_sheet(13, 11);
-    grid.held = {0, 12};
+    grid.pins = {0, 12};
     voile::Fabric fabric;
     fabric.stretch_stiffness = {300, 300};
     fabric.bending_stiffness = 1e-3f;
@@ -156,7 +156,7 @@ TEST_CASE("a short Verlet trajectory of a grid and of meshes follows the referen
         voile::MeshCloth cloth = mesh->cloth();
         cloth.material = fabric;
         cloth.integrator = voile::Integrator::verlet;
-        cloth.held = {0, 12};
+        cloth.pins = {0, 12};
         mesh_ids.push_back(voile::engine::take(harness.solver.add_cloth(cloth)));
         meshes.emplace_back(cloth);
     }
@@ -268,7 +268,7 @@ TEST_CASE("an undamped cloth that flaps freely keeps its energy for 10 s")
         tests::raw(grid).vertex_mass = 0.1f;
         tests::raw(grid).springs = {{200, 0}, {200, 0}, {60, 0}, {5, 0}, {5, 0}, {}};
         grid.integrator = integrator;
-        grid.held = {0, 6};
+        grid.pins = {0, 6};
         ClothHarness harness;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         harness.upload();

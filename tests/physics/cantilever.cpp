@@ -60,8 +60,8 @@ double grid_drop(double load, uint32_t spacings)
     std::vector<uint32_t> end;
     for (uint32_t row = 0; row < 3; ++row)
     {
-        grid.held.push_back(row * grid.columns);
-        grid.held.push_back(row * grid.columns + 1);
+        grid.pins.push_back(row * grid.columns);
+        grid.pins.push_back(row * grid.columns + 1);
         end.push_back((row + 1) * grid.columns - 1);
     }
     Rig rig;
@@ -76,7 +76,7 @@ struct Strip
 {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
-    std::vector<uint32_t> held;
+    std::vector<uint32_t> pins;
     std::vector<uint32_t> end;
 };
 
@@ -104,7 +104,7 @@ Strip triangle_strip(uint32_t spacings)
         for (uint32_t i = first; i < first + count; ++i)
         {
             if (column < 2)
-                strip.held.push_back(i);
+                strip.pins.push_back(i);
             if (column == spacings + 1)
                 strip.end.push_back(i);
         }
@@ -119,7 +119,7 @@ double mesh_drop(double load, uint32_t spacings)
     voile::MeshCloth mesh;
     mesh.positions = strip.positions;
     mesh.triangles = strip.triangles;
-    mesh.held = strip.held;
+    mesh.pins = strip.pins;
     mesh.integrator = voile::Integrator::verlet;
     mesh.material = strip_fabric(load);
     Rig rig;

@@ -21,7 +21,7 @@ struct Disc
 {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
-    std::vector<uint32_t> held;
+    std::vector<uint32_t> pins;
 };
 
 // Rings of an equilateral lattice made round: ring n has 6 n evenly spaced vertices. The two innermost rings are
@@ -38,7 +38,7 @@ public:
         for (uint32_t n = first_ring_; n <= last_held + overhang; ++n)
             add_ring(n, k_support + spacing * (static_cast<double>(n) - last_held + 0.5));
         for (uint32_t i = 0; i < vertex(last_held + 1, 0); ++i)
-            disc_.held.push_back(i);
+            disc_.pins.push_back(i);
     }
 
     [[nodiscard]] const Disc& disc() const { return disc_; }
@@ -128,7 +128,7 @@ uint32_t waves(const std::vector<double>& radii)
 std::vector<glm::dvec3> slightly_waved(const Disc& disc)
 {
     std::vector<glm::dvec3> x(disc.positions.begin(), disc.positions.end());
-    for (size_t i = disc.held.size(); i < x.size(); ++i)
+    for (size_t i = disc.pins.size(); i < x.size(); ++i)
     {
         const double out = (glm::length(x[i]) - k_support) / (k_cloth - k_support);
         const double angle = std::atan2(x[i].z, x[i].x);
@@ -144,7 +144,7 @@ std::vector<double> draped(const voile::Fabric& fabric, uint32_t overhang)
     voile::MeshCloth mesh;
     mesh.positions = disc.positions;
     mesh.triangles = disc.triangles;
-    mesh.held = disc.held;
+    mesh.pins = disc.pins;
     mesh.integrator = voile::Integrator::verlet;
     mesh.material = fabric;
     Rig rig;

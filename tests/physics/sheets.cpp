@@ -31,7 +31,7 @@ voile::GridCloth hanging_sheet(uint32_t columns, uint32_t rows, double width, do
     grid.transform[3] = {0, -0.5f * grid.depth, 0, 1};
     grid.material = fabric;
     for (uint32_t column = 0; column < columns; ++column)
-        grid.held.push_back(column);
+        grid.pins.push_back(column);
     return grid;
 }
 

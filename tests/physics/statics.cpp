@@ -61,7 +61,7 @@ std::vector<glm::dvec3> hanging_strip(uint32_t links, double span)
     grid.width = 1;
     grid.depth = 1.f / static_cast<float>(links);
     grid.material = fabric;
-    grid.held = {0, links, links + 1, 2 * links + 1};
+    grid.pins = {0, links, links + 1, 2 * links + 1};
     Rig rig;
     const voile::ClothId id = voile::engine::take(rig.solver.add_cloth(grid));
     rig.upload();

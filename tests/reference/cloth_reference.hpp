@@ -44,7 +44,7 @@ public:
             }
         for (uint32_t i = 0; i < size(); ++i)
             inverse_mass_[i] /= border(i / grid.columns, grid.rows) * border(i % grid.columns, grid.columns);
-        for (const uint32_t held : grid.held)
+        for (const uint32_t held : grid.pins)
         {
             inverse_mass_[held] = 0;
             state.v[held] = glm::dvec3(0);

@@ -44,7 +44,7 @@ public:
             inverse_mass.push_back(areas_[i] > 0 ? 1 / (masses_alike_ ? density_ : density_ * areas_[i]) : 0);
         for (size_t i = 0; i < mesh.inverse_masses.size(); ++i)
             inverse_mass[i] = areas_[i] > 0 ? double(mesh.inverse_masses[i]) : 0;
-        for (const uint32_t held : mesh.held)
+        for (const uint32_t held : mesh.pins)
             inverse_mass[held] = 0;
         for (size_t i = 0; i < rest_.size(); ++i)
             if (inverse_mass[i] == 0)

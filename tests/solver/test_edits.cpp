@@ -38,7 +38,7 @@ voile::GridCloth hanging(const voile::ClothMaterial& material)
     grid.transform[3] = {0, -0.5f, 0, 1};
     grid.material = material;
     for (uint32_t column = 0; column < 9; ++column)
-        grid.held.push_back(column);
+        grid.pins.push_back(column);
     return grid;
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("a cloth is reset, teleported and given a velocity")
 {
     ClothHarness harness;
     voile::GridCloth grid = hanging(stretchy(50));
-    grid.held = {};
+    grid.pins = {};
     grid.velocity = {1, 0, 0};
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     const voile::ClothId other = voile::engine::take(harness.solver.add_cloth(hanging(stretchy(80))));

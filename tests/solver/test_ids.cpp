@@ -45,7 +45,7 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
     voile::Solver& solver = harness.solver;
     const voile::ClothId id = voile::engine::take(solver.add_cloth(tests::flat_sheet(4, 1, 0)));
     const voile::ColliderId ball = voile::engine::take(solver.add_collider(voile::SphereCollider{}));
-    const voile::Hold hold{.vertex = 0};
+    const voile::Attachment attachment{.vertex = 0};
     for (const bool uploaded : {false, true})
     {
         if (uploaded)
@@ -56,15 +56,15 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
             const voile::ClothId none{expectation.index};
             const std::string error = "cloth" + expectation.error;
             CHECK(reason(solver.set_material(none, voile::Fabric{})) == error);
-            CHECK(reason(solver.set_holds(none, {&hold, 1})) == error);
-            CHECK(reason(solver.holds_on_surface(none, ball, 1)) == error);
+            CHECK(reason(solver.set_attachments(none, {&attachment, 1})) == error);
+            CHECK(reason(solver.attachments_on_surface(none, ball, 1)) == error);
             CHECK(reason(solver.set_tethers(none, voile::Tethers{})) == error);
             CHECK(reason(solver.set_tethers(none, std::nullopt)) == error);
             CHECK(reason(solver.reset(none)) == error);
             CHECK(reason(solver.teleport(none, glm::mat4(1))) == error);
             CHECK(reason(solver.set_velocity(none, glm::vec3(0))) == error);
             CHECK(std::get<voile::Fabric>(solver.material(none)).areal_density == voile::Fabric{}.areal_density);
-            CHECK(solver.holds(none).empty());
+            CHECK(solver.attachments(none).empty());
             CHECK(solver.stability(none, {}).needed == 0);
             CHECK(solver.stability(none, {}).stiffness_share == 1);
             CHECK(solver.vertices(none).vertices == 0);
@@ -78,7 +78,7 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
     // Nothing is left over for the next step.
     harness.step({});
     CHECK(harness.statistics().nan_vertices == 0);
-    CHECK(solver.holds(id).empty());
+    CHECK(solver.attachments(id).empty());
 }
 
 TEST_CASE("every function refuses a collider that does not exist or returns an empty answer")
@@ -97,7 +97,7 @@ TEST_CASE("every function refuses a collider that does not exist or returns an e
         CHECK(reason(solver.move_collider(none, glm::mat4(1))) == error);
         CHECK(reason(solver.deform_collider(none, positions)) == error);
         CHECK(reason(solver.deform_collider(none, voile::DeviceVertices{})) == error);
-        CHECK(reason(solver.holds_on_surface(id, none, 1)) == error);
+        CHECK(reason(solver.attachments_on_surface(id, none, 1)) == error);
         CHECK(solver.hierarchy_boxes(none, 0).empty());
     }
 }
@@ -113,9 +113,10 @@ TEST_CASE("every function refuses an anchor that does not exist, including the w
         const voile::AnchorId none{index};
         const std::string error = index == voile::k_no_index ? "anchor: the id is a default-constructed one"
                                                              : "anchor " + std::to_string(index) + " does not exist";
-        const voile::Hold hold{.vertex = 3, .anchor = none};
+        const voile::Attachment attachment{.vertex = 3, .anchor = none};
         CHECK(reason(solver.move_anchor(none, glm::mat4(1))) == error);
-        CHECK(reason(solver.set_holds(id, {&hold, 1})) == "cloth \"cloth\": the hold of vertex 3: " + error);
+        CHECK(reason(solver.set_attachments(id, {&attachment, 1})) ==
+              "cloth \"cloth\": the attachment of vertex 3: " + error);
     }
 }
 

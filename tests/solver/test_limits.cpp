@@ -93,16 +93,16 @@ TEST_CASE("each limit of a device has an error message")
               .ends_with("storage buffers, the device allows 9 resources per stage"));
     CHECK(refused([](auto& limits) { limits.maxPushConstantsSize = 16; })
               .ends_with("bytes of push constants, the device has 16"));
-    CHECK(
-        refused([](auto&) {}, {.workgroup_size = 256}).ends_with("has a workgroup of 256, the device allows 1 to 128"));
+    CHECK(refused([](auto&) {}, {.tuning = {.workgroup_size = 256}})
+              .ends_with("has a workgroup of 256, the device allows 1 to 128"));
     // 48 bytes per invocation.
     CHECK(refused([](auto& limits) { limits.maxComputeSharedMemorySize = 6143; }) ==
           "kernel \"cloth feature contact\" takes 6144 bytes of shared memory with a workgroup of 128, the device has "
           "6143");
     const auto large = [](auto& limits)
     { limits.maxComputeWorkGroupInvocations = limits.maxComputeWorkGroupSize[0] = 1024; };
-    CHECK(refused(large, {.workgroup_size = 256}) == "accepted");
-    CHECK(refused(large, {.workgroup_size = 512}).find(" bytes of shared memory") != std::string::npos);
+    CHECK(refused(large, {.tuning = {.workgroup_size = 256}}) == "accepted");
+    CHECK(refused(large, {.tuning = {.workgroup_size = 512}}).find(" bytes of shared memory") != std::string::npos);
 }
 
 TEST_CASE("every workgroup size works without a validation message or is refused with an error")
@@ -112,7 +112,7 @@ TEST_CASE("every workgroup size works without a validation message or is refused
     {
         CAPTURE(size);
         const tests::GpuFixture fixture; // fails on a validation message
-        const voile::SolverOptions options{.workgroup_size = size};
+        const voile::SolverOptions options{.tuning = {.workgroup_size = size}};
         const auto solver = voile::Solver::create(tests::device().context().handles, options);
         CHECK(reason(solver) == reason(voile::check_limits(limits, options)));
         if (size <= 128)
@@ -126,14 +126,14 @@ TEST_CASE("objects that need more workgroups than a dispatch may have are refuse
 {
     const uint32_t most = tests::device().context().limits.maxComputeWorkGroupCount[0];
     if (most > 1'000'000)
-        return; // no sheet of the test's size exceeds the limit
-    ClothHarness harness({.workgroup_size = 1});
+        return; // no sheet of the test's size reaches it
+    ClothHarness harness({.tuning = {.workgroup_size = 1}});
     voile::GridCloth grid = tests::flat_sheet(2, 1, 0);
     grid.columns = 256;
     grid.rows = (most + 1) / 256;
     CHECK(reason(harness.solver.add_cloth(grid)) ==
           "cloth \"cloth\": with it the solver has 65536 workgroups of 1, the device dispatches at most 65535; a "
-          "larger SolverOptions::workgroup_size needs fewer");
+          "larger Tuning::workgroup_size needs fewer");
     CHECK(harness.solver.vertex_count() == 0);
     --grid.rows;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -146,6 +146,6 @@ TEST_CASE("objects that need more workgroups than a dispatch may have are refuse
     const voile::MeshCollider mesh{.positions = positions, .triangles = triangle, .deforms = true};
     CHECK(reason(harness.solver.add_collider(mesh)) ==
           "collider \"mesh\": its vertices need 65536 workgroups of 1, the device dispatches at most 65535; a larger "
-          "SolverOptions::workgroup_size needs fewer");
+          "Tuning::workgroup_size needs fewer");
     CHECK(harness.solver.vertices(id).vertices == 0); // nothing is uploaded
 }

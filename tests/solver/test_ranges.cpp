@@ -83,7 +83,7 @@ voile::GridCloth random_grid(Corners& corners)
     grid.material = random_material(corners);
     grid.integrator = corners.coin() ? voile::Integrator::rk4 : voile::Integrator::verlet;
     if (corners.coin())
-        grid.held = {0, 4};
+        grid.pins = {0, 4};
     if (corners.coin())
         grid.inverse_masses.assign(25, corners.one_of({1e-6f, 1.f, 1e9f}));
     return grid;
@@ -114,30 +114,30 @@ glm::mat4 random_teleport(Corners& corners)
 }
 
 // A sheet on springs, one on max-distance constraints and one pinned, all three on a moving anchor.
-class Held
+class Attached
 {
 public:
-    Held(voile::Solver& solver, Corners& corners)
+    Attached(voile::Solver& solver, Corners& corners)
         : scale_(corners.one_of({1e-3f, 1.f, voile::k_most_scale})),
           anchor_(voile::engine::take(solver.add_anchor(glm::scale(glm::mat4(1), glm::vec3(scale_)))))
     {
-        voile::Hold spring;
-        spring.stiffness = voile::k_most_hold_stiffness;
-        spring.damping = corners.one_of({0.f, voile::k_most_hold_damping});
-        voile::Hold leash;
-        leash.stiffness = 0;
-        leash.max_distance = 0;
-        leash.backstop_normal = {0, 1, 0};
-        leash.backstop = corners.one_of({-voile::k_most_coordinate, 0.f, voile::k_most_coordinate});
-        for (voile::Hold hold : {spring, leash, voile::Hold{}})
+        voile::Attachment spring;
+        spring.stiffness = voile::k_most_attachment_stiffness;
+        spring.damping = corners.one_of({0.f, voile::k_most_attachment_damping});
+        voile::Attachment limit;
+        limit.stiffness = 0;
+        limit.max_distance = 0;
+        limit.backstop_normal = {0, 1, 0};
+        limit.backstop = corners.one_of({-voile::k_most_coordinate, 0.f, voile::k_most_coordinate});
+        for (voile::Attachment attachment : {spring, limit, voile::Attachment{}})
         {
-            hold.anchor = anchor_;
+            attachment.anchor = anchor_;
             if (corners.coin())
-                hold.place = corners.vector(voile::k_most_coordinate / std::max(scale_, 1.f));
+                attachment.position = corners.vector(voile::k_most_coordinate / std::max(scale_, 1.f));
             voile::GridCloth grid = flat_sheet(4, 1, 0);
             grid.material = random_material(corners);
             ids_.push_back(voile::engine::take(solver.add_cloth(grid)));
-            voile::engine::take(solver.set_holds(ids_.back(), {&hold, 1}));
+            voile::engine::take(solver.set_attachments(ids_.back(), {&attachment, 1}));
         }
     }
 
@@ -310,7 +310,7 @@ TEST_CASE("no extreme of the ranges makes a vertex that is not finite")
         for (int i = 0; i < 12; ++i)
             ids.push_back(voile::engine::take(solver.add_cloth(random_grid(corners))));
         add_colliders(solver, corners);
-        Held held(solver, corners);
+        Attached attached(solver, corners);
         harness.upload();
         for (int round = 0; round < 12; ++round)
         {
@@ -324,7 +324,7 @@ TEST_CASE("no extreme of the ranges makes a vertex that is not finite")
                     voile::engine::take(solver.teleport(id, random_teleport(corners)));
             }
             const voile::Step step = random_step(corners);
-            held.move(solver, corners, step.duration);
+            attached.move(solver, corners, step.duration);
             harness.step(step, 3);
             CHECK(harness.statistics().nan_vertices == 0);
         }

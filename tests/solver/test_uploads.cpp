@@ -19,17 +19,17 @@ using tests::moved;
 constexpr float k_frame = 1.f / 60; // s
 
 // Attaches vertices of the first row to a rod of the host's and returns its anchor.
-voile::AnchorId hold_first_row(ClothHarness& harness, voile::ClothId id, uint32_t columns, voile::Hold hold)
+voile::AnchorId attach_first_row(ClothHarness& harness, voile::ClothId id, uint32_t columns, voile::Attachment attachment)
 {
     const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(moved({0, 0, 0})));
-    std::vector<voile::Hold> holds;
+    std::vector<voile::Attachment> attachments;
     for (uint32_t column = 0; column < columns; ++column)
     {
-        hold.vertex = column;
-        hold.anchor = rod;
-        holds.push_back(hold);
+        attachment.vertex = column;
+        attachment.anchor = rod;
+        attachments.push_back(attachment);
     }
-    voile::engine::take(harness.solver.set_holds(id, holds));
+    voile::engine::take(harness.solver.set_attachments(id, attachments));
     return rod;
 }
 
@@ -45,23 +45,19 @@ float largest_distance(const std::vector<glm::vec4>& a, const std::vector<glm::v
 
 TEST_CASE("springs and max-distance constraints persist through an upload")
 {
-    voile::Hold spring;
-    spring.stiffness = 500;
-    spring.damping = 1;
-    voile::Hold leash;
-    leash.stiffness = 0;
-    leash.max_distance = 0.01f;
+    const voile::Attachment spring = voile::spring(0, 500, 1);
+    const voile::Attachment limit = voile::max_distance(0, 0.01f);
     std::vector<glm::vec4> ends[2][2];
     for (const bool added : {false, true})
     {
         ClothHarness harness;
         std::vector<voile::ClothId> ids;
-        for (const voile::Hold& hold : {spring, leash})
+        for (const voile::Attachment& attachment : {spring, limit})
         {
             voile::GridCloth grid = flat_sheet(8, 0.5f, 0);
             grid.transform = moved({30, 5, 0});
             ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
-            hold_first_row(harness, ids.back(), 8, hold);
+            attach_first_row(harness, ids.back(), 8, attachment);
         }
         harness.upload();
         harness.step({}, 5);
@@ -82,7 +78,7 @@ TEST_CASE("pins rest and move with their anchor while an upload is due")
 {
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(6, 0.5f, 0)));
-    const voile::AnchorId rod = hold_first_row(harness, id, 6, {});
+    const voile::AnchorId rod = attach_first_row(harness, id, 6, {});
     harness.upload();
     const auto start = harness.positions(id);
     const auto go_to = [&](float x)
@@ -174,8 +170,8 @@ TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
     const auto start = harness.positions(id);
     harness.step({}, 10);
     const voile::ClothId other = voile::engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 3)));
-    const voile::Hold corner{.vertex = 0};
-    voile::engine::take(harness.solver.set_holds(id, {&corner, 1}));    // the capacity suffices, but the change waits
+    const voile::Attachment corner{.vertex = 0};
+    voile::engine::take(harness.solver.set_attachments(id, {&corner, 1}));    // the capacity suffices, but the change waits
                                                                         // for the upload
     voile::engine::take(harness.solver.set_velocity(other, {7, 0, 0})); // this waits, too
     voile::engine::take(harness.solver.reset(id));
@@ -194,7 +190,7 @@ TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
 
     // Vertices released while an upload is due fall after the upload.
     (void)voile::engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 6)));
-    voile::engine::take(harness.solver.set_holds(id, {}));
+    voile::engine::take(harness.solver.set_attachments(id, {}));
     harness.step({}, 2);
     CHECK(harness.positions(id)[0].w == 0);
     harness.upload();

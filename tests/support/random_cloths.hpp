@@ -100,7 +100,7 @@ inline voile::MeshCloth draw_mesh(Draw& draw, const ClothMesh& shape)
     mesh.material = draw_any_material(draw);
     mesh.integrator = draw_integrator(draw);
     if (draw.chance(0.3))
-        mesh.held = {0, 3};
+        mesh.pins = {0, 3};
     return mesh;
 }
 

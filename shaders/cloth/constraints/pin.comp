@@ -3,26 +3,26 @@
 // Pins, once per step before its first substep. Sets each to its position and gives it the velocity that moves it along
 // a straight line to its position at the step's end. One thread per pin. Anchors can jump and scale, so positions are
 // clamped to their range.
-// Reads: holds, anchors. Writes: state.
+// Reads: attachments, anchors. Writes: state.
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Holds { HoldRecord holds[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Holds { AttachmentRecord holds[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
 layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Residuals { uvec2 residuals[]; };
 
-layout(push_constant, std430) uniform Push { HoldPush push; };
+layout(push_constant, std430) uniform Push { AttachmentPush push; };
 
 void main()
 {
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    const HoldRecord hold = holds[push.first + gl_GlobalInvocationID.x];
+    const AttachmentRecord hold = holds[push.first + gl_GlobalInvocationID.x];
     const AnchorRecord anchor = anchors[hold.anchor];
-    const bool placed = (hold.flags & VOILE_HOLD_PLACED) != 0;
+    const bool placed = (hold.flags & VOILE_ATTACHMENT_PLACED) != 0;
     const vec3 bound = vec3(VOILE_MOST_COORDINATE);
     const vec3 from = placed ? clamp((anchor.from * vec4(hold.place, 1)).xyz, -bound, bound) : positions[hold.vertex].xyz;
     const vec3 to = clamp((placed ? anchor.to * vec4(hold.place, 1) : anchor.motion * vec4(from, 1)).xyz, -bound, bound);

@@ -24,7 +24,7 @@ layout(set = 0, binding = 5, std430) writeonly buffer Residuals { uvec2 residual
 
 layout(set = 0, binding = 6, std430) readonly buffer StatePositions { vec4 state_positions[]; }; // before the substep
 
-layout(push_constant, std430) uniform Push { HoldPush push; };
+layout(push_constant, std430) uniform Push { AttachmentPush push; };
 
 #include "integration/integrator.glsl"
 

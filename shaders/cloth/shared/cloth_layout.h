@@ -81,7 +81,7 @@
 
 // What a velocity's w says of its vertex, as a sum of these.
 #define VOILE_VERTEX_TOUCHES 1 // it touches a collider
-#define VOILE_VERTEX_TAUT 2    // a tether, a leash or a backstop holds it
+#define VOILE_VERTEX_TAUT 2    // a tether, a maximum distance or a backstop limits it
 #define VOILE_VERTEX_MEETS 4   // a triangle or an edge around it meets a corner or an edge of a collider
 
 VOILE_SHARED_BEGIN(voile)
@@ -173,7 +173,7 @@ struct Patch
     uint near_features; // 1: it may meet corners and edges of colliders before the next look (feature_reach.comp)
 };
 
-// A frame that holds follow, before and after the step.
+// A frame that attachments follow, before and after the step.
 struct AnchorRecord
 {
     mat4 from; // world from anchor
@@ -181,12 +181,12 @@ struct AnchorRecord
     mat4 motion; // to * inverse(from)
 };
 
-// Flags of a hold.
-#define VOILE_HOLD_PLACED 1u // its place is given; else a pin goes on from where its vertex is
-#define VOILE_HOLD_BACKSTOP 2u
+// Flags of an attachment.
+#define VOILE_ATTACHMENT_PLACED 1u // its position is given; else a pin goes on from where its vertex is
+#define VOILE_ATTACHMENT_BACKSTOP 2u
 
-// A vertex that is held. Pins come first, then the others.
-struct HoldRecord
+// An attachment of a vertex. Pins come first, then the others.
+struct AttachmentRecord
 {
     vec3 place;  // m, in the anchor's space
     uint vertex; // in the solver's buffers
@@ -320,8 +320,8 @@ struct RecoverPush
     uint recovery; // the word of the size that is written
 };
 
-// Push constants of the passes over pins, holds and tethers.
-struct HoldPush
+// Push constants of the passes over pins, attachments and tethers.
+struct AttachmentPush
 {
     uint first; // of the records
     uint count;

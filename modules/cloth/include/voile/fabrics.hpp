@@ -9,8 +9,8 @@
 namespace voile
 {
 
-// Which values were read in a published measurement ("read"), and which are typical of the class, recalled and not
-// looked up ("typical"). fabrics.cpp names each source with its table or file.
+// Where the values come from. "Read": from a published measurement; fabrics.cpp names each source with its table or
+// file. "Typical": of the class of fabric, from memory.
 //
 //           areal density  stretch  shear      bending  friction
 //   silk    read           typical  typical    typical  typical
@@ -21,20 +21,22 @@ namespace voile
 //
 // Wool's stretch and shear are those of another plain worsted, of 0.168 kg/m^2. Denim's stretch and shear are those of
 // other denims than its density and bending. Leather's bending is chosen to give measured drape coefficients; its shear
-// follows from its stretch as in a felt. docs/physics.md holds the drape coefficients against what was measured, as far
-// as that is known. Of all five:
-// - stretch stiffness is the secant at about 5 N/m, the loads of hanging and draping;
-// - bending stiffness is what a cantilever has, the friction between yarns included, in the isometric model;
-// - friction is of the fabric on itself; measured values depend on pressure and direction;
-// - damping and air drag are Fabric's defaults;
-// - thickness is the distance that contact keeps, 2 to 5 mm, and not the fabric's own, which fabrics.cpp names.
+// follows from its stretch, as in a felt. docs/physics.md compares the drape coefficients with measured ones, where
+// there are any.
+//
+// For all five:
+// - Stretch stiffness is the secant at about 5 N/m, the load of hanging and draping.
+// - Bending stiffness is that of a cantilever, including the friction between yarns, in the isometric model.
+// - Friction is that of the fabric on itself. Measured values depend on pressure and direction.
+// - Damping and air drag are Fabric's defaults.
+// - Thickness is the distance that contact keeps, 2 to 5 mm. fabrics.cpp names the fabric's own thickness.
 Fabric silk();    // light and limp: crepe de chine, charmeuse
 Fabric cotton();  // broadcloth, for shirts
 Fabric wool();    // tropical worsted, for summer suits
 Fabric denim();   // washed, 11 oz
 Fabric leather(); // sheep garment leather
 
-// By the function's name; nothing for other names.
+// The preset with the function's name. None: no preset has that name.
 std::optional<Fabric> find_fabric(std::string_view name);
 
 } // namespace voile

@@ -27,7 +27,7 @@ struct ColliderId
     friend bool operator==(const ColliderId&, const ColliderId&) = default;
 };
 
-// A moving frame of the host's (a curtain rod, a bone, a hand); see Solver::add_anchor.
+// A frame that the host moves: a curtain rod, a bone, a hand. See Solver::add_anchor.
 struct AnchorId
 {
     uint32_t index = k_no_index;

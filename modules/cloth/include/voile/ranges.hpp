@@ -35,14 +35,14 @@ constexpr float k_most_collider_size = 2e6f;   // m
 
 constexpr float k_most_friction = 100; // of a fabric and of a collider
 
-// Of an anchor's frame, and of what Solver::transform does to a cloth: each entry of the matrix but the translation.
+// Of an anchor's frame, and of what Solver::teleport does to a cloth: each entry of the matrix but the translation.
 constexpr float k_most_scale = 1e3f;
 // An anchor's frame also has an inverse: its volume over that of the unit cube.
 constexpr float k_least_anchor_volume = 1e-9f;
 
-// Of a hold: finite stiffness, and damping.
-constexpr float k_most_hold_stiffness = 1e9f; // N/m
-constexpr float k_most_hold_damping = 1e6f;   // N s/m
+// Of an attachment: finite stiffness, and damping.
+constexpr float k_most_attachment_stiffness = 1e9f; // N/m
+constexpr float k_most_attachment_damping = 1e6f;   // N s/m
 
 // Of a Step.
 constexpr float k_least_duration = 1e-6f; // s

@@ -28,14 +28,15 @@
 // any thread.
 #pragma once
 
+#include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
-#include "voile/holds.hpp"
 #include "voile/statistics.hpp"
 
 #include "voile/gpu/context.hpp"
 #include "voile/gpu/recorder.hpp"
 
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,7 @@ struct Requirements
 };
 Requirements requirements();
 
+// How contact finds the surface of a mesh within the thickness.
 enum class ContactMethod
 {
     normal_ray,    // a ray along the vertex normal and its opposite, the nearest hit
@@ -64,25 +66,35 @@ enum class ContactMethod
 // How the lists of mesh vertices lie in memory.
 enum class MeshLayout
 {
-    compact,     // one vertex's list after the other
-    interleaved, // those of a workgroup's vertices entry by entry, so that its reads coalesce
+    compact,     // the list of one vertex after the other
+    interleaved, // the lists of a workgroup's vertices entry by entry, so that its reads coalesce
+};
+
+// Knobs of the implementation, for measurements and comparisons. The defaults need never be touched.
+struct Tuning
+{
+    // Invocations per workgroup. A power of two, from 1 to what the device's invocations and shared memory allow: 48
+    // bytes per invocation. A dispatch has at most maxComputeWorkGroupCount workgroups.
+    uint32_t workgroup_size = 128;
+
+    // Invocations per vertex that share its triangles in feature contact. A power of two up to workgroup_size. 0:
+    // eight, on CPU devices one.
+    uint32_t feature_threads = 0;
+
+    ContactMethod contact_method = ContactMethod::nearest_point;
+    MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
 struct SolverOptions
 {
-    uint32_t workgroup_size = 128; // power of two, 1 to what the device's invocations and shared memory allow: 48 bytes
-                                   // per invocation. A dispatch has at most maxComputeWorkGroupCount of them
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
-    ContactMethod contact_method = ContactMethod::nearest_point; // how the surface within the thickness is found
-    bool feature_contact = true;  // corners and edges of colliders meet the triangles and edges of cloths, at moderate
-                                  // speed (see descriptions.hpp). Where vertices alone do not feel one, a substep has a
-                                  // pass more
-    uint32_t feature_threads = 0; // that share the triangles around a vertex there: a power of two up to
-                                  // workgroup_size; 0: eight, on CPU devices one
+    bool feature_contact = true;   // corners and edges of colliders meet the triangles and edges of cloths, at moderate
+                                 // speed (see descriptions.hpp). Where vertices alone do not feel one, a substep has a
+                                 // pass more
     bool recovery = true; // what is inside a collider at the start of a step is brought out along a smooth field;
                           // without, straight to the nearest surface, and out of meshes not at all
-    MeshLayout mesh_layout = MeshLayout::interleaved;
     std::optional<bool> lifetime_checks{}; // see above. None: on where the module was compiled without NDEBUG
+    Tuning tuning{};
 };
 
 // One call of record. Everything must be finite and in the range given; vectors, each component (voile/ranges.hpp).
@@ -165,7 +177,8 @@ struct VertexStreams
 {
     VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
     VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a
-                                          // tether, a leash or a backstop holds it, plus 4 if what is around it met a
+                                          // tether, a maximum distance or a backstop limits it, plus 4 if what is
+                                          // around it met a
                                           // corner or an edge of a collider
     VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
     VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
@@ -184,7 +197,7 @@ public:
     Solver& operator=(Solver&&) noexcept;
 
     // Copy and validate; nothing changes on the GPU before record_upload. Errors name the input and the value: a grid
-    // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a held vertex that does not
+    // smaller than 2 x 2, a mesh whose triangles have no area, a material out of range, a pinned vertex that does not
     // exist, a position or velocity out of range (voile/ranges.hpp), an index beyond the positions, more than the
     // device's buffers hold or its dispatches take.
     Result<ClothId> add_cloth(const GridCloth& grid);
@@ -192,12 +205,12 @@ public:
     Result<ColliderId> add_collider(const Collider& collider);
 
     // Every function below that takes an id and returns a Result has one more error: an id that is not valid. Those
-    // that answer without a Result say so with an empty answer: no holds, no boxes, no triangles, an empty name, a
-    // default material, null handles, zeros. References that they return hold until the solver changes.
+    // that answer without a Result say so with an empty answer: no attachments, no boxes, no triangles, an empty name,
+    // a default material, null handles, zeros. References that they return hold until the solver changes.
 
     // Changes of what is there already. They take effect with the next record, without new buffers; those of a cloth, a
-    // collider or an anchor that is not uploaded yet with the first record after that. Holds and tethers that are set
-    // while an upload is due wait for it as well. Errors leave everything as it was.
+    // collider or an anchor that is not uploaded yet with the first record after that. Attachments and tethers
+    // that are set while an upload is due wait for it as well. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
     // isometric bending of a mesh that was added without. With a new density a cloth keeps its momentum where it
@@ -206,23 +219,26 @@ public:
     Result<void> set_material(ClothId cloth, const ClothMaterial& material);
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
 
-    // In place of all earlier holds, the vertices held from the start among them; what is no longer held is free.
-    // Tethers follow. Errors: a vertex that does not exist or is held twice, a value out of range, an anchor that does
-    // not exist, tethers that are left without a pin. More holds than ever before need an upload (needs_upload).
-    Result<void> set_holds(ClothId cloth, std::span<const Hold> holds);
-    [[nodiscard]] const std::vector<Hold>& holds(ClothId cloth) const;
-    // A hold for each vertex of the cloth that starts within `distance` (m) of the collider's surface, on the nearest
-    // place of that surface, and moving with the collider. Errors: no vertex is that near.
-    [[nodiscard]] Result<std::vector<Hold>> holds_on_surface(ClothId cloth, ColliderId collider, float distance);
+    // Replaces all attachments of the cloth, also the pins of its description. Vertices that are no longer attached are
+    // free. Tethers follow. Errors: a vertex that does not exist or has two attachments, a value out of range, an
+    // anchor that does not exist, tethers that are left without a pin. More attachments than ever before need an upload
+    // (needs_upload).
+    Result<void> set_attachments(ClothId cloth, std::span<const Attachment> attachments);
+    Result<void> set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments);
+    [[nodiscard]] const std::vector<Attachment>& attachments(ClothId cloth) const;
+    // A pin for each vertex of the cloth that starts within `distance` (m) of the collider's surface. It pins the
+    // vertex to the nearest point of that surface and moves with the collider. Errors: no vertex is that near.
+    [[nodiscard]] Result<std::vector<Attachment>> attachments_on_surface(ClothId cloth, ColliderId collider,
+                                                                         float distance);
 
     // Tethers from the present pins; none: takes them away. Errors: no pin, a stretch out of range. More than ever
     // before need an upload.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
 
-    // A frame for holds. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin beyond 1e6
-    // m, a volume below 1e-9 of the unit cube's.
+    // A frame for attachments. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin
+    // beyond 1e6 m, a volume below 1e-9 of the unit cube's.
     Result<AnchorId> add_anchor(const glm::mat4& world_from_anchor);
-    // Where the anchor is at the end of the next step; its holds go there along straight lines.
+    // Where the anchor is at the end of the next step; its attachments go there along straight lines.
     Result<void> move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor);
 
     // Where a collider is at the end of the next step: moved and turned by `motion` from where it was added. It goes
@@ -247,10 +263,10 @@ public:
     // without a mesh, and for one that deforms, whose boxes are on the GPU alone.
     [[nodiscard]] std::vector<BoundingBox> hierarchy_boxes(ColliderId collider, uint32_t level) const;
 
-    // Back to the start: places, velocities, masses. Holds stay as they are.
+    // Back to the start: positions, velocities, masses. Attachments stay as they are.
     Result<void> reset(ClothId cloth);
-    // Moves a cloth at once: positions by the transform, velocities by its axes. Pins that have a place go back to it.
-    // What this takes beyond 1e6 m or 1e4 m/s along an axis stays there. Errors: a transform that is not affine, an
+    // Moves a cloth at once: positions by the transform, velocities by its axes. Pins that have a position go back to
+    // it. What this takes beyond 1e6 m or 1e4 m/s along an axis stays there. Errors: a transform that is not affine, an
     // axis with an entry beyond 1e3, a translation beyond 2e6 m.
     Result<void> teleport(ClothId cloth, const glm::mat4& transform);
     // m/s, of every vertex. Errors: beyond 1e4 along an axis.
@@ -275,8 +291,8 @@ public:
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
     // The state of all cloths, saved and brought back to the bit: the same steps then give the same bits as after
-    // saving. Materials, holds, anchors and colliders are the host's and are not part of it. Errors: nothing uploaded
-    // yet, out of memory; another number of vertices; nothing saved to restore.
+    // saving. Materials, attachments, anchors and colliders are the host's and are not part of it. Errors: nothing
+    // uploaded yet, out of memory; another number of vertices; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);

@@ -337,9 +337,9 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
         return integrator;
     if (auto material = std::visit([](const auto& m) { return validate(m); }, cloth.material); !material)
         return bad(material.error().message);
-    for (const uint32_t held : cloth.held)
-        if (held >= vertices)
-            return bad("held vertex " + std::to_string(held) + " of " + std::to_string(vertices));
+    for (const uint32_t vertex : cloth.pins)
+        if (vertex >= vertices)
+            return bad("pinned vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
     if (!cloth.inverse_masses.empty() && cloth.inverse_masses.size() != vertices)
         return bad(std::to_string(cloth.inverse_masses.size()) + " inverse masses for " + std::to_string(vertices) +
                    " vertices");
@@ -376,14 +376,14 @@ void append_state(Model& model, const ClothInput& cloth, std::span<const glm::dv
         model.velocities.emplace_back(inverse_mass > 0 ? cloth.velocity : glm::vec3(0), 0);
     }
     std::vector<bool> pinned(places.size());
-    for (const uint32_t held : cloth.held)
+    for (const uint32_t vertex : cloth.pins)
     {
-        if (pinned[held])
+        if (pinned[vertex])
             continue;
-        pinned[held] = true;
-        model.positions[record.first_vertex + held].w = 0;
-        model.velocities[record.first_vertex + held] = glm::vec4(0);
-        kept.holds.push_back({.vertex = held});
+        pinned[vertex] = true;
+        model.positions[record.first_vertex + vertex].w = 0;
+        model.velocities[record.first_vertex + vertex] = glm::vec4(0);
+        kept.attachments.push_back(pin(vertex));
     }
 }
 

@@ -53,7 +53,7 @@ Result<ClothId> Model::add(const GridCloth& grid)
     if (auto valid = validate_shape(grid); !valid)
         return valid.error();
     const ClothInput input{grid.name,       grid.transform, grid.velocity,      grid.material,
-                           grid.integrator, grid.held,      grid.inverse_masses};
+                           grid.integrator, grid.pins,      grid.inverse_masses};
     const size_t first = positions.size();
     const size_t count = size_t{grid.columns} * grid.rows;
     if (auto valid = validate(input, count); !valid)

@@ -94,7 +94,7 @@ Result<ClothId> Model::add(const MeshCloth& description)
     if (auto valid = validate_shape(description); !valid)
         return valid.error();
     const ClothInput input{description.name,          description.transform,  description.velocity,
-                           description.material,      description.integrator, description.held,
+                           description.material,      description.integrator, description.pins,
                            description.inverse_masses};
     const size_t first = positions.size();
     const size_t count = description.positions.size();

@@ -72,7 +72,7 @@ Result<void> check_dispatch(const Model& model, const std::string& what, const s
     return invalid(what, name,
                    contents + " " + std::to_string(workgroups) + " workgroups of " +
                        std::to_string(model.workgroup_size) + ", the device dispatches at most " +
-                       std::to_string(model.max_workgroups) + "; a larger SolverOptions::workgroup_size needs fewer");
+                       std::to_string(model.max_workgroups) + "; a larger Tuning::workgroup_size needs fewer");
 }
 
 } // namespace voile

@@ -1,8 +1,8 @@
 // Model: the host's copy of everything that was added to a solver, in the layout that is uploaded.
 #pragma once
 
+#include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
-#include "voile/holds.hpp"
 
 #include "shared/bvh_layout.h"
 #include "shared/padded_layout.h"
@@ -31,8 +31,8 @@ struct ClothModel
     // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
     // area (fabric) or share (material). 0: all are the material's.
     double own_inverse_mass = 0;
-    glm::vec3 velocity{0.f}; // m/s, at the start
-    std::vector<Hold> holds; // pins and others, in the order given
+    glm::vec3 velocity{0.f};             // m/s, at the start
+    std::vector<Attachment> attachments; // pins and others, in the order given
     std::optional<Tethers> tether_options;
     std::vector<shared::TetherRecord> tethers;
     std::vector<glm::uvec3> triangles;          // of a mesh, as they were given
@@ -65,7 +65,7 @@ struct Model
     std::vector<ClothModel> cloths;
     std::vector<shared::ClothRecord> records; // one a cloth
     std::vector<glm::vec4> start;             // places; w: inverse of the area or share that the density multiplies
-    std::vector<glm::vec4> positions;         // at the start; w: inverse mass, 0 if held
+    std::vector<glm::vec4> positions;         // at the start; w: inverse mass, 0 if pinned
     std::vector<glm::uvec2> residuals;        // of the positions at the start (fine_position.glsl)
     std::vector<glm::vec4> velocities;        // at the start
     std::vector<shared::MeshVertex> mesh_vertices; // of all meshes, lists in one piece; see interleave
@@ -120,7 +120,7 @@ shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, cons
 Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
                             const std::string& contents, uint64_t workgroups);
 
-// What the validation of grids and meshes shares: transform, velocity, material, held vertices, inverse masses.
+// What the validation of grids and meshes shares: transform, velocity, material, pinned vertices, inverse masses.
 struct ClothInput
 {
     const std::string& name;
@@ -128,7 +128,7 @@ struct ClothInput
     const glm::vec3& velocity;
     const ClothMaterial& material;
     Integrator integrator;
-    std::span<const uint32_t> held;
+    std::span<const uint32_t> pins;
     std::span<const float> inverse_masses;
 };
 Result<void> validate(const ClothInput& cloth, uint64_t vertices);
@@ -145,20 +145,20 @@ void apply_material(const ClothModel& cloth, shared::ClothRecord& record);
 // Appends the start of a cloth whose record is complete: masses from the material unless they are given.
 void append_state(Model& model, const ClothInput& cloth, std::span<const glm::dvec3> places, uint32_t index);
 
-// The holds of all cloths as records, pins first, and the tethers.
-struct HoldLists
+// The attachments of all cloths as records, pins first, and the tethers.
+struct AttachmentLists
 {
-    std::vector<shared::HoldRecord> holds;
+    std::vector<shared::AttachmentRecord> attachments;
     uint32_t pins = 0; // the first ones
     std::vector<shared::TetherRecord> tethers;
 };
-HoldLists make_hold_lists(const Model& model);
+AttachmentLists make_attachment_lists(const Model& model);
 
 // Errors: an anchor that add_anchor did not give.
 Result<void> check_anchor(const Model& model, AnchorId anchor);
 
-// Errors: a vertex that does not exist or is held twice, an anchor that does not exist, values out of range.
-Result<void> validate_holds(const Model& model, uint32_t cloth, std::span<const Hold> holds);
+// Errors: a vertex that does not exist or has two attachments, an anchor that does not exist, values out of range.
+Result<void> validate_attachments(const Model& model, uint32_t cloth, std::span<const Attachment> attachments);
 
 // The tethers of a cloth by its present pins. Errors: no pin, a value out of range, no vertex that could be tethered.
 Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint32_t cloth, const Tethers& tethers);

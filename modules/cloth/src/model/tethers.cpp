@@ -41,9 +41,9 @@ Surface make_surface(const Model& model, uint32_t cloth)
     for (uint32_t t = 0; t < surface.triangles.size(); ++t)
         for (int corner = 0; corner < 3; ++corner)
             surface.around[surface.triangles[t][corner]].push_back(t);
-    for (const Hold& hold : model.cloths[cloth].holds)
-        if (std::isinf(hold.stiffness))
-            surface.pins.push_back(hold.vertex);
+    for (const Attachment& attachment : model.cloths[cloth].attachments)
+        if (std::isinf(attachment.stiffness))
+            surface.pins.push_back(attachment.vertex);
     return surface;
 }
 

@@ -57,7 +57,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
         {&state.start, "cloth start", per_vertex},
         {&state.start_residuals, "cloth start residuals", per_residual},
         {&state.anchors, "cloth anchors", data.anchors * sizeof(shared::AnchorRecord)},
-        {&state.holds, "cloth holds", data.holds * sizeof(shared::HoldRecord)},
+        {&state.attachments, "cloth holds", data.attachments * sizeof(shared::AttachmentRecord)},
         {&state.tethers, "cloth tethers", data.tethers * sizeof(shared::TetherRecord)},
         {&state.state.positions, "cloth positions", per_vertex},
         {&state.state.residuals, "cloth position residuals", per_residual},
@@ -136,16 +136,16 @@ Proposal proposal(const DeviceState& s, size_t parity)
 }
 
 // What acts on the state a substep proposes, and what acts on the state between steps.
-void bind_holds(DeviceState& s, const Kernels& kernels, Binder& binder)
+void bind_attachments(DeviceState& s, const Kernels& kernels, Binder& binder)
 {
     binder.bind(s.pins, kernels.pins,
-                {s.holds.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle(),
+                {s.attachments.handle(), s.anchors.handle(), s.state.positions.handle(), s.state.velocities.handle(),
                  s.state.residuals.handle()});
     for (size_t i = 0; i < 2; ++i)
     {
         const Proposal p = proposal(s, i);
-        binder.bind(s.proposed_holds[i], kernels.holds,
-                    {s.holds.handle(), s.anchors.handle(), s.cloths.handle(), p.state.positions.handle(),
+        binder.bind(s.proposed_attachments[i], kernels.attachments,
+                    {s.attachments.handle(), s.anchors.handle(), s.cloths.handle(), p.state.positions.handle(),
                      p.state.velocities.handle(), p.predicted.handle(), p.state.residuals.handle()});
         binder.bind(s.proposed_tethers[i], kernels.tethers,
                     {s.tethers.handle(), s.cloths.handle(), p.state.positions.handle(), p.state.velocities.handle(),
@@ -294,7 +294,7 @@ gpu::Result<void> bind_sets(DeviceState& s, const Kernels& kernels, const gpu::B
     bind_verlet(s.verlet_last, here,
                 {s.stage_b.positions, s.stage_b.residuals, s.stage_c.velocities, s.state.velocities});
     bind_verlet(s.verlet_last_back, there, here);
-    bind_holds(s, kernels, binder);
+    bind_attachments(s, kernels, binder);
     bind_limit_guard(s, kernels, binder);
     bind_contact(s, kernels, binder);
     for (size_t i = 0; i < 2; ++i)
@@ -332,7 +332,7 @@ gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const 
     state.deforming_count = model.deforming.size();
     state.rk4_patches = data.patches.rk4;
     state.anchor_capacity = data.anchors;
-    state.hold_capacity = data.holds;
+    state.attachment_capacity = data.attachments;
     state.tether_capacity = data.tethers;
     state.feature_count = static_cast<uint32_t>(data.features.features.size());
     state.cloth_count = static_cast<uint32_t>(model.cloths.size());

@@ -60,7 +60,7 @@ struct DeviceState
     gpu::Buffer start;          // places at the start, and what density multiplies
     gpu::Buffer start_residuals;
     gpu::Buffer anchors;
-    gpu::Buffer holds;
+    gpu::Buffer attachments;
     gpu::Buffer tethers;
     StateBuffers state;              // what the cloth is between steps
     StateBuffers stage_a;            // written by stage 1
@@ -85,7 +85,7 @@ struct DeviceState
     VkDescriptorSet verlet_last{};      // velocities of the state alone
     VkDescriptorSet verlet_last_back{}; // stage B to state
     VkDescriptorSet pins{};
-    std::array<VkDescriptorSet, 2> proposed_holds{}; // of stage B, of the state
+    std::array<VkDescriptorSet, 2> proposed_attachments{}; // of stage B, of the state
     std::array<VkDescriptorSet, 2> proposed_tethers{};
     VkDescriptorSet strain_first{};              // state to stage B
     VkDescriptorSet strain_back{};               // stage B to stage A
@@ -116,7 +116,7 @@ struct DeviceState
     uint32_t near_stride = 0; // words per patch of near_colliders; 0: there are few colliders, and no lists
     uint32_t feature_count = 0;
     uint32_t anchor_capacity = 0;
-    uint32_t hold_capacity = 0;
+    uint32_t attachment_capacity = 0;
     uint32_t tether_capacity = 0;
 };
 
@@ -127,7 +127,7 @@ struct UploadData
     MeshLists lists;
     FeatureLists features;
     uint32_t anchors = 0; // room for as many
-    uint32_t holds = 0;
+    uint32_t attachments = 0;
     uint32_t tethers = 0;
 };
 

@@ -59,10 +59,10 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
         if (cloth < device.cloth_count)
             update(recorder, device.cloths, cloth * sizeof(shared::ClothRecord),
                    std::as_bytes(std::span(&solver.model.records[cloth], 1)));
-    if (solver.edits.holds && !solver.dirty)
-        update(recorder, device.holds, 0, bytes_of(solver.hold_lists.holds));
+    if (solver.edits.attachments && !solver.dirty)
+        update(recorder, device.attachments, 0, bytes_of(solver.attachment_lists.attachments));
     if (solver.edits.tethers && !solver.dirty)
-        update(recorder, device.tethers, 0, bytes_of(solver.hold_lists.tethers));
+        update(recorder, device.tethers, 0, bytes_of(solver.attachment_lists.tethers));
     for (const uint32_t collider : solver.edits.colliders)
         if (collider < device.collider_count)
             update(recorder, device.colliders, collider * sizeof(shared::ColliderRecord),
@@ -123,7 +123,7 @@ shared::AnchorRecord make_record(const Anchor& anchor)
 
 bool Solver::State::changes_due() const
 {
-    const bool lists = !dirty && (edits.holds || edits.tethers);
+    const bool lists = !dirty && (edits.attachments || edits.tethers);
     return lists || edits.pins || !edits.records.empty() || !edits.colliders.empty() ||
            std::any_of(edits.places.begin(), edits.places.end(),
                        [&](const shared::EditPush& edit) { return edit.cloth < device->cloth_count; });
@@ -131,16 +131,17 @@ bool Solver::State::changes_due() const
 
 bool Solver::State::fits() const
 {
-    return device && anchors.size() <= device->anchor_capacity && hold_lists.holds.size() <= device->hold_capacity &&
-           hold_lists.tethers.size() <= device->tether_capacity;
+    return device && anchors.size() <= device->anchor_capacity &&
+           attachment_lists.attachments.size() <= device->attachment_capacity &&
+           attachment_lists.tethers.size() <= device->tether_capacity;
 }
 
-void Solver::State::update_holds()
+void Solver::State::update_attachments()
 {
-    edits.holds = edits.tethers = edits.pins = true;
+    edits.attachments = edits.tethers = edits.pins = true;
     if (dirty)
         return; // the next upload makes the lists: once, however many cloths are added before it
-    hold_lists = make_hold_lists(model);
+    attachment_lists = make_attachment_lists(model);
     if (!fits())
         dirty = true;
     update_passes();
@@ -152,9 +153,9 @@ void Solver::State::update_passes()
         return;
     if (!dirty) // else the lists in the buffers are those of before
     {
-        passes.pins = hold_lists.pins;
-        passes.holds = static_cast<uint32_t>(hold_lists.holds.size()) - hold_lists.pins;
-        passes.tethers = static_cast<uint32_t>(hold_lists.tethers.size());
+        passes.pins = attachment_lists.pins;
+        passes.attachments = static_cast<uint32_t>(attachment_lists.attachments.size()) - attachment_lists.pins;
+        passes.tethers = static_cast<uint32_t>(attachment_lists.tethers.size());
     }
     const std::span present = std::span(model.colliders).first(device->collider_count);
     const auto any_collider = [&](auto&& predicate) { return std::ranges::any_of(present, predicate); };
@@ -181,7 +182,7 @@ void Solver::State::update_passes()
                                   : static_cast<uint32_t>(std::sqrt(static_cast<double>(record.vertices)));
         passes.strain_spacing = std::max(passes.strain_spacing, std::bit_floor(std::max(side / 2, 1u)));
     }
-    passes.commit = !present.empty() || passes.holds > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
+    passes.commit = !present.empty() || passes.attachments > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
 }
 
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
@@ -189,7 +190,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (solver.passes.features)
         solver.farthest_motion = farthest_motion(solver);
     const DeviceState& device = *solver.device;
-    const uint32_t group = solver.options.workgroup_size;
+    const uint32_t group = solver.options.tuning.workgroup_size;
     const auto moves = [](const auto& poses)
     { return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.from != pose.to; }); };
     const bool deforms = std::ranges::any_of(std::span(solver.deformations).first(device.deforming_count),
@@ -216,7 +217,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     const size_t edited = std::erase_if(solver.edits.places, uploaded);
     if (due.anchors || edited > 0)
         recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
-                          shared::HoldPush{0, solver.passes.pins, step.duration, 0, 0});
+                          shared::AttachmentPush{0, solver.passes.pins, step.duration, 0, 0});
     solver.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
@@ -228,7 +229,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     solver.edits.colliders.clear();
     solver.edits.pins = false;
     if (!solver.dirty)
-        solver.edits.holds = solver.edits.tethers = false;
+        solver.edits.attachments = solver.edits.tethers = false;
 }
 
 } // namespace voile

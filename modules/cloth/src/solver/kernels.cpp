@@ -21,17 +21,18 @@ struct Request
 
 std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
-    const uint32_t group = options.workgroup_size;
-    const auto method = static_cast<uint32_t>(options.contact_method);
-    const auto layout = static_cast<uint32_t>(options.mesh_layout);
+    const uint32_t group = options.tuning.workgroup_size;
+    const auto method = static_cast<uint32_t>(options.tuning.contact_method);
+    const auto layout = static_cast<uint32_t>(options.tuning.mesh_layout);
     constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
     constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
     std::vector<Request> requests{
         {&kernels.stage, {"cloth rk4 stage", shaders::k_integrate_comp, 17, k_stage_bytes, {group, 0, layout}}},
         {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 14, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::HoldPush), {group}}},
-        {&kernels.holds, {"cloth holds", shaders::k_hold_comp, 7, sizeof(shared::HoldPush), {group}}},
-        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 7, sizeof(shared::HoldPush), {group}}},
+        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::AttachmentPush), {group}}},
+        {&kernels.attachments,
+         {"cloth holds", shaders::k_attachments_comp, 7, sizeof(shared::AttachmentPush), {group}}},
+        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 7, sizeof(shared::AttachmentPush), {group}}},
         {&kernels.limit_strain,
          {"cloth strain limit", shaders::k_limit_strain_comp, 12, sizeof(shared::StrainPush), {group, 0, layout}}},
         {&kernels.limit_work, {"cloth limit work", shaders::k_limit_work_comp, 18, k_stage_bytes, {group, 0, layout}}},

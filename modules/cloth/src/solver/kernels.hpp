@@ -17,7 +17,7 @@ struct Kernels
     gpu::Kernel stage; // of RK4, any of the four
     gpu::Kernel verlet;
     gpu::Kernel pins;
-    gpu::Kernel holds;
+    gpu::Kernel attachments;
     gpu::Kernel tethers;
     gpu::Kernel limit_strain;
     gpu::Kernel limit_work;

@@ -44,7 +44,7 @@ uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t
 
 void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    const uint32_t group = solver.options.workgroup_size;
+    const uint32_t group = solver.options.tuning.workgroup_size;
     recorder.dispatch(solver.kernels.normals, solver.device->normals_set, solver.device->patch_count * group, group,
                       std::span<const std::byte>{});
 }
@@ -60,7 +60,7 @@ void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step&
     if (std::exchange(solver.normals_due, false))
         record_normals(recorder, solver);
     const DeviceState& device = *solver.device;
-    const uint32_t group = solver.options.workgroup_size;
+    const uint32_t group = solver.options.tuning.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
     const bool periodic = solver.recovery_step % k_recovery_period == 0;
     const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
@@ -153,7 +153,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
         return {};
     const DeviceState& device = *state_->device;
     const Kernels& kernels = state_->kernels;
-    const uint32_t group = state_->options.workgroup_size;
+    const uint32_t group = state_->options.tuning.workgroup_size;
     gpu::Recorder recorder(state_->context, cmd, timestamps);
     state_->lifetime.begin(cmd);
     begin_scope(recorder);
@@ -175,12 +175,13 @@ uint32_t Solver::dispatches(const Step& step) const
     const bool rk4 = device.rk4_patches > 0;
     const bool verlet = device.rk4_patches < device.patch_count;
     const Passes& passes = state_->passes;
-    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) + (passes.holds > 0 ? 1 : 0) +
-                               (passes.tethers > 0 ? 1 : 0) + (passes.features ? 1 : 0);
+    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) +
+                               (passes.attachments > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) +
+                               (passes.features ? 1 : 0);
     uint32_t strain = 0;
     if (passes.strain_spacing > 0) // its passes, what bounds positions, contact, and the guard
-        strain = limit_passes(passes.strain_spacing) + (passes.holds > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) + 7 +
-                 3 * VOILE_LIMIT_LOOKS;
+        strain = limit_passes(passes.strain_spacing) + (passes.attachments > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) +
+                 7 + 3 * VOILE_LIMIT_LOOKS;
     const uint32_t substeps = State::substeps(*this, step);
     const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
     const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +

@@ -16,9 +16,9 @@ namespace
 uint32_t feature_threads(const gpu::Context& context, const SolverOptions& options)
 {
     constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
-    if (options.feature_threads > 0)
-        return options.feature_threads;
-    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.workgroup_size);
+    if (options.tuning.feature_threads > 0)
+        return options.tuning.feature_threads;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.tuning.workgroup_size);
 }
 
 // One record per slot, all 0.
@@ -69,21 +69,21 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     auto context = gpu::create_context(handles);
     if (!context)
         return context.error();
-    if (!std::has_single_bit(options.workgroup_size))
-        return Error{"SolverOptions: workgroup_size is " + std::to_string(options.workgroup_size) +
+    if (!std::has_single_bit(options.tuning.workgroup_size))
+        return Error{"Tuning: workgroup_size is " + std::to_string(options.tuning.workgroup_size) +
                      ", must be a power of two"};
     if (options.statistics_slots < 1 || options.statistics_slots > 16)
         return Error{"SolverOptions: statistics_slots is " + std::to_string(options.statistics_slots) +
                      ", must be 1 to 16"};
-    if (options.feature_threads > 0 &&
-        (!std::has_single_bit(options.feature_threads) || options.feature_threads > options.workgroup_size))
-        return Error{"SolverOptions: feature_threads is " + std::to_string(options.feature_threads) +
+    if (options.tuning.feature_threads > 0 && (!std::has_single_bit(options.tuning.feature_threads) ||
+                                               options.tuning.feature_threads > options.tuning.workgroup_size))
+        return Error{"Tuning: feature_threads is " + std::to_string(options.tuning.feature_threads) +
                      ", must be 0 or a power of two up to workgroup_size"};
-    if (auto method = check_enumerator("SolverOptions", "contact_method", static_cast<int>(options.contact_method),
+    if (auto method = check_enumerator("Tuning", "contact_method", static_cast<int>(options.tuning.contact_method),
                                        {"normal_ray", "nearest_point"});
         !method)
         return method.error();
-    if (auto layout = check_enumerator("SolverOptions", "mesh_layout", static_cast<int>(options.mesh_layout),
+    if (auto layout = check_enumerator("Tuning", "mesh_layout", static_cast<int>(options.tuning.mesh_layout),
                                        {"compact", "interleaved"});
         !layout)
         return layout.error();
@@ -93,10 +93,10 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     auto state = std::make_unique<State>();
     state->context = context.value();
     state->options = options;
-    state->options.feature_threads = feature_threads(state->context, options);
+    state->options.tuning.feature_threads = feature_threads(state->context, options);
     state->model.max_buffer_bytes = state->context.max_buffer_bytes;
     state->model.max_workgroups = state->context.limits.maxComputeWorkGroupCount[0];
-    state->model.workgroup_size = options.workgroup_size;
+    state->model.workgroup_size = options.tuning.workgroup_size;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
     if (!statistics)

@@ -1,4 +1,4 @@
-// What the host does with colliders that are there already: moving them, and holding cloth to their surfaces.
+// What the host does with colliders that are there already: moving them, and attaching cloth to their surfaces.
 #include "geometry/bvh_query.hpp"
 #include "solver/solver_state.hpp"
 
@@ -106,7 +106,7 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     return {};
 }
 
-Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId collider, float distance)
+Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, ColliderId collider, float distance)
 {
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
@@ -114,25 +114,26 @@ Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId col
     if (auto exists = s.check(collider); !exists)
         return exists.error();
     if (!(distance >= 0) || !std::isfinite(distance))
-        return Error{"holds on a surface: the distance is " + std::to_string(distance) + " m, must be finite and >= 0"};
+        return Error{"attachments on a surface: the distance is " + std::to_string(distance) +
+                     " m, must be finite and >= 0"};
     if ((s.model.colliders[collider.index].flags & VOILE_COLLIDER_DEFORMS) != 0)
-        return Error{"holds on a surface: collider " + std::to_string(collider.index) +
-                     " deforms, and holds follow rigid motion only"};
+        return Error{"attachments on a surface: collider " + std::to_string(collider.index) +
+                     " deforms, and attachments follow rigid motion only"};
     const auto limit = static_cast<double>(distance);
     const FindSurface find = surface_finder(s.model, collider.index, limit);
     const glm::dmat4 placement(s.model.placements[collider.index]);
     const glm::dmat4 back = glm::inverse(placement);
     const glm::dvec3 origin = s.model.origins[collider.index];
     const shared::ClothRecord& record = s.model.records[cloth.index];
-    std::vector<Hold> holds;
+    std::vector<Attachment> attachments;
     for (uint32_t i = 0; i < record.vertices; ++i)
     {
         const glm::dvec3 world(s.model.start[record.first_vertex + i]);
         const glm::dvec3 x = glm::dvec3(back * glm::dvec4(world, 1)) - origin;
         if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
-            holds.push_back({.vertex = i, .place = glm::vec3(placement * glm::dvec4(*place + origin, 1))});
+            attachments.push_back(pin(i).at(glm::vec3(placement * glm::dvec4(*place + origin, 1))));
     }
-    if (holds.empty())
+    if (attachments.empty())
         return invalid("cloth", name(cloth),
                        "no vertex starts within " + std::to_string(distance) + " m of the collider");
     ColliderPose& pose = s.colliders[collider.index];
@@ -144,9 +145,9 @@ Result<std::vector<Hold>> Solver::holds_on_surface(ClothId cloth, ColliderId col
         pose.anchor = anchor.value();
         s.anchors[pose.anchor->index].to = pose.to;
     }
-    for (Hold& hold : holds)
-        hold.anchor = pose.anchor;
-    return holds;
+    for (Attachment& attachment : attachments)
+        attachment.anchor = pose.anchor;
+    return attachments;
 }
 
 } // namespace voile

@@ -63,34 +63,40 @@ const ClothMaterial& Solver::material(ClothId cloth) const
     return state_->has(cloth) ? state_->model.cloths[cloth.index].material : k_none;
 }
 
-Result<void> Solver::set_holds(ClothId cloth, std::span<const Hold> holds)
+Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> attachments)
 {
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
         return exists;
-    if (auto valid = validate_holds(s.model, cloth.index, holds); !valid)
+    if (auto valid = validate_attachments(s.model, cloth.index, attachments); !valid)
         return valid;
     ClothModel& model = s.model.cloths[cloth.index];
-    std::vector<Hold> before = std::exchange(model.holds, std::vector<Hold>(holds.begin(), holds.end()));
+    std::vector<Attachment> before =
+        std::exchange(model.attachments, std::vector<Attachment>(attachments.begin(), attachments.end()));
     if (model.tether_options)
     {
         auto tethers = make_tethers(s.model, cloth.index, *model.tether_options);
         if (!tethers)
         {
-            model.holds = std::move(before);
+            model.attachments = std::move(before);
             return tethers.error();
         }
         model.tethers = std::move(tethers.value());
     }
-    add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer held
-    s.update_holds();
+    add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer pinned
+    s.update_attachments();
     return {};
 }
 
-const std::vector<Hold>& Solver::holds(ClothId cloth) const
+Result<void> Solver::set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments)
 {
-    static const std::vector<Hold> k_none;
-    return state_->has(cloth) ? state_->model.cloths[cloth.index].holds : k_none;
+    return set_attachments(cloth, std::span(attachments.begin(), attachments.size()));
+}
+
+const std::vector<Attachment>& Solver::attachments(ClothId cloth) const
+{
+    static const std::vector<Attachment> k_none;
+    return state_->has(cloth) ? state_->model.cloths[cloth.index].attachments : k_none;
 }
 
 Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)
@@ -109,7 +115,7 @@ Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& te
     }
     model.tether_options = tethers;
     model.tethers = std::move(records);
-    s.update_holds();
+    s.update_attachments();
     return {};
 }
 

@@ -19,7 +19,7 @@ struct Edits
     std::vector<uint32_t> records;        // cloths whose record changed
     std::vector<uint32_t> colliders;      // colliders whose record changed
     std::vector<shared::EditPush> places; // in order
-    bool holds = false;
+    bool attachments = false;
     bool tethers = false;
     bool pins = false; // they must be set again
 };
@@ -31,7 +31,7 @@ constexpr uint32_t k_substeps_counted = 1u << (32 - VOILE_CANDIDATE_COUNT_BITS);
 struct Passes
 {
     uint32_t pins = 0;
-    uint32_t holds = 0; // others than pins
+    uint32_t attachments = 0; // others than pins
     uint32_t tethers = 0;
     bool moving = false;         // colliders that move or deform
     bool convex = false;         // colliders with a formula, other than planes
@@ -75,7 +75,7 @@ struct Solver::State
     bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
     uint32_t recovery_step = 0; // counts the steps with recovery
     uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
-    HoldLists hold_lists;
+    AttachmentLists attachment_lists;
     gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
     Edits edits;
     Passes passes;
@@ -104,7 +104,7 @@ struct Solver::State
     [[nodiscard]] bool changes_due() const;
     // After holds, tethers or materials changed, or an upload: the passes over what is uploaded.
     void update_passes();
-    void update_holds();
+    void update_attachments();
     // Errors: a cloth of so many patches makes dispatches too large.
     [[nodiscard]] Result<void> check_patches(const std::string& name, uint64_t patches) const
     {
@@ -115,7 +115,7 @@ struct Solver::State
     {
         model.patches += patches;
         dirty = true;
-        update_holds();
+        update_attachments();
     }
     // What the next upload must have room for.
     [[nodiscard]] bool fits() const;

@@ -46,10 +46,10 @@ uint32_t limit_passes(uint32_t widest_spacing)
 SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step,
                                  uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
-      group_(solver.options.workgroup_size), substeps_(substeps), first_substep_(first_substep),
+      group_(solver.options.tuning.workgroup_size), substeps_(substeps), first_substep_(first_substep),
       h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
       // Rays along normals look at what neighbors propose, which must not change meanwhile.
-      swaps_(commits_ && solver.options.contact_method == ContactMethod::nearest_point)
+      swaps_(commits_ && solver.options.tuning.contact_method == ContactMethod::nearest_point)
 {
 }
 
@@ -66,7 +66,7 @@ void SubstepRecorder::record()
             record_feature_reach(substep);
         record_rk4(substep);
         record_verlet(make_push(substep), substep);
-        record_holds(substep, h_);
+        record_attachments(substep, h_);
         if (solver_.passes.features)
             record_features(substep);
         if (commits_)
@@ -130,12 +130,12 @@ void SubstepRecorder::finish_verlet(shared::StagePush push)
                        verlet_threads(), group_, push);
 }
 
-void SubstepRecorder::record_holds(uint32_t substep, float duration)
+void SubstepRecorder::record_attachments(uint32_t substep, float duration)
 {
     const size_t from = in_stage_b(substep) ? 1 : 0;
-    shared::HoldPush push{solver_.passes.pins, solver_.passes.holds, duration, progress(substep + 1),
-                          1 / step_.duration};
-    recorder_.dispatch(kernels_.holds, device_.proposed_holds[from], push.count, group_, push);
+    shared::AttachmentPush push{solver_.passes.pins, solver_.passes.attachments, duration, progress(substep + 1),
+                                1 / step_.duration};
+    recorder_.dispatch(kernels_.attachments, device_.proposed_attachments[from], push.count, group_, push);
     push.first = 0;
     push.count = solver_.passes.tethers;
     recorder_.dispatch(kernels_.tethers, device_.proposed_tethers[from], push.count, group_, push);
@@ -167,7 +167,7 @@ void SubstepRecorder::record_collider_reach(uint32_t substep)
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    clear_dispatch(recorder_, device_.feature_dispatch, 0, solver_.options.feature_threads);
+    clear_dispatch(recorder_, device_.feature_dispatch, 0, solver_.options.tuning.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
     const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
                                         sudden_speed(),
@@ -231,7 +231,7 @@ void SubstepRecorder::record_strain_limit()
 {
     record_limit_passes();
     keep_state(device_.stage_a.positions, device_.stage_a.residuals, device_.stage_c.positions);
-    record_holds(substeps_, 0);
+    record_attachments(substeps_, 0);
     record_contact(substeps_);
     record_limit_guard();
 }

@@ -27,7 +27,7 @@ private:
     void record_verlet(shared::StagePush push, uint32_t substep);
     void finish_verlet(shared::StagePush push);
     // At the substep's end, over `duration` s; over 0 springs add nothing, and bounds still hold.
-    void record_holds(uint32_t substep, float duration);
+    void record_attachments(uint32_t substep, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Which patches come near corners and edges of colliders, until the next such look.
     void record_feature_reach(uint32_t substep);

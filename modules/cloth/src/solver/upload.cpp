@@ -121,20 +121,20 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 {
     State& s = *state_;
-    s.hold_lists = make_hold_lists(s.model);
+    s.attachment_lists = make_attachment_lists(s.model);
     UploadData data;
-    data.patches = make_patches(s.model, s.options.workgroup_size);
+    data.patches = make_patches(s.model, s.options.tuning.workgroup_size);
     if (s.options.feature_contact)
         data.features = find_features(s.model);
     data.lists =
-        s.options.mesh_layout == MeshLayout::interleaved
-            ? interleave(s.model, s.options.workgroup_size)
+        s.options.tuning.mesh_layout == MeshLayout::interleaved
+            ? interleave(s.model, s.options.tuning.workgroup_size)
             : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners, s.model.membrane_corners};
     static constexpr uint32_t k_room = 16; // for holds and anchors that come later
     const auto room = [](size_t count) { return std::bit_ceil(std::max(static_cast<uint32_t>(count), k_room)); };
     data.anchors = room(s.anchors.size());
-    data.holds = room(s.hold_lists.holds.size());
-    data.tethers = room(s.hold_lists.tethers.size());
+    data.attachments = room(s.attachment_lists.attachments.size());
+    data.tethers = room(s.attachment_lists.tethers.size());
     auto created = create_device_state(s.context, s.kernels, s.model, data, s.statistics);
     if (!created)
         return created.error();
@@ -186,8 +186,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         {next.start, 0, bytes_of(s.model.start)},
         {next.start_residuals, 0, bytes_of(s.model.residuals)},
         {next.anchors, 0, bytes_of(anchors)},
-        {next.holds, 0, bytes_of(s.hold_lists.holds)},
-        {next.tethers, 0, bytes_of(s.hold_lists.tethers)},
+        {next.attachments, 0, bytes_of(s.attachment_lists.attachments)},
+        {next.tethers, 0, bytes_of(s.attachment_lists.tethers)},
         {next.limit_scales, kept_scales, bytes_of(limit_scales)},
         {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
         {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
@@ -229,7 +229,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     clear_dispatch(recorder, next.feature_dispatch);
     for (size_t i = 0; i < 2; ++i)
         clear_dispatch(recorder, next.depenetrations, recovery_word(i));
-    if (s.edits.holds) // what is no longer held has its mass again
+    if (s.edits.attachments) // what is no longer held has its mass again
         for (uint32_t cloth = 0; s.device && cloth < s.device->cloth_count; ++cloth)
             s.edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, cloth});
     upload.contents_->replaced = std::move(s.device);
@@ -242,7 +242,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     s.lifetime.end(cmd);
     s.normals_due = true;
     s.recovery_due = true;
-    s.edits.holds = s.edits.tethers = false;
+    s.edits.attachments = s.edits.tethers = false;
     s.update_passes();
     return upload;
 }

@@ -7,12 +7,12 @@
 // position and velocity of its anchor point and w the inverse mass. The change of velocity moves the vertex for the
 // drift time of its integrator, so that a vertex at rest stays at rest. Max-distance constraints and backstops project
 // the position and remove the velocity that leads out.
-// Reads: holds, anchors, cloths. Writes: proposed state and residuals, predicted velocities.
+// Reads: attachments, anchors, cloths. Writes: proposed state and residuals, predicted velocities.
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Holds { HoldRecord holds[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Holds { AttachmentRecord holds[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(set = 0, binding = 3, std430) buffer Positions { vec4 positions[]; };
@@ -20,7 +20,7 @@ layout(set = 0, binding = 4, std430) buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 5, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
 layout(set = 0, binding = 6, std430) buffer Residuals { uvec2 residuals[]; };
 
-layout(push_constant, std430) uniform Push { HoldPush push; };
+layout(push_constant, std430) uniform Push { AttachmentPush push; };
 
 #include "shared/fine_position.glsl"
 #include "integration/integrator.glsl"
@@ -40,7 +40,7 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    const HoldRecord hold = holds[push.first + gl_GlobalInvocationID.x];
+    const AttachmentRecord hold = holds[push.first + gl_GlobalInvocationID.x];
     const vec4 position = positions[hold.vertex];
     if (position.w == 0)
         return;
@@ -69,7 +69,7 @@ void main()
     bool taut = false;
     if (distance > hold.max_distance)
         taut = keep_inside(shift, v, offset / distance, distance - hold.max_distance, point_velocity);
-    if ((hold.flags & VOILE_HOLD_BACKSTOP) != 0)
+    if ((hold.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * hold.normal);
         taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, point_velocity) || taut;

@@ -1,9 +1,11 @@
-// Holds, anchors and tethers: pins that move and change, springs, leashes, backstops, and what they refuse.
+// Attachments, anchors and tethers: pins that move and change, springs, maximum distances, backstops, and what they
+// refuse.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace
@@ -51,15 +53,15 @@ TEST_CASE("pins follow an anchor exactly, move with its velocity, and stop with 
         grid.integrator = integrator;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(at({0, 2, -0.5f})));
-        std::vector<voile::Hold> holds;
+        std::vector<voile::Attachment> attachments;
         for (uint32_t column = 0; column < 8; ++column)
         {
-            voile::Hold hold{.vertex = column, .anchor = rod};
+            voile::Attachment attachment = voile::pin(column, rod);
             if (column % 2 == 0) // the others stay where they are as seen from the rod
-                hold.place = glm::vec3(static_cast<float>(column) / 7 - 0.5f, 0, 0);
-            holds.push_back(hold);
+                attachment.position = glm::vec3(static_cast<float>(column) / 7 - 0.5f, 0, 0);
+            attachments.push_back(attachment);
         }
-        voile::engine::take(harness.solver.set_holds(id, holds));
+        voile::engine::take(harness.solver.set_attachments(id, attachments));
         harness.upload();
         for (int frame = 1; frame <= 30; ++frame)
         {
@@ -95,11 +97,42 @@ TEST_CASE("pins follow an anchor exactly, move with its velocity, and stop with 
     }
 }
 
+TEST_CASE("attachments are made by functions that name them")
+{
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
+    const voile::AnchorId hand{3};
+    const voile::Attachment pin = voile::pin(7, hand, {1, 2, 3});
+    CHECK(pin.vertex == 7);
+    CHECK(pin.anchor == hand);
+    CHECK(pin.position == glm::vec3(1, 2, 3));
+    CHECK(pin.stiffness == k_infinity);
+    CHECK(!voile::pin(7).anchor);
+    CHECK(!voile::pin(7, hand).position);
+
+    const voile::Attachment spring = voile::spring(2, 200, 0.5f).to(hand).at({0, 1, 0});
+    CHECK(spring.vertex == 2);
+    CHECK(spring.stiffness == 200);
+    CHECK(spring.damping == 0.5f);
+    CHECK(spring.anchor == hand);
+    CHECK(spring.position == glm::vec3(0, 1, 0));
+    CHECK(spring.max_distance == k_infinity);
+
+    const voile::Attachment limit = voile::max_distance(5, 0.1f).with_backstop({0, 0, 1}, 0.02f);
+    CHECK(limit.stiffness == 0);
+    CHECK(limit.max_distance == 0.1f);
+    CHECK(limit.backstop_normal == glm::vec3(0, 0, 1));
+    CHECK(limit.backstop == 0.02f);
+    const voile::Attachment plane = voile::backstop(5, {0, 0, 1}, 0.02f).with_max_distance(0.1f);
+    CHECK(plane.stiffness == limit.stiffness);
+    CHECK(plane.max_distance == limit.max_distance);
+    CHECK(plane.backstop == limit.backstop);
+}
+
 TEST_CASE("pins change at run time, and released vertices fall")
 {
     ClothHarness harness;
     voile::GridCloth grid = sheet(6);
-    grid.held = {0, 5, 5};
+    grid.pins = {0, 5, 5};
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
     const float mass = 1 / harness.positions(id)[1].w;
@@ -107,16 +140,15 @@ TEST_CASE("pins change at run time, and released vertices fall")
     CHECK(harness.positions(id)[0] == glm::vec4(-0.5f, 2, -0.5f, 0));
     CHECK(harness.positions(id)[5] == glm::vec4(0.5f, 2, -0.5f, 0));
 
-    const voile::Hold one{.vertex = 35};
     const auto there = harness.positions(id)[35];
-    voile::engine::take(harness.solver.set_holds(id, {&one, 1}));
+    voile::engine::take(harness.solver.set_attachments(id, {voile::pin(35)}));
     CHECK_FALSE(harness.solver.needs_upload());
     harness.step({}, 20);
     CHECK(glm::vec3(harness.positions(id)[35]) == glm::vec3(there)); // where it was when it was pinned
     CHECK(harness.positions(id)[0].y < 1.9f);
     CHECK(1 / harness.positions(id)[0].w == tests::close_to(mass / 2, 1e-7)); // a corner again
 
-    voile::engine::take(harness.solver.set_holds(id, {}));
+    voile::engine::take(harness.solver.set_attachments(id, {}));
     const float height = harness.positions(id)[35].y;
     harness.step({}, 10);
     CHECK(harness.positions(id)[35].y < height - 0.05f);
@@ -128,10 +160,10 @@ TEST_CASE("attachments beyond the capacity need an upload and then hold")
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(10)));
     harness.upload();
     harness.step({}, 3);
-    std::vector<voile::Hold> all;
+    std::vector<voile::Attachment> all;
     for (uint32_t i = 0; i < 100; ++i)
-        all.push_back({.vertex = i});
-    voile::engine::take(harness.solver.set_holds(id, all));
+        all.push_back(voile::pin(i));
+    voile::engine::take(harness.solver.set_attachments(id, all));
     CHECK(harness.solver.needs_upload());
     harness.step({}); // recorded without the upload: as before
     harness.upload();
@@ -152,10 +184,10 @@ TEST_CASE("a spring holds a vertex at m g / k below its target")
         material.vertex_mass = 0.02f; // nothing joins the vertices
         grid.material = material;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-        std::vector<voile::Hold> holds;
+        std::vector<voile::Attachment> attachments;
         for (uint32_t i = 0; i < 4; ++i)
-            holds.push_back({.vertex = i, .stiffness = stiffness, .damping = 0.5f});
-        voile::engine::take(harness.solver.set_holds(id, holds));
+            attachments.push_back(voile::spring(i, stiffness, 0.5f));
+        voile::engine::take(harness.solver.set_attachments(id, attachments));
         harness.upload();
         harness.step({.substeps = 20}, 120);
         const double sag = 0.02 * k_gravity / static_cast<double>(stiffness);
@@ -170,15 +202,10 @@ TEST_CASE("a max-distance constraint keeps a vertex near a moving point, a backs
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(12)));
     const voile::AnchorId body = voile::engine::take(harness.solver.add_anchor(at({0, 2, 0})));
-    std::vector<voile::Hold> holds;
+    std::vector<voile::Attachment> attachments;
     for (uint32_t i = 0; i < 144; ++i)
-        holds.push_back({.vertex = i,
-                         .anchor = body,
-                         .stiffness = 0,
-                         .max_distance = 0.1f,
-                         .backstop_normal = {0, 1, 0},
-                         .backstop = 0.03f});
-    voile::engine::take(harness.solver.set_holds(id, holds));
+        attachments.push_back(voile::max_distance(i, 0.1f).with_backstop({0, 1, 0}, 0.03f).to(body));
+    voile::engine::take(harness.solver.set_attachments(id, attachments));
     harness.upload();
     const auto start = harness.positions(id);
     double deepest = 0;
@@ -212,7 +239,7 @@ TEST_CASE("tethers keep a soft hanging cloth at its length")
         soft.damping_ratio = 0.3f;
         grid.material = soft;
         for (uint32_t column = 0; column < 16; ++column)
-            grid.held.push_back(column);
+            grid.pins.push_back(column);
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         if (tethered)
             voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{.stretch = 0.02f}));
@@ -237,7 +264,7 @@ TEST_CASE("tethers measure distances along the cloth")
     voile::GridCloth grid = sheet(33);
     std::get<voile::Fabric>(grid.material).stretch_stiffness = {0.05f, 0.05f};
     std::get<voile::Fabric>(grid.material).shear_stiffness = 0.01f;
-    grid.held = {0};
+    grid.pins = {0};
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{}));
     harness.upload();
@@ -255,34 +282,33 @@ TEST_CASE("attachments and tethers refuse bad input, and nothing changes")
     voile::GridCloth grid = sheet(4);
     grid.name = "flag";
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-    const auto refused = [&](const voile::Hold& hold)
+    const auto refused = [&](const voile::Attachment& attachment)
     {
-        const std::string reason = message(harness.solver.set_holds(id, {&hold, 1}));
-        CHECK(harness.solver.holds(id).empty());
+        const std::string reason = message(harness.solver.set_attachments(id, {&attachment, 1}));
+        CHECK(harness.solver.attachments(id).empty());
         return reason;
     };
-    CHECK(refused({.vertex = 16}) == "cloth \"flag\": held vertex 16 of 16");
+    CHECK(refused({.vertex = 16}) == "cloth \"flag\": attached vertex 16 of 16");
     CHECK(refused({.vertex = 3, .anchor = voile::AnchorId{7}}) ==
-          "cloth \"flag\": the hold of vertex 3: anchor 7 does not exist");
-    CHECK(refused({.vertex = 1, .place = glm::vec3(NAN)}) ==
-          "cloth \"flag\": the hold of vertex 1: place is (nan, nan, nan) m, each must be -1e+06 to 1e+06");
+          "cloth \"flag\": the attachment of vertex 3: anchor 7 does not exist");
+    CHECK(refused({.vertex = 1, .position = glm::vec3(NAN)}) ==
+          "cloth \"flag\": the attachment of vertex 1: position is (nan, nan, nan) m, each must be -1e+06 to 1e+06");
     CHECK(refused({.vertex = 1, .stiffness = -1}) ==
-          "cloth \"flag\": the hold of vertex 1: stiffness is -1 N/m, must be 0 to 1e+09, or infinite for a pin");
+          "cloth \"flag\": the attachment of vertex 1: stiffness is -1 N/m, must be 0 to 1e+09, or infinite for a pin");
     CHECK(refused({.vertex = 1, .damping = INFINITY}).find("damping is inf") != std::string::npos);
     CHECK(refused({.vertex = 1, .max_distance = -2}).find("max_distance is -2") != std::string::npos);
     CHECK(refused({.vertex = 1, .backstop_normal = {0, 2, 0}}).find("not of unit length") != std::string::npos);
-    const voile::Hold twice[] = {{.vertex = 2}, {.vertex = 2}};
-    CHECK(message(harness.solver.set_holds(id, twice)) == "cloth \"flag\": vertex 2 is held twice");
+    CHECK(message(harness.solver.set_attachments(id, {voile::pin(2), voile::spring(2, 9)})) ==
+          "cloth \"flag\": vertex 2 has two attachments");
 
     CHECK(message(harness.solver.set_tethers(id, voile::Tethers{})) ==
           "cloth \"flag\": tethers need a pin, and it has none");
-    const voile::Hold pin{.vertex = 0};
-    voile::engine::take(harness.solver.set_holds(id, {&pin, 1}));
+    voile::engine::take(harness.solver.set_attachments(id, {voile::pin(0)}));
     CHECK(message(harness.solver.set_tethers(id, voile::Tethers{.stretch = -1})).find("must be 0 to 10") !=
           std::string::npos);
     voile::engine::take(harness.solver.set_tethers(id, voile::Tethers{}));
-    CHECK(message(harness.solver.set_holds(id, {})) == "cloth \"flag\": tethers need a pin, and it has none");
-    CHECK(harness.solver.holds(id).size() == 1);
+    CHECK(message(harness.solver.set_attachments(id, {})) == "cloth \"flag\": tethers need a pin, and it has none");
+    CHECK(harness.solver.attachments(id).size() == 1);
     glm::mat4 flat(1.f);
     flat[2] = {};
     CHECK(harness.solver.add_anchor(flat).error().message ==
@@ -299,15 +325,15 @@ TEST_CASE("vertices are attached to a collider's surface")
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     const voile::ColliderId ball =
         voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.2f, 0}, .radius = 0.3f}));
-    const auto holds = voile::engine::take(harness.solver.holds_on_surface(id, ball, 0.02f));
-    CHECK(holds.size() > 3);
-    CHECK(holds.size() < 100);
-    voile::engine::take(harness.solver.set_holds(id, holds));
+    const auto attachments = voile::engine::take(harness.solver.attachments_on_surface(id, ball, 0.02f));
+    CHECK(attachments.size() > 3);
+    CHECK(attachments.size() < 100);
+    voile::engine::take(harness.solver.set_attachments(id, attachments));
     harness.upload();
     harness.step({}, 30);
     const auto x = harness.positions(id);
-    for (const voile::Hold& hold : holds)
-        CHECK(static_cast<double>(glm::distance(glm::vec3(x[hold.vertex]), glm::vec3(0, 0.2f, 0))) ==
+    for (const voile::Attachment& attachment : attachments)
+        CHECK(static_cast<double>(glm::distance(glm::vec3(x[attachment.vertex]), glm::vec3(0, 0.2f, 0))) ==
               tests::close_to(0.3, 6e-7));
-    CHECK_FALSE(harness.solver.holds_on_surface(id, ball, 0).ok());
+    CHECK_FALSE(harness.solver.attachments_on_surface(id, ball, 0).ok());
 }

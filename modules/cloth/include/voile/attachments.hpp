@@ -1,0 +1,82 @@
+// Attachments keep vertices of a cloth in place, or near a point. The host sets them with Solver::set_attachments and
+// may change them while the cloth moves.
+//
+//   solver.set_attachments(flag, {pin(0), pin(63)});
+//   solver.set_attachments(curtain, {pin(0).to(rod), spring(31, 200).to(rod)});
+//   solver.set_attachments(cape, {max_distance(7, 0.05f).with_backstop({0, 0, 1}, 0.01f).to(spine)});
+#pragma once
+
+#include "voile/ids.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace voile
+{
+
+// Attaches one vertex to a point of the world, or of an anchor that the host moves. A vertex has at most one
+// attachment. The functions below make one; the members that they leave alone keep their defaults.
+struct Attachment
+{
+    // Index within the cloth.
+    uint32_t vertex = 0;
+
+    // The frame of `position` and `backstop_normal`. Default: the world.
+    std::optional<AnchorId> anchor{};
+
+    // The point, m in the anchor's space, -1e6..1e6. In the world, where the anchor was added: -2e6..2e6.
+    // Default: where the vertex was at the start, moved as the anchor has moved since it was added. A pin without a
+    // position keeps the vertex where it is when the pin is set.
+    std::optional<glm::vec3> position{};
+
+    // Pull towards the point, N/m, 0..1e9. Infinite, the default, makes a pin: the vertex has no inverse mass and
+    // follows the anchor exactly. A spring is integrated implicitly (backward Euler) and is stable at any stiffness.
+    float stiffness = std::numeric_limits<float>::infinity();
+
+    // Damping of the spring, N s/m, 0..1e6, against the point's velocity.
+    float damping = 0;
+
+    // Largest distance from the point, m, >= 0. Infinite, the default: no limit.
+    float max_distance = std::numeric_limits<float>::infinity();
+
+    // Unit normal of the backstop, in the anchor's space. The vertex stays on this side of a plane that lies `backstop`
+    // behind the point. Zero, the default: no backstop.
+    glm::vec3 backstop_normal{0.f};
+    float backstop = 0; // m, -1e6..1e6
+
+    // The same attachment to an anchor; to a point (m, in the anchor's space); with a limit; with a backstop.
+    [[nodiscard]] Attachment to(AnchorId frame) const;
+    [[nodiscard]] Attachment at(const glm::vec3& point) const;
+    [[nodiscard]] Attachment with_max_distance(float distance) const;
+    [[nodiscard]] Attachment with_backstop(const glm::vec3& normal, float distance) const;
+};
+
+// The vertex stays where it is.
+[[nodiscard]] Attachment pin(uint32_t vertex);
+// The vertex follows the anchor: from where it is, or at a point in the anchor's space (m).
+[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor);
+[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor, const glm::vec3& position);
+
+// A spring pulls the vertex to the point. N/m, N s/m.
+[[nodiscard]] Attachment spring(uint32_t vertex, float stiffness, float damping = 0);
+
+// The vertex moves freely within `distance` (m) of the point.
+[[nodiscard]] Attachment max_distance(uint32_t vertex, float distance);
+
+// The vertex moves freely in front of a plane `distance` (m) behind the point. `normal` is of unit length.
+[[nodiscard]] Attachment backstop(uint32_t vertex, const glm::vec3& normal, float distance);
+
+// Tethers limit the distance from each vertex to the pins. The limit is the length of the cloth at rest between them,
+// times (1 + stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Pins that are connected by edges form
+// a group. A vertex has one tether to the nearest pin of each group, up to four. A vertex that starts beyond its limit
+// goes no farther, and its springs pull it back. If two pins move farther apart than both tethers of a vertex allow,
+// both tethers grow in proportion until they meet.
+struct Tethers
+{
+    float stretch = 0; // 0..10
+};
+
+} // namespace voile

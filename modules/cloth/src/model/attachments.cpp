@@ -1,0 +1,178 @@
+// Attachments: the functions that make them, their validation, and their records.
+#include "model/model.hpp"
+
+#include <cmath>
+
+namespace voile
+{
+
+namespace
+{
+
+bool is_pin(const Attachment& attachment)
+{
+    return attachment.stiffness == std::numeric_limits<float>::infinity();
+}
+
+Result<void> validate_attachment(const Model& model, const Attachment& attachment)
+{
+    const std::string what = "the attachment of vertex " + std::to_string(attachment.vertex);
+    const auto bad = [&](const std::string& reason) { return Error{what + ": " + reason}; };
+    if (attachment.anchor)
+        if (auto exists = check_anchor(model, *attachment.anchor); !exists)
+            return bad(exists.error().message);
+    if (attachment.position)
+    {
+        if (auto valid = check(what, "position", *attachment.position, k_most_coordinate, " m"); !valid)
+            return valid;
+        const glm::mat4& anchor = model.anchors[attachment.anchor ? attachment.anchor->index : 0];
+        const glm::vec3 world(anchor * glm::vec4(*attachment.position, 1));
+        if (auto valid = check(what, "position in the world", world, 2 * k_most_coordinate, " m"); !valid)
+            return valid;
+    }
+    if (!is_pin(attachment))
+        if (auto valid = check(what, {"stiffness", attachment.stiffness, 0, k_most_attachment_stiffness, " N/m"});
+            !valid)
+            return Error{valid.error().message + ", or infinite for a pin"};
+    if (!(attachment.max_distance >= 0))
+        return bad("max_distance is " + text(attachment.max_distance) + " m, must be >= 0");
+    const Range ranges[] = {
+        {"damping", attachment.damping, 0, k_most_attachment_damping, " N s/m"},
+        {"backstop", attachment.backstop, -k_most_coordinate, k_most_coordinate, " m"},
+    };
+    for (const Range& range : ranges)
+        if (auto valid = check(what, range); !valid)
+            return valid;
+    const float length = glm::length(attachment.backstop_normal);
+    if (length != 0 && !(std::abs(length - 1) <= 1e-3f))
+        return bad("its backstop's normal is not of unit length");
+    return {};
+}
+
+shared::AttachmentRecord make_record(const Model& model, uint32_t cloth, const Attachment& attachment)
+{
+    const uint32_t vertex = model.records[cloth].first_vertex + attachment.vertex;
+    shared::AttachmentRecord record{};
+    record.vertex = vertex;
+    record.cloth = cloth;
+    record.anchor = attachment.anchor ? attachment.anchor->index : 0;
+    record.stiffness = is_pin(attachment) ? 0 : attachment.stiffness;
+    record.damping = attachment.damping;
+    record.max_distance = attachment.max_distance;
+    record.normal = attachment.backstop_normal;
+    record.backstop = attachment.backstop;
+    if (attachment.backstop_normal != glm::vec3(0))
+        record.flags |= VOILE_ATTACHMENT_BACKSTOP;
+    if (attachment.position || !is_pin(attachment))
+        record.flags |= VOILE_ATTACHMENT_PLACED;
+    const glm::vec4 start(glm::vec3(model.start[vertex]), 1);
+    record.place =
+        attachment.position ? *attachment.position : glm::vec3(glm::inverse(model.anchors[record.anchor]) * start);
+    return record;
+}
+
+} // namespace
+
+Attachment Attachment::to(AnchorId frame) const
+{
+    Attachment result = *this;
+    result.anchor = frame;
+    return result;
+}
+
+Attachment Attachment::at(const glm::vec3& point) const
+{
+    Attachment result = *this;
+    result.position = point;
+    return result;
+}
+
+Attachment Attachment::with_max_distance(float distance) const
+{
+    Attachment result = *this;
+    result.max_distance = distance;
+    return result;
+}
+
+Attachment Attachment::with_backstop(const glm::vec3& normal, float distance) const
+{
+    Attachment result = *this;
+    result.backstop_normal = normal;
+    result.backstop = distance;
+    return result;
+}
+
+Attachment pin(uint32_t vertex)
+{
+    return {.vertex = vertex};
+}
+
+Attachment pin(uint32_t vertex, AnchorId anchor)
+{
+    return {.vertex = vertex, .anchor = anchor};
+}
+
+Attachment pin(uint32_t vertex, AnchorId anchor, const glm::vec3& position)
+{
+    return {.vertex = vertex, .anchor = anchor, .position = position};
+}
+
+Attachment spring(uint32_t vertex, float stiffness, float damping)
+{
+    return {.vertex = vertex, .stiffness = stiffness, .damping = damping};
+}
+
+Attachment max_distance(uint32_t vertex, float distance)
+{
+    return {.vertex = vertex, .stiffness = 0, .max_distance = distance};
+}
+
+Attachment backstop(uint32_t vertex, const glm::vec3& normal, float distance)
+{
+    return {.vertex = vertex, .stiffness = 0, .backstop_normal = normal, .backstop = distance};
+}
+
+Result<void> check_anchor(const Model& model, AnchorId anchor)
+{
+    if (anchor.index == 0) // the world, which has no id
+        return Error{"anchor 0 does not exist"};
+    return check_id("anchor", anchor.index, model.anchors.size());
+}
+
+Result<void> validate_attachments(const Model& model, uint32_t cloth, std::span<const Attachment> attachments)
+{
+    const std::string& name = model.cloths[cloth].name;
+    const uint32_t vertices = model.records[cloth].vertices;
+    std::vector<bool> attached(vertices);
+    for (const Attachment& attachment : attachments)
+    {
+        if (attachment.vertex >= vertices)
+            return invalid("cloth", name,
+                           "attached vertex " + std::to_string(attachment.vertex) + " of " + std::to_string(vertices));
+        if (attached[attachment.vertex])
+            return invalid("cloth", name, "vertex " + std::to_string(attachment.vertex) + " has two attachments");
+        attached[attachment.vertex] = true;
+        if (auto valid = validate_attachment(model, attachment); !valid)
+            return invalid("cloth", name, valid.error().message);
+    }
+    return {};
+}
+
+AttachmentLists make_attachment_lists(const Model& model)
+{
+    AttachmentLists lists;
+    for (const bool pins : {true, false})
+    {
+        for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            for (const Attachment& attachment : model.cloths[cloth].attachments)
+                if (is_pin(attachment) == pins)
+                    lists.attachments.push_back(make_record(model, cloth, attachment));
+        if (pins)
+            lists.pins = static_cast<uint32_t>(lists.attachments.size());
+    }
+    for (const ClothModel& cloth : model.cloths)
+        lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());
+    return lists;
+}
+
+} // namespace voile
