@@ -141,7 +141,7 @@ voile::gpu::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFi
     grid.transform = matrix(entry.transform);
     grid.velocity = entry.velocity;
     grid.layers = entry.layers;
-    grid.integrator = entry.integrator == Integrator::verlet ? voile::Integrator::verlet : voile::Integrator::rk4;
+    grid.integrator = entry.integrator;
     auto material = make_cloth_material(
         scene, entry.material,
         glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
@@ -188,7 +188,7 @@ voile::gpu::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFi
     cloth.transform = matrix(entry.transform);
     cloth.velocity = entry.velocity;
     cloth.layers = entry.layers;
-    cloth.integrator = entry.integrator == Integrator::verlet ? voile::Integrator::verlet : voile::Integrator::rk4;
+    cloth.integrator = entry.integrator;
     cloth.material = material.value();
     for (const glm::vec3& p : mesh.positions)
         vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));

@@ -4,6 +4,7 @@
 #include "samples/viewer/text.hpp"
 
 #include "voile/fabrics.hpp"
+#include "voile/material_parameters.hpp"
 
 #include <algorithm>
 
@@ -12,79 +13,68 @@ namespace viewer
 namespace
 {
 
-void override_with(const std::optional<float>& value, float& target)
+// Writes a value that the scene gives, if the material has a parameter of that name.
+template <typename M, size_t N>
+void apply(const MaterialValue& value, const std::array<voile::MaterialParameter<M>, N>& parameters, M& material)
 {
-    if (value)
-        target = *value;
+    const voile::MaterialParameter<M>* parameter = voile::find_parameter(parameters, value.name);
+    if (parameter == nullptr)
+        return;
+    for (size_t i = 0; i < parameter->components().size(); ++i)
+        parameter->components()[i].member.ref(material) = value.numbers[value.numbers.size() > 1 ? i : 0];
 }
 
-void apply(const MaterialEntry& entry, voile::Fabric& fabric)
+// A preset's value must not put one that the scene gives out of order.
+template <typename M, size_t N>
+void keep_order(const MaterialEntry& entry, const std::array<voile::MaterialParameter<M>, N>& parameters, M& material)
 {
-    override_with(entry.areal_density, fabric.areal_density);
-    if (entry.stretch_stiffness)
-        fabric.stretch_stiffness = {entry.stretch_stiffness->x, entry.stretch_stiffness->y};
-    override_with(entry.shear_stiffness, fabric.shear_stiffness);
-    override_with(entry.bending_stiffness, fabric.bending_stiffness);
-    override_with(entry.damping_ratio, fabric.damping_ratio);
-    if (entry.bending_model)
-        fabric.bending_model = *entry.bending_model == BendingModel::isometric ? voile::BendingModel::isometric
-                                                                               : voile::BendingModel::springs;
-}
-
-// What fabrics and materials have alike.
-template <typename M>
-void apply_surface(const MaterialEntry& entry, M& material)
-{
-    override_with(entry.thickness, material.thickness);
-    override_with(entry.kinetic_friction, material.kinetic_friction);
-    override_with(entry.static_friction, material.static_friction);
-    // One of the two alone must not put them out of order.
-    if (!entry.static_friction)
-        material.static_friction = std::max(material.static_friction, material.kinetic_friction);
-    if (!entry.kinetic_friction)
-        material.kinetic_friction = std::min(material.static_friction, material.kinetic_friction);
-    override_with(entry.air_drag_normal, material.air_drag_normal);
-    override_with(entry.air_drag_tangential, material.air_drag_tangential);
-    override_with(entry.strain_limit, material.strain_limit);
-}
-
-void apply_raw(const MaterialEntry& entry, voile::Material& material)
-{
-    override_with(entry.vertex_mass, material.vertex_mass);
-    override_with(entry.linear_drag, material.linear_drag);
-    voile::SpringSet& s = material.springs;
-    for (voile::Spring* spring :
-         {&s.structural_warp, &s.structural_weft, &s.shear, &s.bend_warp, &s.bend_weft, &s.diagonal_bend})
+    for (const voile::MaterialParameter<M>& parameter : parameters)
     {
-        override_with(entry.spring_stiffness, spring->stiffness);
-        override_with(entry.spring_damping, spring->damping);
+        if (parameter.rule.least_name == nullptr)
+            continue;
+        float& value = parameter.components()[0].member.ref(material);
+        float& least = parameter.rule.least.ref(material);
+        if (entry.find(parameter.name) == nullptr)
+            value = std::max(value, least);
+        if (entry.find(parameter.rule.least_name) == nullptr)
+            least = std::min(value, least);
     }
 }
 
-bool has_fabric_values(const MaterialEntry& entry)
+bool is_of_fabric(const MaterialValue& value)
 {
-    return entry.areal_density || entry.stretch_stiffness || entry.shear_stiffness || entry.bending_stiffness ||
-           entry.damping_ratio || entry.bending_model;
+    return voile::find_parameter(voile::k_fabric_parameters, value.name) != nullptr;
 }
 
-bool has_raw_values(const MaterialEntry& entry)
+bool is_of_material(const MaterialValue& value)
 {
-    return entry.vertex_mass || entry.spring_stiffness || entry.spring_damping || entry.linear_drag;
+    return voile::find_parameter(voile::k_material_parameters, value.name) != nullptr;
 }
 
 // Of a fabric's value and a raw one that would replace it without a word: what both of them give; nothing if there are
 // no such two.
 std::string given_twice(const MaterialEntry& entry)
 {
-    if (entry.vertex_mass && entry.areal_density)
+    if (entry.find("vertex_mass") && entry.find("areal_density"))
         return "vertex_mass and areal_density both give the mass";
-    const bool bend_springs = entry.bending_stiffness && entry.bending_model != BendingModel::isometric;
-    if (entry.spring_stiffness && (entry.stretch_stiffness || entry.shear_stiffness || bend_springs))
+    const bool bend_springs = entry.find("bending_stiffness") && entry.bending_model != voile::BendingModel::isometric;
+    if (entry.find("spring_stiffness") &&
+        (entry.find("stretch_stiffness") || entry.find("shear_stiffness") || bend_springs))
         return "spring_stiffness gives the stiffness of all springs, as stretch_stiffness, shear_stiffness and "
                "bending_stiffness do";
-    if (entry.spring_damping && entry.damping_ratio)
+    if (entry.find("spring_damping") && entry.find("damping_ratio"))
         return "spring_damping and damping_ratio both give the damping of springs";
     return {};
+}
+
+// The names of the parameters that Material has alone, for messages: "vertex_mass, ... and linear_drag".
+std::string raw_names()
+{
+    std::string names;
+    for (const auto& parameter : voile::k_own_material_parameters)
+        if (voile::find_parameter(voile::k_fabric_parameters, parameter.name) == nullptr)
+            names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+    return names.replace(names.rfind(","), 1, " and");
 }
 
 } // namespace
@@ -98,11 +88,13 @@ voile::gpu::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& sc
     voile::ClothMaterial result;
     if (entry.preset == "reference")
     {
-        if (has_fabric_values(entry))
-            return bad("the preset \"reference\" gives masses and springs outright; it takes vertex_mass, "
-                       "spring_stiffness and spring_damping, not a fabric's values");
+        if (entry.bending_model || !std::all_of(entry.values.begin(), entry.values.end(), is_of_material))
+            return bad("the preset \"reference\" gives masses and springs outright; it takes " + raw_names() +
+                       ", not a fabric's values");
         voile::Material material = voile::reference_material();
-        apply_raw(entry, material);
+        for (const MaterialValue& value : entry.values)
+            apply(value, voile::k_material_parameters, material);
+        keep_order(entry, voile::k_material_parameters, material);
         result = material;
     }
     else
@@ -112,21 +104,24 @@ voile::gpu::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& sc
         if (!fabric)
             return bad("unknown preset " + in_quotes(preset) +
                        "; there are silk, cotton, wool, denim, leather and reference");
-        apply(entry, *fabric);
-        if (const auto valid = voile::validate(*fabric); !valid)
-            return bad(valid.error().message);
+        for (const MaterialValue& value : entry.values)
+            apply(value, voile::k_fabric_parameters, *fabric);
+        fabric->bending_model = entry.bending_model.value_or(fabric->bending_model);
+        keep_order(entry, voile::k_fabric_parameters, *fabric);
         result = *fabric;
-        if (has_raw_values(entry))
+        if (!std::all_of(entry.values.begin(), entry.values.end(), is_of_fabric))
         {
             if (!spacing)
-                return bad("vertex_mass, spring_stiffness, spring_damping and linear_drag on a mesh need the preset "
-                           "\"reference\"");
+                return bad(raw_names() + " on a mesh need the preset \"reference\"");
+            if (const auto valid = voile::validate(*fabric); !valid)
+                return bad(valid.error().message);
             voile::Material material = voile::make_material(*fabric, spacing->x, spacing->y);
-            apply_raw(entry, material);
+            for (const MaterialValue& value : entry.values)
+                if (!is_of_fabric(value))
+                    apply(value, voile::k_material_parameters, material);
             result = material;
         }
     }
-    std::visit([&](auto& m) { apply_surface(entry, m); }, result);
     if (const auto valid = std::visit([](const auto& m) { return voile::validate(m); }, result); !valid)
         return bad(valid.error().message);
     return result;

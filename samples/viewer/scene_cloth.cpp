@@ -1,4 +1,4 @@
-// Cloths, materials and pins of a scene file.
+// Cloths and pins of a scene file.
 #include "samples/viewer/scene_parse.hpp"
 
 #include "voile/gpu/printable.hpp"
@@ -127,82 +127,7 @@ void check_name(SceneReader& reader, const Field& field, const std::string& name
         reader.fail(field, "is " + in_quotes(name) + "; a name holds no slash and no control character");
 }
 
-void parse_raw_constants(SceneReader& reader, const Field& field, MaterialEntry& material)
-{
-    reader.read(SceneReader::child(field, "vertex_mass"), k_positive, material.vertex_mass);
-    reader.read(SceneReader::child(field, "spring_stiffness"), k_positive, material.spring_stiffness);
-    reader.read(SceneReader::child(field, "spring_damping"), k_not_negative, material.spring_damping);
-    reader.read(SceneReader::child(field, "linear_drag"), k_not_negative, material.linear_drag);
-}
-
-void parse_stretch_stiffness(SceneReader& reader, const Field& field, MaterialEntry& material)
-{
-    if (!field)
-        return;
-    glm::vec2 warp_weft{0.f};
-    if (field.node->kind == JsonNode::Kind::array)
-    {
-        reader.read(field, k_positive, warp_weft);
-    }
-    else
-    {
-        reader.read(field, k_positive, warp_weft.x);
-        warp_weft.y = warp_weft.x;
-    }
-    material.stretch_stiffness = warp_weft;
-}
-
-void parse_preset(SceneReader& reader, const Field& field, MaterialEntry& material)
-{
-    if (reader.read_word(field, "a material", {"silk", "cotton", "wool", "denim", "leather", "reference"}))
-        material.preset = field.node->text;
-}
-
 } // namespace
-
-MaterialEntry parse_material(SceneReader& reader, const Field& field)
-{
-    MaterialEntry material;
-    material.place = place_of(field);
-    if (!field || reader.failed())
-        return material;
-    if (field.node->kind == JsonNode::Kind::string)
-    {
-        parse_preset(reader, field, material);
-        return material;
-    }
-    if (field.node->kind != JsonNode::Kind::object)
-    {
-        reader.fail(field, std::string("is ") + describe(field.node->kind) + "; expected a preset's name or an object");
-        return material;
-    }
-    if (!reader.object(field, {"preset", "areal_density", "stretch_stiffness", "shear_stiffness", "bending_stiffness",
-                               "damping_ratio", "thickness", "static_friction", "kinetic_friction", "air_drag_normal",
-                               "air_drag_tangential", "strain_limit", "bending_model", "vertex_mass",
-                               "spring_stiffness", "spring_damping", "linear_drag"}))
-        return material;
-    parse_preset(reader, SceneReader::child(field, "preset"), material);
-    reader.read(SceneReader::child(field, "areal_density"), k_positive, material.areal_density);
-    parse_stretch_stiffness(reader, SceneReader::child(field, "stretch_stiffness"), material);
-    reader.read(SceneReader::child(field, "shear_stiffness"), k_not_negative, material.shear_stiffness);
-    reader.read(SceneReader::child(field, "bending_stiffness"), k_not_negative, material.bending_stiffness);
-    reader.read(SceneReader::child(field, "damping_ratio"), k_not_negative, material.damping_ratio);
-    reader.read(SceneReader::child(field, "thickness"), k_positive, material.thickness);
-    reader.read(SceneReader::child(field, "static_friction"), k_not_negative, material.static_friction);
-    reader.read(SceneReader::child(field, "kinetic_friction"), k_not_negative, material.kinetic_friction);
-    reader.read(SceneReader::child(field, "air_drag_normal"), k_not_negative, material.air_drag_normal);
-    reader.read(SceneReader::child(field, "air_drag_tangential"), k_not_negative, material.air_drag_tangential);
-    reader.read(SceneReader::child(field, "strain_limit"), k_not_negative, material.strain_limit);
-    const Field model = SceneReader::child(field, "bending_model");
-    if (const auto word = reader.read_word(model, "a bending model", {"springs", "isometric"}))
-        material.bending_model = static_cast<BendingModel>(*word);
-    parse_raw_constants(reader, field, material);
-    if (!reader.failed() && material.static_friction && material.kinetic_friction &&
-        *material.kinetic_friction > *material.static_friction)
-        reader.fail(SceneReader::child(field, "kinetic_friction"),
-                    "is above static_friction, " + number_text(*material.static_friction));
-    return material;
-}
 
 PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid)
 {
@@ -220,7 +145,8 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_place(reader, reader.required(field, "at"), grid, pin);
-        reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness), pin.stiffness);
+        reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness),
+                    pin.stiffness);
         reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_attachment_damping), pin.damping);
         reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
         if (!reader.failed() && has("damping") && !has("stiffness"))
@@ -272,7 +198,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     }
     reader.read(SceneReader::child(field, "velocity"), within(voile::k_most_speed), cloth.velocity);
     if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
-        cloth.integrator = static_cast<Integrator>(*word);
+        cloth.integrator = static_cast<voile::Integrator>(*word);
     reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);
     parse_layers(reader, SceneReader::child(field, "layers"), cloth.layers);
     return cloth;

@@ -1,8 +1,9 @@
-// A scene file (JSON) as plain structs. Of the cloth module this knows the ranges alone
-// (voile/ranges.hpp): what a value means for the simulation is decided where the scene is built. SI units, degrees for
-// angles, y is up. A field that is std::optional or absent was not written in the file; its default belongs to whoever
-// builds the scene.
+// A scene file (JSON) as plain structs, with the ranges of the cloth module (voile/ranges.hpp,
+// voile/material_parameters.hpp). SI units, degrees for angles, y is up. A field that is std::optional or absent was
+// not written in the file; its default belongs to whoever builds the scene.
 #pragma once
+
+#include "voile/descriptions.hpp"
 
 #include "voile/gpu/result.hpp"
 
@@ -74,16 +75,6 @@ struct StepEntry
     std::optional<uint32_t> substeps; // of a frame, 1..1000; absent: "auto", from stability
 };
 
-enum class BendingModel
-{
-    springs,
-    isometric
-};
-enum class Integrator
-{
-    rk4,
-    verlet
-};
 enum class Edge
 {
     top,
@@ -92,28 +83,22 @@ enum class Edge
     right
 }; // row 0, last row, column 0, last column
 
+// A parameter of a material, by its name in voile/material_parameters.hpp.
+struct MaterialValue
+{
+    std::string name;
+    std::vector<float> numbers; // one for all components, or one for each
+};
+
 // A preset, values, or a preset with some values replaced.
 struct MaterialEntry
 {
-    std::optional<std::string> preset;          // silk, cotton, wool, denim, leather or reference
-    std::optional<float> areal_density;         // kg/m², > 0
-    std::optional<glm::vec2> stretch_stiffness; // N/m, warp and weft, > 0
-    std::optional<float> shear_stiffness;       // N/m, >= 0
-    std::optional<float> bending_stiffness;     // N·m, >= 0
-    std::optional<float> damping_ratio;         // of critical damping, >= 0
-    std::optional<float> thickness;             // m, > 0
-    std::optional<float> static_friction;       // >= 0, and >= kinetic_friction where both are given
-    std::optional<float> kinetic_friction;      // >= 0
-    std::optional<float> air_drag_normal;       // coefficient, >= 0
-    std::optional<float> air_drag_tangential;   // coefficient, >= 0
-    std::optional<float> strain_limit;          // greatest l/L - 1, >= 0; 0: none
-    std::optional<BendingModel> bending_model;
-    // As the reference scene is given: constants of the mesh, not of the fabric, the same for every spring family.
-    std::optional<float> vertex_mass;      // kg, > 0
-    std::optional<float> spring_stiffness; // N/m, > 0
-    std::optional<float> spring_damping;   // N·s/m, >= 0
-    std::optional<float> linear_drag;      // N·s/m, >= 0
+    std::optional<std::string> preset; // silk, cotton, wool, denim, leather or reference
+    std::vector<MaterialValue> values;
+    std::optional<voile::BendingModel> bending_model;
     Place place;
+
+    [[nodiscard]] const MaterialValue* find(std::string_view name) const; // null: not written
 };
 
 // Flat in x and z, centerd on the origin. Vertex index = row * columns + column.
@@ -161,7 +146,7 @@ struct ClothEntry
     std::vector<PinEntry> pins;
     std::optional<float> tethers; // how far they let the cloth stretch, 0..10; absent: none
     glm::vec3 velocity{0.f};      // m/s at the start
-    Integrator integrator = Integrator::rk4;
+    voile::Integrator integrator = voile::Integrator::rk4;
     bool self_collision = true;
     uint32_t layers = 1; // bits; it meets the colliders that share one
     Place place;

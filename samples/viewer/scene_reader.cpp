@@ -11,6 +11,11 @@ namespace
 
 std::string range_text(Range range)
 {
+    if (range.or_zero)
+    {
+        range.or_zero = false;
+        return range_text(range) + ", or 0 for none";
+    }
     const bool below = std::isfinite(range.max);
     const bool above = std::isfinite(range.min);
     if (range.min_excluded && below)
@@ -49,18 +54,17 @@ bool SceneReader::expect(const Field& field, JsonNode::Kind kind, const char* ex
     return !failed();
 }
 
-bool SceneReader::object(const Field& field, std::initializer_list<const char*> keys)
+bool SceneReader::object(const Field& field, const std::vector<std::string>& keys)
 {
     if (!expect(field, JsonNode::Kind::object, "an object"))
         return false;
-    const std::vector<std::string> known(keys.begin(), keys.end());
     for (size_t i = 0; i < field.node->keys.size(); ++i)
     {
         const std::string& key = field.node->keys[i];
-        if (std::find(known.begin(), known.end(), key) != known.end())
+        if (std::find(keys.begin(), keys.end(), key) != keys.end())
             continue;
         fail(field.node->items[i].line, "unknown key " + in_quotes(key) + " in " +
-                                            (field.path.empty() ? "the scene" : field.path) + suggestion(key, known));
+                                            (field.path.empty() ? "the scene" : field.path) + suggestion(key, keys));
         return false;
     }
     return true;
@@ -123,7 +127,7 @@ void SceneReader::read(const Field& field, Range range, float& out)
         return fail(field, "is " + number_text(value) + ", beyond single precision");
     const auto narrowed = static_cast<double>(static_cast<float>(value));
     const bool too_small = value < range.min || (range.min_excluded && narrowed <= range.min);
-    if (too_small || value > range.max)
+    if ((too_small || value > range.max) && !(range.or_zero && value == 0))
         return fail(field, "is " + number_text(value) + "; " + range_text(range));
     out = static_cast<float>(value);
 }
@@ -169,6 +173,11 @@ void SceneReader::read_integer(const Field& field, uint32_t min, uint32_t max, u
 
 std::optional<size_t> SceneReader::read_word(const Field& field, const char* what,
                                              std::initializer_list<const char*> words)
+{
+    return read_word(field, what, std::span(words.begin(), words.size()));
+}
+
+std::optional<size_t> SceneReader::read_word(const Field& field, const char* what, std::span<const char* const> words)
 {
     std::string word;
     read(field, word);

@@ -11,7 +11,9 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace viewer
 {
@@ -31,6 +33,7 @@ struct Range
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool min_excluded = false;
+    bool or_zero = false; // 0 is valid as well, and means none
 };
 constexpr Range k_any{};
 constexpr Range k_positive{0, std::numeric_limits<double>::infinity(), true};
@@ -55,7 +58,7 @@ public:
     void fail(const Field& field, const std::string& reason);
 
     // True if it is an object whose keys are all among `keys`.
-    bool object(const Field& field, std::initializer_list<const char*> keys);
+    bool object(const Field& field, const std::vector<std::string>& keys);
     // True if it is an array of `length` items, or of any length where that is 0.
     bool array(const Field& field, size_t length = 0);
 
@@ -75,6 +78,7 @@ public:
     void read_integer(const Field& field, uint32_t min, uint32_t max, uint32_t& out);
     // The index of the word; `what` says what it is one of ("an integrator").
     std::optional<size_t> read_word(const Field& field, const char* what, std::initializer_list<const char*> words);
+    std::optional<size_t> read_word(const Field& field, const char* what, std::span<const char* const> words);
 
 private:
     bool expect(const Field& field, JsonNode::Kind kind, const char* expected);

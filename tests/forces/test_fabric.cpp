@@ -4,9 +4,11 @@
 #include "support/cloth_harness.hpp"
 
 #include "voile/fabrics.hpp"
+#include "voile/material_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -187,6 +189,54 @@ TEST_CASE("a hanging strip swings with the periods of a chain")
         const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
         CHECK(period == tests::close_to(mode.period, 5e-3));
     }
+}
+
+namespace
+{
+
+// What validate says of each number of a material below and above its range, and of one that is no number.
+template <typename M, size_t N>
+void check_ranges(const char* what, const std::array<voile::MaterialParameter<M>, N>& parameters)
+{
+    for (const voile::MaterialParameter<M>& parameter : parameters)
+        for (const voile::ParameterComponent<M>& component : parameter.components())
+            for (const float value : {parameter.min - 1, 2 * parameter.max, std::nanf("")})
+            {
+                M material;
+                component.member.ref(material) = value;
+                const auto result = voile::validate(material);
+                CAPTURE(parameter.name);
+                REQUIRE_FALSE(result);
+                const std::string start = std::string(what) + ": " + parameter.name +
+                                          (*component.name != '\0' ? " (" + std::string(component.name) + ")" : "");
+                if (parameter.name == std::string("kinetic_friction") && value > parameter.max)
+                    continue; // above the static one as well
+                CHECK(result.error().message.starts_with(start + " is "));
+                CHECK(result.error().message.find(", must be ") != std::string::npos);
+            }
+}
+
+} // namespace
+
+TEST_CASE("a parameter that is out of its range is refused by its name")
+{
+    check_ranges("fabric", voile::k_fabric_parameters);
+    check_ranges("material", voile::k_material_parameters);
+    CHECK(voile::validate(voile::Fabric{.static_friction = 0.3f, .kinetic_friction = 0.4f}).error().message ==
+          "fabric: static_friction is 0.3, must be at least kinetic_friction, 0.4");
+    CHECK(voile::validate(voile::Fabric{.strain_limit = 1e-4f}).error().message ==
+          "fabric: strain_limit is 0.0001, must be 0.001 to 10, or 0 for none");
+}
+
+TEST_CASE("a material is printed with every parameter, its value and its unit")
+{
+    CHECK(
+        voile::to_string(voile::Fabric{}) ==
+        "areal_density 0.15 kg/m^2, stretch_stiffness 1000 1000 N/m, shear_stiffness 100 N/m, bending_stiffness 1e-05 "
+        "N m, damping_ratio 0.02, thickness 0.005 m, kinetic_friction 0.4, static_friction 0.5, air_drag_normal 1.28, "
+        "air_drag_tangential 0.05, strain_limit 0, bending_model springs");
+    CHECK(voile::to_string(voile::reference_material()).find("spring_damping 10 10 10 10 10 10 N s/m") !=
+          std::string::npos);
 }
 
 TEST_CASE("every preset is found by name, is valid, and keeps its stretch and shear on a grid")

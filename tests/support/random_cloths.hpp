@@ -167,24 +167,8 @@ inline double energy_bound(const Motion& start, double elastic, const voile::Ste
 template <typename Description>
 std::string describe(const Description& d)
 {
-    std::string text = d.integrator == voile::Integrator::verlet ? "Verlet" : "RK4";
-    if (const auto* f = std::get_if<voile::Fabric>(&d.material))
-        return text + " fabric rho " + std::to_string(f->areal_density) + " K " +
-               std::to_string(f->stretch_stiffness[0]) + " " + std::to_string(f->stretch_stiffness[1]) + " shear " +
-               std::to_string(f->shear_stiffness) + " B " + std::to_string(f->bending_stiffness) +
-               (f->bending_model == voile::BendingModel::isometric ? " isometric" : " springs") + " ratio " +
-               std::to_string(f->damping_ratio) + " C " + std::to_string(f->air_drag_normal) + " " +
-               std::to_string(f->air_drag_tangential);
-    const auto& m = std::get<voile::Material>(d.material);
-    text += " material m " + std::to_string(m.vertex_mass * 1e9f) + " ug border " + std::to_string(m.border_share) +
-            " B " + std::to_string(m.bending_stiffness) + " time " + std::to_string(m.bending_time) + " drag " +
-            std::to_string(m.linear_drag) + " C " + std::to_string(m.air_drag_normal) + " " +
-            std::to_string(m.air_drag_tangential);
-    const voile::SpringSet& s = m.springs;
-    for (const voile::Spring& spring :
-         {s.structural_warp, s.structural_weft, s.shear, s.bend_warp, s.bend_weft, s.diagonal_bend})
-        text += " (" + std::to_string(spring.stiffness) + ", " + std::to_string(spring.damping) + ")";
-    return text;
+    const std::string integrator = d.integrator == voile::Integrator::verlet ? "Verlet, " : "RK4, ";
+    return integrator + std::visit([](const auto& material) { return voile::to_string(material); }, d.material);
 }
 
 } // namespace tests

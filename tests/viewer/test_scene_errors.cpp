@@ -2,7 +2,10 @@
 #include "support/test_folder.hpp"
 #include "viewer/scene_text.hpp"
 
+#include "samples/viewer/scene_reader.hpp"
+
 #include "voile/gpu/printable.hpp"
+#include "voile/material_parameters.hpp"
 
 #include <doctest/doctest.h>
 
@@ -87,9 +90,9 @@ TEST_CASE("numbers that are not finite, out of range or of the wrong kind are re
           "dir/s.json:1: step.substeps is neither \"auto\" nor a whole number within 1 to 1000");
     CHECK(scene_message("\"wind\": {\"gust\": -1}") == "dir/s.json:1: wind.gust is -1; it must be within 0 to 10");
     CHECK(cloth_message("\"material\": {\"thickness\": 0}") ==
-          "dir/s.json:1: cloths[0].material.thickness is 0; it must be larger than 0");
+          "dir/s.json:1: cloths[0].material.thickness is 0; it must be within 1e-05 to 10");
     CHECK(cloth_message("\"material\": {\"areal_density\": 1e-300}") ==
-          "dir/s.json:1: cloths[0].material.areal_density is 1e-300; it must be larger than 0");
+          "dir/s.json:1: cloths[0].material.areal_density is 1e-300; it must be within 0.001 to 1000");
     CHECK(cloth_message("\"transform\": {\"scale\": -1}") ==
           "dir/s.json:1: cloths[0].transform.scale is -1; it must be larger than 0 and at most 1000000");
     CHECK(cloth_message("\"self_collision\": 1") ==
@@ -125,6 +128,27 @@ TEST_CASE("values outside the ranges of the cloth module are refused with their 
           at + "colliders[0].friction is 1e+30; it must be within 0 to 100");
     CHECK(collider_message(R"({"plane": {"y": 0}, "motion": {"velocity": [0, 1e20, 0]}})") ==
           at + "colliders[0].motion.velocity[1] is 1e+20; it must be within -10000 to 10000");
+}
+
+TEST_CASE("every parameter of a material is refused beyond its range, at its own line and key")
+{
+    const auto check = [](const auto& parameters)
+    {
+        for (const auto& parameter : parameters)
+        {
+            const std::string key = parameter.name;
+            const std::string at = "dir/s.json:2: cloths[0].material." + key + " is ";
+            const std::string none = parameter.rule.or_zero ? ", or 0 for none" : "";
+            const viewer::Range decimals = viewer::between(parameter.min, parameter.max);
+            const std::string range = "; it must be within " + viewer::number_text(decimals.min) + " to " +
+                                      viewer::number_text(decimals.max) + none;
+            CHECK(cloth_message("\"material\": {\n\"" + key + "\": -1}") == at + "-1" + range);
+            CHECK(cloth_message("\"material\": {\n\"" + key + "\": 1e9}") == at + "1000000000" + range);
+        }
+    };
+    check(voile::k_fabric_parameters);
+    check(voile::k_material_parameters);
+    CHECK(cloth_message("\"material\": {\"strain_limit\": 0}") == "accepted");
 }
 
 TEST_CASE("bad grids are refused")

@@ -4,6 +4,11 @@
 #include "support/test_paths.hpp"
 #include "viewer/scene_text.hpp"
 
+#include "samples/viewer/materials.hpp"
+#include "samples/viewer/text.hpp"
+
+#include "voile/material_parameters.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -91,7 +96,7 @@ TEST_CASE("every key of a cloth is read")
     CHECK(sheet.transform.rotate == glm::vec3(10, 20, 30));
     CHECK(sheet.transform.scale == 2.f);
     CHECK(sheet.velocity == glm::vec3(0, 0, -1));
-    CHECK(sheet.integrator == viewer::Integrator::verlet);
+    CHECK(sheet.integrator == voile::Integrator::verlet);
     CHECK_FALSE(sheet.self_collision);
     CHECK(sheet.layers == 9u);
     CHECK(scene.cloths[1].layers == 1u);
@@ -99,7 +104,7 @@ TEST_CASE("every key of a cloth is read")
     CHECK(scene.cloths[1].name == "cloth_1");
     CHECK(std::get<fs::path>(scene.cloths[1].form) == "dir/m/shirt.PLY");
     CHECK(scene.cloths[1].material.preset == "silk");
-    CHECK_FALSE(scene.cloths[1].material.thickness.has_value());
+    CHECK(scene.cloths[1].material.find("thickness") == nullptr);
 }
 
 TEST_CASE("every key of a material is read")
@@ -107,22 +112,75 @@ TEST_CASE("every key of a material is read")
     const viewer::SceneFile scene = full_scene();
     const viewer::MaterialEntry& material = scene.cloths[0].material;
     CHECK(material.preset == "cotton");
-    CHECK(material.areal_density == 0.2f);
-    CHECK(material.stretch_stiffness == glm::vec2(900, 800));
-    CHECK(material.shear_stiffness == 300.f);
-    CHECK(material.bending_stiffness == 2e-5f);
-    CHECK(material.damping_ratio == 0.1f);
-    CHECK(material.thickness == 0.005f);
-    CHECK(material.static_friction == 0.5f);
-    CHECK(material.kinetic_friction == 0.4f);
-    CHECK(material.air_drag_normal == 1.28f);
-    CHECK(material.air_drag_tangential == 0.05f);
-    CHECK(material.strain_limit == 0.1f);
-    CHECK(material.bending_model == viewer::BendingModel::isometric);
-    CHECK(material.vertex_mass == 0.15f);
-    CHECK(material.spring_stiffness == 400.f);
-    CHECK(material.spring_damping == 10.f);
-    CHECK(material.linear_drag == 0.1f);
+    CHECK(material.bending_model == voile::BendingModel::isometric);
+    CHECK(material.values.size() == 15);
+    const auto numbers = [&](const char* name)
+    {
+        const viewer::MaterialValue* value = material.find(name);
+        return value != nullptr ? value->numbers : std::vector<float>();
+    };
+    CHECK(numbers("areal_density") == std::vector{0.2f});
+    CHECK(numbers("stretch_stiffness") == std::vector{900.f, 800.f});
+    CHECK(numbers("air_drag_normal") == std::vector{1.28f});
+    CHECK(numbers("linear_drag") == std::vector{0.1f});
+    CHECK(numbers("border_share").empty());
+}
+
+namespace
+{
+
+// A value for each component of a parameter, within its range.
+template <typename M>
+std::vector<float> values_within(const voile::MaterialParameter<M>& parameter)
+{
+    std::vector<float> values;
+    for (size_t i = 0; i < parameter.components().size(); ++i)
+        values.push_back(parameter.min + (parameter.max - parameter.min) * 0.125f / static_cast<float>(1 + i));
+    return values;
+}
+
+template <typename M, size_t N>
+void check_every_parameter(const std::string& preset, const std::array<voile::MaterialParameter<M>, N>& parameters)
+{
+    for (const voile::MaterialParameter<M>& parameter : parameters)
+    {
+        CAPTURE(parameter.name);
+        const std::vector<float> values = values_within(parameter);
+        std::string list;
+        for (const float value : values)
+            list += (list.empty() ? "" : ", ") + viewer::number_text(static_cast<double>(value));
+        const auto scene =
+            parse(R"({"cloths": [{"grid": {"vertices": [4, 4], "size": [1, 1]}, "material": {"preset": ")" + preset +
+                  "\", \"" + parameter.name + "\": " + (values.size() > 1 ? "[" + list + "]" : list) + "}}]}");
+        REQUIRE_MESSAGE(scene, scene.error().message);
+        const auto made =
+            viewer::make_cloth_material(scene.value(), scene.value().cloths[0].material, glm::vec2(1.f / 3));
+        REQUIRE_MESSAGE(made, made.error().message);
+        const M& material = std::get<M>(made.value());
+        for (size_t i = 0; i < values.size(); ++i)
+            CHECK(parameter.components()[i].member.get(material) == values[i]);
+    }
+}
+
+} // namespace
+
+TEST_CASE("every parameter of a fabric and of a material can be written in a scene")
+{
+    check_every_parameter("silk", voile::k_fabric_parameters);
+    check_every_parameter("reference", voile::k_material_parameters);
+    check_every_parameter("silk", std::array{*voile::find_parameter(voile::k_material_parameters, "border_share"),
+                                             *voile::find_parameter(voile::k_material_parameters, "spring_damping")});
+}
+
+TEST_CASE("one number stands for all components of a parameter")
+{
+    const auto scene = parse(R"({"cloths": [{"grid": {"vertices": [4, 4], "size": [1, 1]},
+        "material": {"preset": "reference", "spring_stiffness": 7}}]})");
+    REQUIRE(scene);
+    const auto made = viewer::make_cloth_material(scene.value(), scene.value().cloths[0].material, std::nullopt);
+    REQUIRE(made);
+    CHECK(std::get<voile::Material>(made.value()).springs.structural_warp.stiffness == 7);
+    CHECK(std::get<voile::Material>(made.value()).springs.diagonal_bend.stiffness == 7);
 }
 
 TEST_CASE("every kind of pin is read")
@@ -174,7 +232,7 @@ TEST_CASE("missing keys have the defaults of the format")
     CHECK(result.value().step.rate == 60.f);
     CHECK_FALSE(result.value().step.substeps.has_value());
     CHECK_FALSE(result.value().camera.has_value());
-    CHECK(result.value().cloths[0].integrator == viewer::Integrator::rk4);
+    CHECK(result.value().cloths[0].integrator == voile::Integrator::rk4);
     CHECK_FALSE(result.value().cloths[0].material.preset.has_value());
     CHECK(parse("{\"step\": {\"substeps\": \"auto\"}, \"cloths\": [{" + k_grid + "}]}").ok());
 }
@@ -238,6 +296,6 @@ TEST_CASE("the reference scene is that of the report")
     CHECK(scene.cloths[0].transform.translate.y == 4.8f);
     CHECK(scene.cloths[0].transform.translate.x == tests::close_to(5.08, 7e-8));
     CHECK(scene.cloths[0].material.preset == "reference");
-    CHECK(scene.cloths[0].integrator == viewer::Integrator::rk4);
+    CHECK(scene.cloths[0].integrator == voile::Integrator::rk4);
     CHECK(scene.colliders.size() == 2);
 }

@@ -282,7 +282,7 @@ TEST_CASE("an invalid cloth is reported with the line of the scene")
             {"s.json:2: cloths[0].pins[0]: ", "pin vertex:3, but it has 3 vertices"});
     refused(R"({"mesh": "one.obj", "tethers": {}})", {"s.json:2: cloths[0]: ", "tethers need a pin, and it has none"});
     refused(R"({"mesh": "one.obj", "material": {"strain_limit": 50}})",
-            {"s.json:2: cloths[0].material: ", "strain_limit is 50, must be 0.001 to 10"});
+            {"s.json:2: cloths[0].material.strain_limit is 50; it must be within 0.001 to 10, or 0 for none"});
     refused(R"({"mesh": "one.obj", "material": {"vertex_mass": 1}})", {"s.json:2: ", "need the preset \"reference\""});
     const std::string grid = R"({"grid": {"vertices": [4, 4], "size": [1, 1]}, "material": )";
     refused(grid + R"({"areal_density": 0.2, "vertex_mass": 0.01}})",

@@ -1,6 +1,6 @@
-// Ranges of what a solver takes, beside those of materials (material.hpp). What lies outside, or is not finite, is
-// refused with an error that names it. The corners of the ranges were tried with each other, with anchors that move no
-// faster than k_most_speed: none makes a vertex that is not finite (tests/test_ranges.cpp).
+// Ranges of what a solver takes. Those of materials are in material_parameters.hpp. A value outside its range, or one
+// that is not finite, is an error that names it. The ends of the ranges were tried in combination, with anchors that
+// move no faster than k_most_speed: none makes a vertex that is not finite (tests/solver/test_ranges.cpp).
 #pragma once
 
 #include <cstdint>
@@ -8,43 +8,43 @@
 namespace voile
 {
 
-// Positions, along each axis of the world: vertices of cloths and colliders where they are added, deform or are moved
-// to, centers of colliders, origins of anchors. A cloth may leave the range as it moves.
+// Positions along each axis of the world: of the vertices of cloths and colliders where they are added, deformed or
+// moved to, of the centers of colliders, of the origins of anchors. A cloth may leave the range as it moves.
 //
-// Cloth and contact are computed from finer positions than floats: up to 16 km from the origin a scene does what it
-// does there to 0.1 %; at 130 km positions are known to 1e-7 m, enough that nothing falls through and all is finite.
-// What is given in floats is where these say: 1 mm apart at 10 km. So give what is far by a transform, or add it near
-// the origin and move it: rotations, sizes and the vertices of a mesh stay exact then. What is left of rounding lets
-// stiff cloth slip early on an incline: cotton of 5 cm spacing where static friction exceeds the slope by less than 1.3
-// % at 8 km and 2.7 % at 16 km, and by more the smaller the spacing is.
+// The simulation uses finer positions than floats. Up to 16 km from the origin a scene behaves as at the
+// origin, to 0.1 %. At 130 km positions are known to 1e-7 m: nothing falls through, and all is finite. Input in floats is coarser:
+// 1 mm at 10 km. So give what is far away by a transform, or add it near the origin and move it, which keeps rotations,
+// sizes and the vertices of a mesh exact. The remaining rounding lets stiff cloth slip early on an incline: cotton of
+// 5 cm spacing slips where static friction exceeds the slope by less than 1.3 % at 8 km and 2.7 % at 16 km. Smaller
+// spacing slips earlier.
 constexpr float k_most_coordinate = 1e6f; // m, either way
 
-// A cloth's velocity at its start or as it is set, along each axis.
+// The velocity of a cloth, at its start or as it is set, along each axis.
 constexpr float k_most_speed = 1e4f; // m/s, either way
 
-// Of a vertex whose inverse mass is given (GridCloth::inverse_masses).
+// Inverse mass of a vertex (GridCloth::inverse_masses).
 constexpr float k_most_inverse_mass = 1e9f; // 1/kg
 
-// The sides of a grid.
+// Sides of a grid.
 constexpr float k_least_cloth_size = 1e-4f; // m
 constexpr float k_most_cloth_size = 1e5f;   // m
 
-// Radii of spheres and capsules, and the sides of boxes.
+// Radii of spheres and capsules, sides of boxes.
 constexpr float k_least_collider_size = 1e-4f; // m
 constexpr float k_most_collider_size = 2e6f;   // m
 
-constexpr float k_most_friction = 100; // of a fabric and of a collider
+constexpr float k_most_friction = 100; // of a cloth and of a collider
 
-// Of an anchor's frame, and of what Solver::teleport does to a cloth: each entry of the matrix but the translation.
+// Each entry of an anchor's frame, and of the transform that Solver::teleport takes, but for the translation.
 constexpr float k_most_scale = 1e3f;
-// An anchor's frame also has an inverse: its volume over that of the unit cube.
+// Least volume of an anchor's frame, over that of the unit cube: the frame has an inverse.
 constexpr float k_least_anchor_volume = 1e-9f;
 
-// Of an attachment: finite stiffness, and damping.
+// Attachments: finite stiffness, and damping.
 constexpr float k_most_attachment_stiffness = 1e9f; // N/m
 constexpr float k_most_attachment_damping = 1e6f;   // N s/m
 
-// Of a Step.
+// Members of a Step.
 constexpr float k_least_duration = 1e-6f; // s
 constexpr float k_most_duration = 10;     // s
 constexpr uint32_t k_most_substeps = 1'000'000;

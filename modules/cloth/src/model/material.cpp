@@ -1,5 +1,5 @@
 // Materials: from fabric properties to springs, and the checks of both.
-#include "voile/material.hpp"
+#include "voile/material_parameters.hpp"
 
 #include "model/range_checks.hpp"
 
@@ -14,20 +14,58 @@ namespace voile
 namespace
 {
 
-constexpr float k_least_thickness = 1e-5f; // m
-constexpr float k_most_spring = 1e7f;      // N/m
-constexpr float k_most_damping = 1e6f;     // N s/m
-constexpr float k_most_bending = 1e3f;     // N m
-constexpr float k_least_strain = 1e-3f;
-constexpr float k_most_strain = 10;
-
-Result<void> check_strain_limit(const std::string& what, float limit)
+template <typename M>
+Result<void> check_parameter(const std::string& what, const M& material, const MaterialParameter<M>& parameter)
 {
-    if (limit == 0)
-        return {};
-    if (auto result = check(what, {"strain_limit", limit, k_least_strain, k_most_strain, ""}); !result)
-        return Error{result.error().message + ", or 0 for none"};
+    for (const ParameterComponent<M>& component : parameter.components())
+    {
+        const float value = component.member.get(material);
+        const ParameterRule<M>& rule = parameter.rule;
+        if (rule.or_zero && value == 0)
+            continue;
+        if (rule.least_name != nullptr && !(value >= rule.least.get(material)))
+            return Error{what + ": " + parameter.name + " is " + text(value) + ", must be at least " + rule.least_name +
+                         ", " + text(rule.least.get(material))};
+        const std::string name =
+            *component.name == '\0' ? parameter.name : parameter.name + (" (" + std::string(component.name) + ")");
+        const std::string unit = *parameter.unit == '\0' ? "" : std::string(" ") + parameter.unit;
+        if (auto valid = check(what, {name.c_str(), value, parameter.min, parameter.max, unit.c_str()}); !valid)
+            return rule.or_zero ? Error{valid.error().message + ", or 0 for none"} : valid.error();
+    }
     return {};
+}
+
+template <typename M, size_t N>
+Result<void> check_parameters(const std::string& what, const M& material,
+                              const std::array<MaterialParameter<M>, N>& parameters)
+{
+    for (const MaterialParameter<M>& parameter : parameters)
+        if (auto valid = check_parameter(what, material, parameter); !valid)
+            return valid;
+    return {};
+}
+
+template <typename M, size_t N>
+std::string list_parameters(const M& material, const std::array<MaterialParameter<M>, N>& parameters)
+{
+    std::string list;
+    for (const MaterialParameter<M>& parameter : parameters)
+    {
+        list += (list.empty() ? "" : ", ") + std::string(parameter.name);
+        for (const ParameterComponent<M>& component : parameter.components())
+            list += " " + text(component.member.get(material));
+        list += (*parameter.unit == '\0' ? "" : " ") + std::string(parameter.unit);
+    }
+    return list;
+}
+
+// What both have in common.
+void copy_parameters(const Fabric& fabric, Material& material)
+{
+    for (size_t i = 0; i < k_common_parameters<Fabric>.size(); ++i)
+        for (size_t c = 0; c < k_common_parameters<Fabric>[i].components().size(); ++c)
+            k_common_parameters<Material>[i].components()[c].member.ref(material) =
+                k_common_parameters<Fabric>[i].components()[c].member.get(fabric);
 }
 
 Spring damped_spring(float stiffness, float damping_ratio, float vertex_mass)
@@ -77,12 +115,7 @@ Material make_material(const Fabric& fabric, float spacing_along_row, float spac
                                        (a * b * static_cast<double>(material.vertex_mass)));
         material.bending_time = static_cast<float>(2 * static_cast<double>(fabric.damping_ratio) / omega);
     }
-    material.strain_limit = fabric.strain_limit;
-    material.thickness = fabric.thickness;
-    material.static_friction = fabric.static_friction;
-    material.kinetic_friction = fabric.kinetic_friction;
-    material.air_drag_normal = fabric.air_drag_normal;
-    material.air_drag_tangential = fabric.air_drag_tangential;
+    copy_parameters(fabric, material);
     return material;
 }
 
@@ -101,68 +134,26 @@ Material reference_material()
 
 Result<void> validate(const Material& material)
 {
-    const SpringSet& s = material.springs;
-    const struct
-    {
-        const char* stiffness;
-        const char* damping;
-        const Spring& spring;
-    } springs[] = {
-        {"structural_warp stiffness", "structural_warp damping", s.structural_warp},
-        {"structural_weft stiffness", "structural_weft damping", s.structural_weft},
-        {"shear stiffness", "shear damping", s.shear},
-        {"bend_warp stiffness", "bend_warp damping", s.bend_warp},
-        {"bend_weft stiffness", "bend_weft damping", s.bend_weft},
-        {"diagonal_bend stiffness", "diagonal_bend damping", s.diagonal_bend},
-    };
-    for (const auto& [stiffness, damping, spring] : springs)
-    {
-        if (auto result = check("material", {stiffness, spring.stiffness, 0, k_most_spring, " N/m"}); !result)
-            return result;
-        if (auto result = check("material", {damping, spring.damping, 0, k_most_damping, " N s/m"}); !result)
-            return result;
-    }
-    const Range ranges[] = {
-        {"vertex_mass", material.vertex_mass, 1e-9f, 1e6f, " kg"},
-        {"border_share", material.border_share, 0.1f, 1, ""},
-        {"bending_stiffness", material.bending_stiffness, 0, k_most_bending, " N m"},
-        {"bending_time", material.bending_time, 0, 1, " s"},
-        {"thickness", material.thickness, k_least_thickness, 10, " m"},
-        {"linear_drag", material.linear_drag, 0, 1e6f, " N s/m"},
-        {"air_drag_normal", material.air_drag_normal, 0, 100, ""},
-        {"air_drag_tangential", material.air_drag_tangential, 0, 100, ""},
-    };
-    for (const Range& range : ranges)
-        if (auto result = check("material", range); !result)
-            return result;
-    if (auto result = check_strain_limit("material", material.strain_limit); !result)
-        return result;
-    return check_friction("material", material.static_friction, material.kinetic_friction);
+    return check_parameters("material", material, k_material_parameters);
 }
 
 Result<void> validate(const Fabric& fabric)
 {
-    const Range ranges[] = {
-        {"areal_density", fabric.areal_density, 1e-3f, 1e3f, " kg/m^2"},
-        {"stretch_stiffness (warp)", fabric.stretch_stiffness[0], 1e-2f, k_most_spring, " N/m"},
-        {"stretch_stiffness (weft)", fabric.stretch_stiffness[1], 1e-2f, k_most_spring, " N/m"},
-        {"shear_stiffness", fabric.shear_stiffness, 0, k_most_spring, " N/m"},
-        {"bending_stiffness", fabric.bending_stiffness, 0, k_most_bending, " N m"},
-        {"damping_ratio", fabric.damping_ratio, 0, 1, ""},
-        {"thickness", fabric.thickness, k_least_thickness, 10, " m"},
-        {"air_drag_normal", fabric.air_drag_normal, 0, 100, ""},
-        {"air_drag_tangential", fabric.air_drag_tangential, 0, 100, ""},
-    };
-    for (const Range& range : ranges)
-        if (auto result = check("fabric", range); !result)
-            return result;
-    if (auto result = check_enumerator("fabric", "bending_model", static_cast<int>(fabric.bending_model),
-                                       {"springs", "isometric"});
-        !result)
-        return result;
-    if (auto result = check_strain_limit("fabric", fabric.strain_limit); !result)
-        return result;
-    return check_friction("fabric", fabric.static_friction, fabric.kinetic_friction);
+    if (auto valid = check_parameters("fabric", fabric, k_fabric_parameters); !valid)
+        return valid;
+    return check_enumerator("fabric", "bending_model", static_cast<int>(fabric.bending_model),
+                            {k_bending_models[0], k_bending_models[1]});
+}
+
+std::string to_string(const Material& material)
+{
+    return list_parameters(material, k_material_parameters);
+}
+
+std::string to_string(const Fabric& fabric)
+{
+    const bool isometric = fabric.bending_model == BendingModel::isometric;
+    return list_parameters(fabric, k_fabric_parameters) + ", bending_model " + k_bending_models[isometric ? 1 : 0];
 }
 
 } // namespace voile
