@@ -10,6 +10,7 @@
 #ifdef __cplusplus
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 namespace voile::shader_types

@@ -6,7 +6,8 @@
 #include "colliders/refit.hpp"
 #include "solver/kernels.hpp"
 
-#include "shared/cloth_layout.h"
+#include "shared/padded_layout.h"
+#include "shared/statistics_layout.h"
 #include "voile/engine/assets/shapes.hpp"
 
 #include <algorithm>

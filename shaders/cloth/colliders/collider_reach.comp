@@ -7,8 +7,8 @@
 // Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of deforming meshes, feature
 // sets.
 // Writes: near colliders.
-#include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 

@@ -4,6 +4,7 @@
 // A vertex that is not finite, or outside of the range of positions, keeps its position.
 // Reads: input. Writes: deforming positions.
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -8,6 +8,7 @@
 // drift time of its integrator, so that a vertex at rest stays at rest. Max-distance constraints and backstops project
 // the position and remove the velocity that leads out.
 // Reads: attachments, anchors, cloths. Writes: proposed state and residuals, predicted velocities.
+#include "shared/attachment_layout.h"
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;

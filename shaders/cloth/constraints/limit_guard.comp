@@ -4,6 +4,7 @@
 // straight line between both crosses no surface: contact has checked it.
 // Reads: patches, cloths, scales, the state before. Writes: state.
 #include "shared/cloth_layout.h"
+#include "shared/strain_layout.h"
 
 layout(local_size_x_id = 0) in;
 

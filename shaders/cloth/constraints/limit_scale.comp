@@ -15,6 +15,7 @@
 // measured again. In the last look a small excess is reduced by the estimate; with a larger one nothing is kept.
 // Reads: patches, work. Writes: one scale per cloth.
 #include "shared/cloth_layout.h"
+#include "shared/strain_layout.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -16,6 +16,7 @@
 // the ends of its edges in every pass.
 // One thread per vertex. Reads: cloths, patches, mesh lists, state before, the step's state. Writes: state after.
 #include "shared/cloth_layout.h"
+#include "shared/strain_layout.h"
 
 layout(local_size_x_id = 0) in;
 

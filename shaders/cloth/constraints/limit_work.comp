@@ -8,6 +8,8 @@
 // the work in both states is exact.
 // Reads: cloths, patches, mesh lists, both states. Writes: one sum per workgroup.
 #include "shared/cloth_layout.h"
+#include "shared/step_layout.h"
+#include "shared/strain_layout.h"
 
 layout(local_size_x_id = 0) in;
 

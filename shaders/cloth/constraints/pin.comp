@@ -4,6 +4,7 @@
 // a straight line to its position at the step's end. One thread per pin. Anchors can jump and scale, so positions are
 // clamped to their range.
 // Reads: attachments, anchors. Writes: state.
+#include "shared/attachment_layout.h"
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;

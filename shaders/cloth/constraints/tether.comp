@@ -11,6 +11,7 @@
 // proportion until they meet, so that the vertex comes to rest and is not pulled to the last one.
 // Source: Kim, Chentanez and Müller 2012, "Long range attachments". Reads: tethers, cloths, state. Writes: proposed
 // state, predicted velocities.
+#include "shared/attachment_layout.h"
 #include "shared/cloth_layout.h"
 
 layout(local_size_x_id = 0) in;

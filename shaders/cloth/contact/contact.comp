@@ -10,6 +10,8 @@
 // Writes: the proposed state or the state before (velocity.w: VOILE_VERTEX_TOUCHES), predicted velocities, candidates.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 

@@ -18,6 +18,8 @@
 // velocities.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
 
 layout(local_size_x_id = 0) in;

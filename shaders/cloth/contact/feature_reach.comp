@@ -7,6 +7,7 @@
 // Writes: Patch::near_features, the list of near patches and the size of the dispatch, whose x is 0 before.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
 #include "shared/feature_layout.h"
 
 layout(local_size_x_id = 0) in;

@@ -10,6 +10,7 @@
 // Reads: cloths, patches, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
 // Writes: next state.
 #include "shared/cloth_layout.h"
+#include "shared/step_layout.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -10,6 +10,7 @@
 // velocities.
 // Writes: next positions and residuals, velocities, predicted velocities.
 #include "shared/cloth_layout.h"
+#include "shared/step_layout.h"
 
 layout(local_size_x_id = 0) in;
 

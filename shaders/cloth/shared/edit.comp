@@ -4,6 +4,7 @@
 // thread per vertex of that cloth.
 // Reads: cloths, start. Writes: state.
 #include "shared/cloth_layout.h"
+#include "shared/step_layout.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -7,7 +7,10 @@
 // Reads: cloths, patches, mesh lists, state, colliders, hierarchy. Writes: one StatisticsRecord per workgroup.
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/contact_layout.h"
 #include "shared/padded_layout.h"
+#include "shared/statistics_layout.h"
 
 layout(local_size_x_id = 0) in;
 const uint COLLIDERS_MOVE = 1;

@@ -3,7 +3,7 @@
 // Merges the statistics of all patches. One workgroup: each thread merges every group-size-th patch, then the workgroup
 // folds.
 // Reads: partials. Writes: result[slot].
-#include "shared/cloth_layout.h"
+#include "shared/statistics_layout.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -6,6 +6,8 @@
 #include "colliders/refit.hpp"
 #include "geometry/padded_tree.hpp"
 
+#include "shared/contact_layout.h"
+
 #include <algorithm>
 
 namespace voile

@@ -4,30 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace voile
 {
 
-// What std430 makes of the shared structs, checked by spirv-val on its side.
 static_assert(k_most_coordinate == static_cast<float>(VOILE_MOST_COORDINATE));
 static_assert(k_most_speed == static_cast<float>(VOILE_MOST_SPEED));
-static_assert(sizeof(shared::SpringClass) == 16);
-static_assert(sizeof(shared::ClothRecord) == 96 + 16 * VOILE_SPRING_CLASSES);
-static_assert(offsetof(shared::ClothRecord, bending) == 80);
-static_assert(offsetof(shared::ClothRecord, springs) == 96);
-static_assert(sizeof(shared::MeshVertex) == 16);
-static_assert(sizeof(shared::MeshSpring) == 16);
-static_assert(sizeof(shared::MeshCorner) == 8);
-static_assert(sizeof(shared::MembraneCorner) == 24);
-static_assert(sizeof(shared::Patch) == 32);
-static_assert(sizeof(shared::ColliderRecord) == 96);
-static_assert(offsetof(shared::ColliderRecord, origin) == 80);
-static_assert(sizeof(shared::ColliderMotion) == 80);
-static_assert(offsetof(shared::ColliderMotion, place_to) == 64);
-static_assert(sizeof(shared::StagePush) == 72);
-static_assert(offsetof(shared::StagePush, gust_phases) == 32);
-static_assert(sizeof(shared::StatisticsRecord) == 48);
 
 Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
                         const std::string& contents, uint64_t bytes)

@@ -4,11 +4,13 @@
 #include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
 
-#include "shared/bvh_layout.h"
-#include "shared/padded_layout.h"
 #include "model/mesh_topology.hpp"
 #include "model/range_checks.hpp"
+#include "shared/attachment_layout.h"
+#include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/padded_layout.h"
 
 #include <limits>
 #include <optional>

@@ -5,6 +5,10 @@
 #include "model/model.hpp"
 #include "solver/kernels.hpp"
 
+#include "shared/contact_layout.h"
+#include "shared/statistics_layout.h"
+#include "shared/strain_layout.h"
+
 #include "voile/gpu/buffer.hpp"
 
 #include <array>

@@ -3,8 +3,13 @@
 
 #include "voile/solver.hpp"
 
+#include "shared/attachment_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
-#include "shared/cloth_layout.h"
+#include "shared/statistics_layout.h"
+#include "shared/step_layout.h"
+#include "shared/strain_layout.h"
 #include "voile_cloth_shaders.hpp"
 
 namespace voile

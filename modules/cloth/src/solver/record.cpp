@@ -2,6 +2,8 @@
 #include "solver/solver_state.hpp"
 #include "solver/substeps.hpp"
 
+#include "shared/statistics_layout.h"
+
 #include <bit>
 #include <utility>
 

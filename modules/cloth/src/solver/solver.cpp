@@ -2,6 +2,8 @@
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
+#include "shared/statistics_layout.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>

@@ -7,6 +7,8 @@
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
 
+#include "shared/step_layout.h"
+
 #include <optional>
 
 namespace voile

@@ -1,0 +1,52 @@
+// Push constants of the integrators, and edits of a cloth between steps.
+#ifndef VOILE_STEP_LAYOUT_H
+#define VOILE_STEP_LAYOUT_H
+
+#include "../../shared_types.h"
+
+// Wave vectors of the gusts (wind.glsl), in units of the longest one's.
+#define VOILE_GUST_WAVES                                                                                               \
+    vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                           \
+        vec3(1.5689f, -4.7068f, 6.2757f)
+
+#define VOILE_EDIT_MASSES 0    // inverse masses from areas and density
+#define VOILE_EDIT_RESET 1     // back to the start
+#define VOILE_EDIT_TRANSFORM 2 // places by the matrix, velocities by its turning
+#define VOILE_EDIT_VELOCITY 3  // all velocities alike
+
+VOILE_SHARED_BEGIN(voile)
+
+// Push constants of the integration passes.
+struct StagePush
+{
+    vec3 gravity;         // m/s^2
+    float step;           // s, of the whole substep
+    vec3 wind;            // m/s
+    float air_density;    // kg/m^3
+    vec4 gust_phases;     // rad, of the four waves of the gusts at this time
+    float gust_speed;     // m/s, of all waves together, root mean square
+    float gust_frequency; // 1/m, of the longest wave
+    uint first_patch;     // of the dispatch
+    float kick;           // Verlet: s, how long the acceleration acts on the velocity
+    float drift;          // Verlet: s, how far the position moves on; 0 ends a step
+    uint stage;           // RK4: 1 to 4
+};
+
+// Push constants of an edit of one cloth.
+struct EditPush
+{
+    mat4 transform;
+    vec3 velocity; // m/s
+    uint kind;
+    uint cloth;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(StagePush) == 72);
+static_assert(offsetof(StagePush, gust_phases) == 32);
+static_assert(offsetof(EditPush, velocity) == 64);
+#endif
+
+VOILE_SHARED_END
+
+#endif
