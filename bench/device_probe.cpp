@@ -56,9 +56,10 @@ double copy_bandwidth(TimedQueue& queue)
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
         });
     const voile::gpu::Kernel kernel =
-        voile::engine::take(voile::gpu::Kernel::create(context, {"bench copy", shaders::k_copy_comp, 2, 0, {k_group}}));
+        voile::engine::take(voile::gpu::Kernel::create(context, {"bench copy", shaders::k_copy_comp, {{0, k_group}}}));
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 2));
-    const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {source.handle(), destination.handle()}));
+    const VkDescriptorSet set =
+        voile::engine::take(pool.bind(kernel, {{0, source.handle()}, {1, destination.handle()}}));
     const double by_kernel = median_time(queue,
                                          [&](VkCommandBuffer cmd)
                                          {
@@ -82,11 +83,11 @@ double empty_dispatch(TimedQueue& queue)
     constexpr uint32_t k_group = 64;
     const voile::gpu::Context& context = queue.context();
     const voile::gpu::Kernel kernel = voile::engine::take(
-        voile::gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, 1, 0, {k_group}}));
+        voile::gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, {{0, k_group}}}));
     const voile::gpu::Buffer unused = voile::engine::take(voile::gpu::create_buffer(
         context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::gpu::Memory::device));
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 1));
-    const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {unused.handle()}));
+    const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {{0, unused.handle()}}));
     const double microseconds =
         median_time(queue,
                     [&](VkCommandBuffer cmd)

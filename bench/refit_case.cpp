@@ -4,6 +4,8 @@
 #include "colliders/refit.hpp"
 #include "geometry/padded_tree.hpp"
 
+#include "shared/bindings.h"
+
 #include "voile/engine/gpu/download.hpp"
 #include "voile/engine/gpu/upload.hpp"
 
@@ -134,13 +136,17 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
     queue.run([&](VkCommandBuffer cmd) { batch.record(cmd); });
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 3));
     const VkDescriptorSet set =
-        voile::engine::take(pool.bind(kernels.leaves, {leaves.handle(), positions.handle(), boxes.handle()}));
+        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves.handle()},
+                                                       {voile::binding::deforming_positions, positions.handle()},
+                                                       {voile::binding::padded_boxes, boxes.handle()}}));
 
     const auto record = [&](VkCommandBuffer cmd)
     {
         voile::gpu::Recorder recorder(context, cmd);
         voile::record_refit(recorder, kernels, set, where);
     };
+    voile::gpu::Recorder dry(context);
+    voile::record_refit(dry, kernels, set, where);
     queue.run(record); // warms up
     std::vector<double> times;
     for (uint32_t i = 0; i < repetitions; ++i)
@@ -152,7 +158,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
                sheet);
     return {.vertices = vertices,
             .triangles = tree.triangles,
-            .dispatches = voile::refit_dispatches(kernels, tree.triangles),
+            .dispatches = dry.dispatches(),
             .build = std::chrono::duration<double, std::milli>(end - begin).count(),
             .gpu_median = quantile(times, 0.5),
             .gpu_p95 = quantile(times, 0.95),

@@ -35,7 +35,7 @@ ls "$programs"/test_* >/dev/null 2>&1 || fail "there are no tests in $programs; 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 pack=$work/voile_tests
-mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples}
+mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples,sources/docs}
 
 # The tests that ctest knows: a build folder keeps programs of deleted tests.
 mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
@@ -63,6 +63,7 @@ sed 's|"library_path": *"[^"]*"|"library_path": "./lib'"$layer_name"'.so"|' "$ma
 
 cp -r build/release/scenes "$pack/scenes"
 cp -r tests/golden "$pack/sources/tests/golden"
+cp docs/buffers.md "$pack/sources/docs/"
 cp -r samples/scenes "$pack/sources/samples/scenes"
 cp scripts/run_packed_tests.sh "$pack/run.sh"
 git log -1 --format='%h %s' >"$pack/version" 2>/dev/null || true

@@ -73,6 +73,8 @@ quick(test_lifetime
     "lifetime checks end the program if an object is destroyed while its commands run"
     "a device that meets requirements() is enough for the default options"
     "each limit of a device has an error message"
+    "a wrong or missing name in a set is an error that names kernel and binding"
+    "docs/buffers.md lists who reads and who writes each buffer"
     "a step out of range is refused by name, and nothing is recorded"
     "pins rest and move with their anchor while an upload is due"
     "statistics in flight survive an upload")

@@ -4,6 +4,8 @@
 #include "colliders/refit.hpp"
 #include "geometry/padded_tree.hpp"
 
+#include "shared/bindings.h"
+
 #include "colliders/visit_padded_layout.h"
 #include "test_refit_shaders.hpp"
 #include "voile/engine/gpu/upload.hpp"
@@ -120,13 +122,19 @@ public:
         const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context(), workgroup_size));
         voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));
         const VkDescriptorSet set =
-            voile::engine::take(pool.bind(kernels.leaves, {leaves_.handle(), positions_.handle(), boxes_.handle()}));
+            voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves_.handle()},
+                                                           {voile::binding::deforming_positions, positions_.handle()},
+                                                           {voile::binding::padded_boxes, boxes_.handle()}}));
         run(
             [&](VkCommandBuffer cmd)
             {
                 voile::gpu::Recorder recorder(context(), cmd);
                 voile::record_refit(recorder, kernels, set, place_);
-                CHECK(recorder.dispatches() == voile::refit_dispatches(kernels, tree.triangles));
+                voile::gpu::Recorder dry(context());
+                voile::record_refit(dry, kernels, set, place_);
+                CHECK(dry.dispatches() == recorder.dispatches());
+                const uint32_t levels = std::max(1u, voile::padded_levels(tree.triangles));
+                CHECK(recorder.dispatches() == (levels + kernels.levels_a_dispatch - 1) / kernels.levels_a_dispatch);
             });
         std::vector<PaddedBox> boxes = read<PaddedBox>(boxes_.handle(), place_.first_box + tree.boxes() + 1);
         CHECK(boxes.at(place_.first_box - 1).min.x == 7); // data around the tree is untouched
@@ -149,10 +157,11 @@ public:
             context(), "answers", words * sizeof(uint32_t),
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::gpu::Memory::device));
         const voile::gpu::Kernel kernel = voile::engine::take(voile::gpu::Kernel::create(
-            context(), {"visit padded", tests::shaders::k_visit_padded_comp, 3, sizeof(push), {k_group}}));
+            context(), {"visit padded", tests::shaders::k_visit_padded_comp, {{0, k_group}}}));
         voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));
-        const VkDescriptorSet set =
-            voile::engine::take(pool.bind(kernel, {boxes_.handle(), asked.handle(), answers.handle()}));
+        const VkDescriptorSet set = voile::engine::take(pool.bind(
+            kernel,
+            {{VISIT_BOXES, boxes_.handle()}, {VISIT_QUERIES, asked.handle()}, {VISIT_ANSWERS, answers.handle()}}));
         run(
             [&](VkCommandBuffer cmd)
             {

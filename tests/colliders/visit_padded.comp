@@ -7,9 +7,9 @@
 
 layout(local_size_x_id = 0) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Boxes { PaddedBox padded_boxes[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Queries { PaddedBox queries[]; };
-layout(set = 0, binding = 2, std430) writeonly buffer Answers { uint answers[]; };
+layout(set = 0, binding = VISIT_BOXES, std430) readonly buffer Boxes { PaddedBox padded_boxes[]; };
+layout(set = 0, binding = VISIT_QUERIES, std430) readonly buffer Queries { PaddedBox queries[]; };
+layout(set = 0, binding = VISIT_ANSWERS, std430) writeonly buffer Answers { uint answers[]; };
 
 layout(push_constant, std430) uniform Push { VisitPush push; };
 

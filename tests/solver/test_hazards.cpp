@@ -6,6 +6,7 @@
 #include "colliders/refit.hpp"
 #include "solver/kernels.hpp"
 
+#include "shared/bindings.h"
 #include "shared/padded_layout.h"
 #include "shared/statistics_layout.h"
 #include "voile/engine/assets/shapes.hpp"
@@ -32,7 +33,8 @@ public:
 
     VkDescriptorSet bind(VkBuffer from, VkBuffer to)
     {
-        return voile::engine::take(pool_.bind(kernels_.statistics_reduce, {from, to}));
+        return voile::engine::take(pool_.bind(kernels_.statistics_reduce,
+                                              {{voile::binding::partials, from}, {voile::binding::statistics, to}}));
     }
 
     void record(VkCommandBuffer cmd, VkDescriptorSet a, VkDescriptorSet b, voile::gpu::Ordering ordering)
@@ -225,12 +227,14 @@ TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in it
         run([&](VkCommandBuffer cmd) { context().fn.vkCmdFillBuffer(cmd, filled->handle(), 0, VK_WHOLE_SIZE, 0); });
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));
     const VkDescriptorSet set =
-        voile::engine::take(pool.bind(kernels.leaves, {leaves.handle(), positions.handle(), boxes.handle()}));
+        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves.handle()},
+                                                       {voile::binding::deforming_positions, positions.handle()},
+                                                       {voile::binding::padded_boxes, boxes.handle()}}));
     OneDispatchEach buffers(tests::device());
     voile::gpu::Recorder recorder(context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
     for (int step = 0; step < 2; ++step)
         voile::record_refit(recorder, kernels, set, {.first_box = 1, .triangles = k_triangles});
     buffers.submit();
-    CHECK(buffers.count() == 2 * voile::refit_dispatches(kernels, k_triangles) + 1);
+    CHECK(buffers.count() == recorder.dispatches() + 1);
 }

@@ -1,9 +1,8 @@
 // Kernel and BindingPool: compute pipelines over storage buffers, and their descriptor sets.
 #include "voile/gpu/kernel.hpp"
 
-#include "shared_memory.hpp"
-
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace voile::gpu
@@ -17,26 +16,33 @@ Error failed(const KernelDescription& description, const char* what, VkResult st
     return Error{std::string("kernel \"") + description.name + "\": " + what + ": " + to_string(status)};
 }
 
-VkResult create_layouts(const Context& context, const KernelDescription& description, VkDescriptorSetLayout* set_layout,
+// `number "name"`, the name where it is known.
+std::string described(uint32_t number, const std::string& name)
+{
+    return std::to_string(number) + (name.empty() ? "" : " \"" + name + '"');
+}
+
+VkResult create_layouts(const Context& context, const ShaderInterface& shader, VkDescriptorSetLayout* set_layout,
                         VkPipelineLayout* layout)
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (uint32_t i = 0; i < description.buffers; ++i)
-        bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    for (const ShaderBinding& binding : shader.bindings)
+        bindings.push_back(
+            {binding.number, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set_info.bindingCount = description.buffers;
+    set_info.bindingCount = static_cast<uint32_t>(bindings.size());
     set_info.pBindings = bindings.data();
     const VkResult status = context.fn.vkCreateDescriptorSetLayout(context.device(), &set_info, nullptr, set_layout);
     if (status != VK_SUCCESS)
         return status;
 
-    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, description.push_bytes};
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, shader.push_bytes};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.setLayoutCount = 1;
     info.pSetLayouts = set_layout;
-    info.pushConstantRangeCount = description.push_bytes > 0 ? 1 : 0;
+    info.pushConstantRangeCount = shader.push_bytes > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
     return context.fn.vkCreatePipelineLayout(context.device(), &info, nullptr, layout);
 }
@@ -55,9 +61,13 @@ VkResult create_pipeline(const Context& context, const KernelDescription& descri
 
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < description.specialization.size(); ++i)
-        entries.push_back({i, i * 4, 4});
+        entries.push_back(
+            {description.specialization[i].id,
+             static_cast<uint32_t>(i * sizeof(SpecializationConstant) + offsetof(SpecializationConstant, value)),
+             sizeof(uint32_t)});
     const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
-                                              description.specialization.size() * 4, description.specialization.data()};
+                                              description.specialization.size() * sizeof(SpecializationConstant),
+                                              description.specialization.data()};
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -72,32 +82,59 @@ VkResult create_pipeline(const Context& context, const KernelDescription& descri
     return status;
 }
 
-} // namespace
-
-Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description)
+Result<void> check(const VkPhysicalDeviceLimits& limits, const KernelDescription& description,
+                   const ShaderInterface& shader)
 {
     const std::string name = std::string("kernel \"") + description.name + "\" ";
-    if (description.push_bytes > limits.maxPushConstantsSize)
-        return Error{name + "has " + std::to_string(description.push_bytes) +
-                     " bytes of push constants, the device has " + std::to_string(limits.maxPushConstantsSize)};
-    const uint32_t group = description.specialization.empty() ? 1 : description.specialization[0];
+    if (shader.push_bytes > limits.maxPushConstantsSize)
+        return Error{name + "has " + std::to_string(shader.push_bytes) + " bytes of push constants, the device has " +
+                     std::to_string(limits.maxPushConstantsSize)};
+    const auto size = std::ranges::find(description.specialization, 0u, &SpecializationConstant::id);
+    const uint32_t group = size != description.specialization.end() ? size->value : 1;
     const uint32_t most_threads = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
     if (group == 0 || group > most_threads)
         return Error{name + "has a workgroup of " + std::to_string(group) + ", the device allows 1 to " +
                      std::to_string(most_threads)};
-    const uint64_t shared = shared_memory_bytes(description.spirv, description.specialization);
-    if (shared > limits.maxComputeSharedMemorySize)
-        return Error{name + "takes " + std::to_string(shared) + " bytes of shared memory with a workgroup of " +
-                     std::to_string(group) + ", the device has " + std::to_string(limits.maxComputeSharedMemorySize)};
-    const std::string binds =
-        name + "binds " + std::to_string(description.buffers) + " storage buffers, the device allows ";
-    if (description.buffers > limits.maxPerStageDescriptorStorageBuffers)
+    if (shader.shared_bytes > limits.maxComputeSharedMemorySize)
+        return Error{name + "takes " + std::to_string(shader.shared_bytes) +
+                     " bytes of shared memory with a workgroup of " + std::to_string(group) + ", the device has " +
+                     std::to_string(limits.maxComputeSharedMemorySize)};
+    const auto buffers = static_cast<uint32_t>(shader.bindings.size());
+    const std::string binds = name + "binds " + std::to_string(buffers) + " storage buffers, the device allows ";
+    if (buffers > limits.maxPerStageDescriptorStorageBuffers)
         return Error{binds + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " per stage"};
-    if (description.buffers > limits.maxDescriptorSetStorageBuffers)
+    if (buffers > limits.maxDescriptorSetStorageBuffers)
         return Error{binds + std::to_string(limits.maxDescriptorSetStorageBuffers) + " per set"};
-    if (description.buffers > limits.maxPerStageResources)
+    if (buffers > limits.maxPerStageResources)
         return Error{binds + std::to_string(limits.maxPerStageResources) + " resources per stage"};
     return {};
+}
+
+} // namespace
+
+Result<ShaderInterface> reflect(const KernelDescription& description)
+{
+    const std::string name = std::string("kernel \"") + description.name + "\"";
+    auto shader = reflect(description.spirv, description.specialization);
+    if (!shader)
+        return Error{name + ": " + shader.error().message};
+    const std::vector<SpecializationConstant>& given = description.specialization;
+    const std::vector<ShaderConstant>& declared = shader.value().constants;
+    for (const ShaderConstant& constant : declared)
+        if (std::ranges::find(given, constant.id, &SpecializationConstant::id) == given.end())
+            return Error{name + ": specialization constant " + described(constant.id, constant.name) + " has no value"};
+    for (const SpecializationConstant& constant : given)
+        if (std::ranges::find(declared, constant.id, &ShaderConstant::id) == declared.end())
+            return Error{name + " has no specialization constant " + std::to_string(constant.id)};
+    return shader;
+}
+
+Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description)
+{
+    const auto shader = reflect(description);
+    if (!shader)
+        return shader.error();
+    return check(limits, description, shader.value());
 }
 
 Kernel::~Kernel()
@@ -117,7 +154,7 @@ Kernel& Kernel::operator=(Kernel&& other) noexcept
     std::swap(set_layout_, other.set_layout_);
     std::swap(layout_, other.layout_);
     std::swap(pipeline_, other.pipeline_);
-    std::swap(buffers_, other.buffers_);
+    std::swap(bindings_, other.bindings_);
     std::swap(push_bytes_, other.push_bytes_);
     return *this;
 }
@@ -133,14 +170,17 @@ void Kernel::release()
 
 Result<Kernel> Kernel::create(const Context& context, const KernelDescription& description)
 {
-    if (auto limits = check_limits(context.limits, description); !limits)
+    auto shader = reflect(description);
+    if (!shader)
+        return shader.error();
+    if (auto limits = check(context.limits, description, shader.value()); !limits)
         return limits.error();
     Kernel kernel;
     kernel.context_ = context;
     kernel.name_ = description.name;
-    kernel.buffers_ = description.buffers;
-    kernel.push_bytes_ = description.push_bytes;
-    VkResult status = create_layouts(context, description, &kernel.set_layout_, &kernel.layout_);
+    kernel.push_bytes_ = shader.value().push_bytes;
+    VkResult status = create_layouts(context, shader.value(), &kernel.set_layout_, &kernel.layout_);
+    kernel.bindings_ = std::move(shader.value().bindings);
     if (status != VK_SUCCESS)
         return failed(description, "layout", status);
     status = create_pipeline(context, description, kernel.layout_, &kernel.pipeline_);
@@ -188,12 +228,30 @@ Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_set
     return result;
 }
 
-Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::initializer_list<VkBuffer> buffers)
+namespace
 {
-    if (buffers.size() != kernel.buffers())
-        return Error{std::string("kernel \"") + kernel.name() + "\" has " + std::to_string(kernel.buffers()) +
-                     " bindings, " + std::to_string(buffers.size()) + " buffers were given"};
-    if (sets_left_ == 0 || buffers_left_ < kernel.buffers())
+
+Result<void> check_buffers(const Kernel& kernel, std::span<const BufferBinding> buffers)
+{
+    const std::string name = std::string("kernel \"") + kernel.name() + "\"";
+    const std::vector<ShaderBinding>& bindings = kernel.bindings();
+    for (const BufferBinding& given : buffers)
+        if (std::ranges::find(bindings, given.number, &ShaderBinding::number) == bindings.end())
+            return Error{name + " has no binding " + std::to_string(given.number)};
+    for (const ShaderBinding& binding : bindings)
+        if (const auto count = std::ranges::count(buffers, binding.number, &BufferBinding::number); count != 1)
+            return Error{name + ": binding " + described(binding.number, binding.name) + " has " +
+                         (count == 0 ? "no buffer" : "more than one buffer")};
+    return {};
+}
+
+} // namespace
+
+Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const BufferBinding> buffers)
+{
+    if (auto complete = check_buffers(kernel, buffers); !complete)
+        return complete.error();
+    if (sets_left_ == 0 || buffers_left_ < buffers.size())
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": the pool is used up"};
     const VkDescriptorSetLayout layout = kernel.set_layout();
     VkDescriptorSetAllocateInfo info{};
@@ -206,18 +264,18 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::initializer
     if (status != VK_SUCCESS)
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": " + to_string(status)};
     --sets_left_;
-    buffers_left_ -= kernel.buffers();
+    buffers_left_ -= static_cast<uint32_t>(buffers.size());
 
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(buffers.size());
     std::vector<VkWriteDescriptorSet> writes;
-    for (const VkBuffer buffer : buffers)
+    for (const BufferBinding& given : buffers)
     {
-        infos.push_back({buffer, 0, VK_WHOLE_SIZE});
+        infos.push_back({given.buffer, 0, VK_WHOLE_SIZE});
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set;
-        write.dstBinding = static_cast<uint32_t>(writes.size());
+        write.dstBinding = given.number;
         write.descriptorCount = 1;
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = &infos.back();

@@ -1,6 +1,7 @@
 // Recorder and LabelScope: labels, timestamps, dispatches and their barriers.
 #include "voile/gpu/recorder.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace voile::gpu
@@ -28,11 +29,20 @@ LabelScope::~LabelScope()
         context_.end_label(cmd_);
 }
 
-void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push)
+namespace
 {
-    // A mismatch would read past the caller's struct or leave constants undefined: a bug that no run survives.
+
+// A mismatch would read past the caller's struct or leave constants undefined: a bug that no run survives.
+void require_push(const Kernel& kernel, std::span<const std::byte> push)
+{
     if (push.size() != kernel.push_bytes())
         std::abort();
+}
+
+} // namespace
+
+void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push)
+{
     context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0, nullptr);
     if (!push.empty())
@@ -50,7 +60,7 @@ void Recorder::compute_barrier()
 void Recorder::finish_dispatch()
 {
     ++dispatches_;
-    if (split_ != nullptr)
+    if (split_ != nullptr && !is_dry())
         cmd_ = split_(split_user_, cmd_);
 }
 
@@ -59,6 +69,8 @@ void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t thre
 {
     if (threads == 0)
         return;
+    require_push(kernel, push);
+    if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
@@ -72,6 +84,8 @@ void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t thre
 void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
                                  std::span<const std::byte> push)
 {
+    require_push(kernel, push);
+    if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
@@ -81,9 +95,34 @@ void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBu
     finish_dispatch();
 }
 
+void Recorder::update(VkBuffer buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
+{
+    constexpr size_t k_most = 65536; // of vkCmdUpdateBuffer
+    for (; !is_dry() && !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), k_most)))
+    {
+        const size_t piece = std::min(bytes.size(), k_most);
+        context_.fn.vkCmdUpdateBuffer(cmd_, buffer, offset, piece, bytes.data());
+        offset += piece;
+    }
+}
+
+void Recorder::fill(VkBuffer buffer, uint32_t word)
+{
+    if (!is_dry())
+        context_.fn.vkCmdFillBuffer(cmd_, buffer, 0, VK_WHOLE_SIZE, word);
+}
+
+void Recorder::copy(VkBuffer source, VkBuffer destination, const VkBufferCopy& region)
+{
+    if (!is_dry())
+        context_.fn.vkCmdCopyBuffer(cmd_, source, destination, 1, &region);
+}
+
 void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
                        VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access)
 {
+    if (is_dry())
+        return;
     const VkMemoryBarrier2KHR memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2_KHR,
                                      nullptr,
                                      source_stage,

@@ -4,26 +4,24 @@
 //
 // The patch's box has room for twice the speed of its vertices, and at least for `sudden`. A bit is set if the box of
 // all that the collider sweeps until the end of the step overlaps the patch's box.
-// Reads: cloths, patches, positions and velocities, colliders and their motions, boxes of deforming meshes, feature
-// sets.
-// Writes: near colliders.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 const uint COLLIDERS_MOVE = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 5, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 6, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
-layout(set = 0, binding = 7, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(VOILE_BINDING(near_colliders)) writeonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { ColliderReachPush push; };
 

@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 // Transforms the vertices that the host gives for a deforming mesh into the collider's space. One thread per vertex.
 // A vertex that is not finite, or outside of the range of positions, keeps its position.
-// Reads: input. Writes: deforming positions.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Input { float words[]; };
-layout(set = 0, binding = 1, std430) buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(deforming_input)) readonly buffer DeformingInput { float words[]; };
+layout(VOILE_BINDING(deforming_positions)) buffer DeformingPositions { vec4 deforming_positions[]; };
 
 layout(push_constant, std430) uniform Push { DeformPush push; };
 

@@ -10,15 +10,15 @@
 // A workgroup takes neighboring roots, so that it reads and writes runs of neighboring boxes. A thread computes one
 // half of a box, its minimum or its maximum, so that stores of neighboring threads fill a run of memory. Threads fold
 // the boxes that they hold in registers, then in shared memory.
-// Reads: leaves and positions, or boxes of the bottom level. Writes: boxes, those of the bottom level only from leaves.
+#include "shared/bindings.h"
 #include "shared/padded_layout.h"
 
-layout(local_size_x_id = 0) in; // a power of two, at least 2
-layout(constant_id = 1) const uint FROM_LEAVES = 1;
+layout(local_size_x_id = k_constant_workgroup_size) in; // a power of two, at least 2
+layout(constant_id = k_constant_from_leaves) const uint FROM_LEAVES = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Leaves { PaddedLeaf leaves[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 2, std430) buffer Boxes { vec4 box_halves[]; }; // PaddedBox: minimum, maximum, ...
+layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf leaves[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 positions[]; };
+layout(VOILE_BINDING(padded_boxes)) buffer PaddedBoxes { vec4 box_halves[]; }; // PaddedBox: minimum, maximum, ...
 
 layout(push_constant, std430) uniform Push { RefitPush push; };
 

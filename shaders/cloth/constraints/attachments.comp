@@ -7,19 +7,19 @@
 // position and velocity of its anchor point and w the inverse mass. The change of velocity moves the vertex for the
 // drift time of its integrator, so that a vertex at rest stays at rest. Max-distance constraints and backstops project
 // the position and remove the velocity that leads out.
-// Reads: attachments, anchors, cloths. Writes: proposed state and residuals, predicted velocities.
 #include "shared/attachment_layout.h"
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Holds { AttachmentRecord holds[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 3, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 4, std430) buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 5, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
-layout(set = 0, binding = 6, std430) buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord holds[]; };
+layout(VOILE_BINDING(anchors)) readonly buffer Anchors { AnchorRecord anchors[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 positions[]; };
+layout(VOILE_BINDING(proposed_velocities)) buffer ProposedVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { AttachmentPush push; };
 

@@ -2,21 +2,21 @@
 #extension GL_GOOGLE_include_directive : require
 // Moves the state back towards the state before the strain limit where the limit has raised a cloth's energy. The
 // straight line between both crosses no surface: contact has checked it.
-// Reads: patches, cloths, scales, the state before. Writes: state.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/strain_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Scales { LimitScale scales[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Before { vec4 before[]; };
-layout(set = 0, binding = 4, std430) readonly buffer VelocitiesBefore { vec4 velocities_before[]; };
-layout(set = 0, binding = 5, std430) readonly buffer ResidualsBefore { uvec2 residuals_before[]; };
-layout(set = 0, binding = 6, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 7, std430) buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 8, std430) buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(limit_scales)) readonly buffer LimitScales { LimitScale scales[]; };
+layout(VOILE_BINDING(before_positions)) readonly buffer BeforePositions { vec4 before[]; };
+layout(VOILE_BINDING(before_velocities)) readonly buffer BeforeVelocities { vec4 velocities_before[]; };
+layout(VOILE_BINDING(before_residuals)) readonly buffer BeforeResiduals { uvec2 residuals_before[]; };
+layout(VOILE_BINDING(positions)) buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(residuals)) buffer Residuals { uvec2 residuals[]; };
 
 #include "shared/patch.glsl"
 #include "shared/fine_position.glsl"

@@ -13,18 +13,18 @@
 // The cost of a part of the displacements is estimated from the slope at their start and from the cost of all of them,
 // as if springs were linear. They are not. So the part that is kept is measured, reduced where it costs too much, and
 // measured again. In the last look a small excess is reduced by the estimate; with a larger one nothing is kept.
-// Reads: patches, work. Writes: one scale per cloth.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/strain_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 1, std430) readonly buffer StepWorksFirst { LimitWork step_works_first[]; };
-layout(set = 0, binding = 2, std430) readonly buffer StepWorksLast { LimitWork step_works_last[]; };
-layout(set = 0, binding = 3, std430) readonly buffer WorksBefore { LimitWork works_before[]; };
-layout(set = 0, binding = 4, std430) readonly buffer WorksAfter { LimitWork works_after[]; };
-layout(set = 0, binding = 5, std430) buffer Scales { LimitScale scales[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(step_works_first)) readonly buffer StepWorksFirst { LimitWork step_works_first[]; };
+layout(VOILE_BINDING(step_works_last)) readonly buffer StepWorksLast { LimitWork step_works_last[]; };
+layout(VOILE_BINDING(limit_works_before)) readonly buffer LimitWorksBefore { LimitWork works_before[]; };
+layout(VOILE_BINDING(limit_works_after)) readonly buffer LimitWorksAfter { LimitWork works_after[]; };
+layout(VOILE_BINDING(limit_scales)) buffer LimitScales { LimitScale scales[]; };
 
 layout(push_constant, std430) uniform Push { LimitScalePush push; };
 

@@ -14,26 +14,27 @@
 // the distance between far vertices follows from the bounds of the springs between them, so a level limits nothing that
 // the springs would not. A coarse vertex has the mass of all that moves with it, which keeps momentum. A mesh compares
 // the ends of its edges in every pass.
-// One thread per vertex. Reads: cloths, patches, mesh lists, state before, the step's state. Writes: state after.
+// One thread per vertex.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/strain_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) buffer NextPositions { vec4 next_positions[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(next_positions)) buffer NextPositions { vec4 next_positions[]; };
 // w, except of the state: what of a correction a vertex bore in the pass before.
-layout(set = 0, binding = 5, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
-layout(set = 0, binding = 6, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 7, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 
-layout(set = 0, binding = 8, std430) readonly buffer StepPositions { vec4 step_positions[]; };
-layout(set = 0, binding = 9, std430) readonly buffer StepVelocities { vec4 step_velocities[]; };
-layout(set = 0, binding = 10, std430) readonly buffer Residuals { uvec2 residuals[]; };
-layout(set = 0, binding = 11, std430) buffer NextResiduals { uvec2 next_residuals[]; };
+layout(VOILE_BINDING(step_positions)) readonly buffer StepPositions { vec4 step_positions[]; };
+layout(VOILE_BINDING(step_velocities)) readonly buffer StepVelocities { vec4 step_velocities[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(next_residuals)) buffer NextResiduals { uvec2 next_residuals[]; };
 
 layout(push_constant, std430) uniform Push { StrainPush push; };
 

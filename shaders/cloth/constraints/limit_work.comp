@@ -6,31 +6,31 @@
 //
 // The kernel runs once per state. The energy of springs follows from their lengths. For bending and gravity the mean of
 // the work in both states is exact.
-// Reads: cloths, patches, mesh lists, both states. Writes: one sum per workgroup.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/step_layout.h"
 #include "shared/strain_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // where forces are taken
-layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
-layout(set = 0, binding = 5, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 6, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
-layout(set = 0, binding = 7, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 8, std430) readonly buffer Before { vec4 before[]; };
-layout(set = 0, binding = 9, std430) readonly buffer VelocitiesBefore { vec4 velocities_before[]; };
-layout(set = 0, binding = 10, std430) readonly buffer ResidualsBefore { uvec2 residuals_before[]; };
-layout(set = 0, binding = 11, std430) readonly buffer After { vec4 after[]; };
-layout(set = 0, binding = 12, std430) readonly buffer VelocitiesAfter { vec4 velocities_after[]; };
-layout(set = 0, binding = 13, std430) readonly buffer ResidualsAfter { uvec2 residuals_after[]; };
-layout(set = 0, binding = 14, std430) writeonly buffer Works { LimitWork works[]; };
-layout(set = 0, binding = 15, std430) readonly buffer StepStart { vec4 step_start[]; };
-layout(set = 0, binding = 16, std430) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
-layout(set = 0, binding = 17, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 stage_positions[]; }; // where forces are taken
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(before_positions)) readonly buffer BeforePositions { vec4 before[]; };
+layout(VOILE_BINDING(before_velocities)) readonly buffer BeforeVelocities { vec4 velocities_before[]; };
+layout(VOILE_BINDING(before_residuals)) readonly buffer BeforeResiduals { uvec2 residuals_before[]; };
+layout(VOILE_BINDING(after_positions)) readonly buffer AfterPositions { vec4 after[]; };
+layout(VOILE_BINDING(after_velocities)) readonly buffer AfterVelocities { vec4 velocities_after[]; };
+layout(VOILE_BINDING(after_residuals)) readonly buffer AfterResiduals { uvec2 residuals_after[]; };
+layout(VOILE_BINDING(works)) writeonly buffer Works { LimitWork works[]; };
+layout(VOILE_BINDING(step_start_positions)) readonly buffer StepStartPositions { vec4 step_start[]; };
+layout(VOILE_BINDING(step_start_residuals)) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
+layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; }; // without air
 

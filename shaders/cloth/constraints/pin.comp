@@ -3,17 +3,17 @@
 // Pins, once per step before its first substep. Sets each to its position and gives it the velocity that moves it along
 // a straight line to its position at the step's end. One thread per pin. Anchors can jump and scale, so positions are
 // clamped to their range.
-// Reads: attachments, anchors. Writes: state.
 #include "shared/attachment_layout.h"
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Holds { AttachmentRecord holds[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Anchors { AnchorRecord anchors[]; };
-layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord holds[]; };
+layout(VOILE_BINDING(anchors)) readonly buffer Anchors { AnchorRecord anchors[]; };
+layout(VOILE_BINDING(positions)) buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) writeonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(residuals)) writeonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { AttachmentPush push; };
 

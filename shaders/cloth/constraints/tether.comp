@@ -9,21 +9,21 @@
 //
 // If two pins are farther apart than both tethers together, no position satisfies both. Both tethers then grow in
 // proportion until they meet, so that the vertex comes to rest and is not pulled to the last one.
-// Source: Kim, Chentanez and Müller 2012, "Long range attachments". Reads: tethers, cloths, state. Writes: proposed
-// state, predicted velocities.
+// Source: Kim, Chentanez and Müller 2012, "Long range attachments".
 #include "shared/attachment_layout.h"
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Tethers { TetherRecord tethers[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
-layout(set = 0, binding = 5, std430) writeonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(tethers)) readonly buffer Tethers { TetherRecord tethers[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 positions[]; };
+layout(VOILE_BINDING(proposed_velocities)) buffer ProposedVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(VOILE_BINDING(proposed_residuals)) writeonly buffer ProposedResiduals { uvec2 residuals[]; };
 
-layout(set = 0, binding = 6, std430) readonly buffer StatePositions { vec4 state_positions[]; }; // before the substep
+layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 state_positions[]; }; // before the substep
 
 layout(push_constant, std430) uniform Push { AttachmentPush push; };
 

@@ -5,9 +5,7 @@
 // Each vertex moves from the state before the substep to the state that integration proposes. It ends on the offset
 // surface of what it touches. Its approaching velocity is removed. Coulomb friction acts on the rest: the vertex sticks
 // while the tangential impulse is at most mu_s times the normal impulse, else it slides with mu_k times that impulse.
-// Reads: cloths, patches, mesh lists, colliders and their motions, hierarchies, proposed state, feature corrections,
-// own previous state, residuals of both states, depenetrations, near colliders.
-// Writes: the proposed state or the state before (velocity.w: VOILE_VERTEX_TOUCHES), predicted velocities, candidates.
+#include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
@@ -15,41 +13,41 @@
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const int METHOD = 1;
-layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
-layout(constant_id = 4) const uint COLLIDERS_CONVEX = 1;
-layout(constant_id = 5) const uint NEAR_LISTS = 1;
+layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_contact_method) const int METHOD = 1;
+layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
+layout(constant_id = k_constant_colliders_convex) const uint COLLIDERS_CONVEX = 1;
+layout(constant_id = k_constant_near_lists) const uint NEAR_LISTS = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) buffer ProposedPositions { vec4 proposed_positions[]; };
-layout(set = 0, binding = 3, std430) buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(set = 0, binding = 4, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 7, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
-layout(set = 0, binding = 9, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 11, std430) buffer ProposedPredicted { vec4 proposed_predicted[]; };
-layout(set = 0, binding = 12, std430) writeonly buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(VOILE_BINDING(proposed_velocities)) buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(VOILE_BINDING(earlier_positions)) buffer EarlierPositions { vec4 positions[]; };
+layout(VOILE_BINDING(earlier_velocities)) writeonly buffer EarlierVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(bvh_triangles)) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 proposed_predicted[]; };
+layout(VOILE_BINDING(earlier_predicted)) writeonly buffer EarlierPredicted { vec4 predicted[]; }; // of cloths that use Verlet
 
-layout(set = 0, binding = 13, std430) buffer CandidatePlaces { vec4 candidate_places[]; };
-layout(set = 0, binding = 14, std430) buffer CandidateTriangles { uint candidate_triangles[]; };
-layout(set = 0, binding = 15, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 16, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
-layout(set = 0, binding = 17, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
-layout(set = 0, binding = 18, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
-layout(set = 0, binding = 19, std430) readonly buffer Corrections { FeatureCorrection corrections[]; };
-layout(set = 0, binding = 20, std430) buffer ProposedResiduals { uvec2 proposed_residuals[]; };
-layout(set = 0, binding = 21, std430) buffer Residuals { uvec2 residuals[]; };
-layout(set = 0, binding = 22, std430) readonly buffer Depenetrations
+layout(VOILE_BINDING(candidate_places)) buffer CandidatePlaces { vec4 candidate_places[]; };
+layout(VOILE_BINDING(candidate_triangles)) buffer CandidateTriangles { uint candidate_triangles[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(feature_corrections)) readonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
+layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(VOILE_BINDING(earlier_residuals)) buffer EarlierResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
 {
     uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
     Depenetration depenetrations[];
 };
-layout(set = 0, binding = 23, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 

@@ -12,38 +12,35 @@
 //
 // Features of a collider that a cloth is being brought out of (recover.comp) do not hold the cloth back. A sheet that
 // the collider protrudes through would be stretched across its edges until it snaps free.
-// Reads: near patches (feature_reach.comp), cloths, patches, mesh lists, colliders and their motions, features and
-// their hierarchy, positions before the substep, proposed state, residuals of both, this step's depenetration votes.
-// Writes: corrections of vertices in contact, which the contact kernel adds to the proposed state; predicted
-// velocities.
+#include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
+layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(set = 0, binding = 4, std430) writeonly buffer Corrections { FeatureCorrection corrections[]; };
-layout(set = 0, binding = 5, std430) readonly buffer NearPatches { uint near_patches[]; };
-layout(set = 0, binding = 6, std430) buffer Predicted { vec4 predicted[]; }; // of cloths that use Verlet
-layout(set = 0, binding = 7, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 8, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 9, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 11, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
-layout(set = 0, binding = 12, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 13, std430) readonly buffer Features { Feature features[]; };
-layout(set = 0, binding = 14, std430) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
-layout(set = 0, binding = 15, std430) readonly buffer NearColliders { uint near_colliders[]; };
-layout(set = 0, binding = 16, std430) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
-layout(set = 0, binding = 17, std430) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
-layout(set = 0, binding = 18, std430) readonly buffer Votes { uint votes[]; }; // of each cloth
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(VOILE_BINDING(feature_corrections)) writeonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
+layout(VOILE_BINDING(feature_patches)) readonly buffer FeaturePatches { uint near_patches[]; };
+layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
+layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
+layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
 

@@ -2,28 +2,26 @@
 #extension GL_GOOGLE_include_directive : require
 // Lists the patches of cloth near features of colliders until the next such pass. feature_contact.comp runs over these
 // patches only, by an indirect dispatch. One thread per vertex.
-// Reads: cloths, patches, positions and velocities before the substep, colliders and their motions, features and their
-// hierarchy.
-// Writes: Patch::near_features, the list of near patches and the size of the dispatch, whose x is 0 before.
+#include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/feature_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 3) const uint COLLIDERS_MOVE = 1;
+layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 5, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 6, std430) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
-layout(set = 0, binding = 7, std430) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 8, std430) buffer Dispatch { uint dispatch_size[]; };
-layout(set = 0, binding = 9, std430) writeonly buffer NearPatches { uint near_patches[]; };
-layout(set = 0, binding = 10, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_size[]; };
+layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
+layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { FeatureReachPush push; };
 

@@ -10,40 +10,37 @@
 // smooth where the nearest surface point jumps. The part of the field along the cloth's normal counts most, so that a
 // sheet leaves in one piece and is not torn apart in the middle. The contact kernel moves the vertex in each substep:
 // in jumps of a whole step neighbors would part so far that springs throw them.
-// Reads: cloths, patches, positions, residuals, normals, colliders and their motions, hierarchies, votes of the last
-// step.
-// Writes: depenetrations of all vertices. If any is inside: the size of the next step's dispatch and the votes of
-// cloths.
+#include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/contact_layout.h"
 #include "shared/padded_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint COLLIDERS_MOVE = 1;
+layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) buffer Depenetrations
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(depenetrations)) buffer Depenetrations
 {
     uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
     Depenetration depenetrations[];
 };
-layout(set = 0, binding = 4, std430) readonly buffer Normals { vec4 normals[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 6, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 7, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 8, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
-layout(set = 0, binding = 9, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
-layout(set = 0, binding = 10, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
-layout(set = 0, binding = 11, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(normals)) readonly buffer Normals { vec4 normals[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(bvh_triangles)) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 
-layout(set = 0, binding = 12, std430) buffer NextVotes { uint next_votes[]; }; // of each cloth
-layout(set = 0, binding = 13, std430) readonly buffer LastVotes { uint last_votes[]; };
-layout(set = 0, binding = 14, std430) readonly buffer NearColliders { uint near_colliders[]; };
-layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(next_votes)) buffer NextVotes { uint next_votes[]; }; // of each cloth
+layout(VOILE_BINDING(last_votes)) readonly buffer LastVotes { uint last_votes[]; };
+layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { RecoverPush push; };
 

@@ -7,30 +7,29 @@
 // stages. They are k1 to k4 of the positions, and their differences contain k1 to k3 of the velocities, so no stage
 // stores sums. All stages share one kernel. Four kernels, each with the forces in it, are slower beside contact
 // (bench/NOTES.md).
-// Reads: cloths, patches, mesh lists, base state, stage state, residuals of both, own velocities of earlier stages.
-// Writes: next state.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/step_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer BasePositions { vec4 base_positions[]; }; // w: inverse mass, 1/kg
-layout(set = 0, binding = 3, std430) readonly buffer BaseVelocities { vec4 base_velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer StagePositions { vec4 stage_positions[]; };
-layout(set = 0, binding = 5, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; };
-layout(set = 0, binding = 6, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
-layout(set = 0, binding = 8, std430) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for stage 4
-layout(set = 0, binding = 9, std430) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
-layout(set = 0, binding = 10, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 11, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
-layout(set = 0, binding = 12, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 13, std430) readonly buffer BaseResiduals { uvec2 base_residuals[]; };
-layout(set = 0, binding = 14, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
-layout(set = 0, binding = 15, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
-layout(set = 0, binding = 16, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(base_positions)) readonly buffer BasePositions { vec4 base_positions[]; }; // w: inverse mass, 1/kg
+layout(VOILE_BINDING(base_velocities)) readonly buffer BaseVelocities { vec4 base_velocities[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 stage_positions[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 stage_velocities[]; };
+layout(VOILE_BINDING(next_positions)) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
+layout(VOILE_BINDING(second_velocities)) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for stage 4
+layout(VOILE_BINDING(third_velocities)) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(base_residuals)) readonly buffer BaseResiduals { uvec2 base_residuals[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 

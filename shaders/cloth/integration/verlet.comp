@@ -6,28 +6,27 @@
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities are half a substep
 // later than positions. Damping and air need velocities at the time of the positions. Each dispatch writes a prediction
 // for the next (stability.h), which keeps the second order.
-// One thread per vertex. Reads: cloths, patches, mesh lists, positions and their residuals, predicted and own
-// velocities.
-// Writes: next positions and residuals, velocities, predicted velocities.
+// One thread per vertex.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/step_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer StagePositions { vec4 stage_positions[]; }; // w: inverse mass, 1/kg
-layout(set = 0, binding = 3, std430) readonly buffer StageVelocities { vec4 stage_velocities[]; }; // predicted
-layout(set = 0, binding = 4, std430) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 5, std430) writeonly buffer NextPositions { vec4 next_positions[]; };
-layout(set = 0, binding = 6, std430) writeonly buffer NextVelocities { vec4 next_velocities[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer NextPredicted { vec4 next_predicted[]; };
-layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
-layout(set = 0, binding = 10, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(set = 0, binding = 11, std430) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
-layout(set = 0, binding = 12, std430) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
-layout(set = 0, binding = 13, std430) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 stage_positions[]; }; // w: inverse mass, 1/kg
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 stage_velocities[]; }; // predicted
+layout(VOILE_BINDING(half_step_velocities)) readonly buffer HalfStepVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(next_positions)) writeonly buffer NextPositions { vec4 next_positions[]; };
+layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; };
+layout(VOILE_BINDING(next_predicted)) writeonly buffer NextPredicted { vec4 next_predicted[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
+layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 

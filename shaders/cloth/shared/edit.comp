@@ -2,18 +2,18 @@
 #extension GL_GOOGLE_include_directive : require
 // Changes of a whole cloth by the host between two steps: masses by a new density, reset, teleport, velocity. One
 // thread per vertex of that cloth.
-// Reads: cloths, start. Writes: state.
+#include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/step_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Start { vec4 start[]; }; // w: inverse of what density multiplies
-layout(set = 0, binding = 2, std430) buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer StartResiduals { uvec2 start_residuals[]; };
-layout(set = 0, binding = 5, std430) buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; }; // w: inverse of what density multiplies
+layout(VOILE_BINDING(positions)) buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(start_residuals)) readonly buffer StartResiduals { uvec2 start_residuals[]; };
+layout(VOILE_BINDING(residuals)) buffer Residuals { uvec2 residuals[]; };
 
 layout(push_constant, std430) uniform Push { EditPush push; };
 

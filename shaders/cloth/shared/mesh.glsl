@@ -2,7 +2,7 @@
 #ifndef VOILE_MESH_GLSL
 #define VOILE_MESH_GLSL
 
-layout(constant_id = 2) const uint INTERLEAVED = 1; // SolverOptions::mesh_layout
+layout(constant_id = k_constant_interleaved) const uint INTERLEAVED = 1; // SolverOptions::mesh_layout
 
 const uint MESH_STRIDE = INTERLEAVED == 1 ? gl_WorkGroupSize.x : 1;
 

@@ -4,7 +4,7 @@
 //
 // A thread measures one vertex: its structural and shear springs (a grid) or edges (a mesh), each once, its energy, and
 // its depth under the surface of a collider.
-// Reads: cloths, patches, mesh lists, state, colliders, hierarchy. Writes: one StatisticsRecord per workgroup.
+#include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
@@ -12,26 +12,26 @@
 #include "shared/padded_layout.h"
 #include "shared/statistics_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 const uint COLLIDERS_MOVE = 1;
 
-layout(set = 0, binding = 0, std430) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Patches { Patch patches[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Positions { vec4 positions[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Velocities { vec4 velocities[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-layout(set = 0, binding = 5, std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(set = 0, binding = 6, std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
-layout(set = 0, binding = 8, std430) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(set = 0, binding = 9, std430) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
-layout(set = 0, binding = 10, std430) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
-layout(set = 0, binding = 11, std430) readonly buffer CandidateTriangles { uint candidate_triangles[]; };
-layout(set = 0, binding = 12, std430) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
-layout(set = 0, binding = 13, std430) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
-layout(set = 0, binding = 14, std430) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
-layout(set = 0, binding = 15, std430) readonly buffer Residuals { uvec2 residuals[]; };
-layout(set = 0, binding = 16, std430) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(bvh_triangles)) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(VOILE_BINDING(partials)) writeonly buffer Partials { StatisticsRecord partials[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(candidate_triangles)) readonly buffer CandidateTriangles { uint candidate_triangles[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 

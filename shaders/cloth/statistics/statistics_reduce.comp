@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Merges the statistics of all patches. One workgroup: each thread merges every group-size-th patch, then the workgroup
 // folds.
-// Reads: partials. Writes: result[slot].
+#include "shared/bindings.h"
 #include "shared/statistics_layout.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Partials { StatisticsRecord partials[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Result { StatisticsRecord result[]; };
+layout(VOILE_BINDING(partials)) readonly buffer Partials { StatisticsRecord partials[]; };
+layout(VOILE_BINDING(statistics)) writeonly buffer Statistics { StatisticsRecord result[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsReducePush push; };
 

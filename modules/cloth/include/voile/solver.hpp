@@ -7,8 +7,8 @@
 //   each frame:   if (auto r = solver.value().record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
 //                 draw solver.value().vertices(sheet.value())   // the same buffers that were written
 //
-// The host draws from the buffers of VertexStreams: positions, velocities, normals. ARCHITECTURE.md lists all buffers
-// with who writes and who reads them.
+// The host draws from the buffers of VertexStreams: positions, velocities, normals. docs/buffers.md lists all buffers
+// and which kernels write and read them.
 //
 // Lifetime. The solver submits nothing and waits for nothing, so the host keeps things alive for the GPU:
 // - destroy a Solver, or assign another one to it, when no command buffer that it recorded into is pending;

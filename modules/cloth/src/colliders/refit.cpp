@@ -1,6 +1,7 @@
 // Refit: how a tree is cut into dispatches.
 #include "colliders/refit.hpp"
 
+#include "colliders/specialization.hpp"
 #include "geometry/padded_tree.hpp"
 
 #include "voile_cloth_shaders.hpp"
@@ -20,13 +21,15 @@ gpu::Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint
     kernels.run = std::min(kernels.group / 2, static_cast<uint32_t>(VOILE_REFIT_RUN)); // two threads a box
     const uint32_t rows = kernels.group / (2 * kernels.run);
     kernels.levels_a_dispatch = static_cast<uint32_t>(std::countr_zero(VOILE_REFIT_ITEMS * rows));
-    constexpr uint32_t k_push = sizeof(shared::RefitPush);
-    auto leaves =
-        gpu::Kernel::create(context, {"cloth refit leaves", shaders::k_refit_comp, 3, k_push, {kernels.group, 1}});
+    const auto create = [&](const char* name, uint32_t from_leaves)
+    {
+        const Specialization specialization{.workgroup_size = kernels.group, .from_leaves = from_leaves};
+        return gpu::Kernel::create(context, {name, shaders::k_refit_comp, specialization.values()});
+    };
+    auto leaves = create("cloth refit leaves", 1);
     if (!leaves)
         return leaves.error();
-    auto levels =
-        gpu::Kernel::create(context, {"cloth refit levels", shaders::k_refit_comp, 3, k_push, {kernels.group, 0}});
+    auto levels = create("cloth refit levels", 0);
     if (!levels)
         return levels.error();
     kernels.leaves = std::move(leaves.value());
@@ -50,14 +53,6 @@ void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescri
         push.bottom -= push.levels;
         kernel = &kernels.levels;
     } while (push.bottom > 0);
-}
-
-uint32_t refit_dispatches(const RefitKernels& kernels, uint32_t triangles)
-{
-    if (triangles == 0)
-        return 0;
-    const uint32_t levels = padded_levels(triangles);
-    return std::max(1u, (levels + kernels.levels_a_dispatch - 1) / kernels.levels_a_dispatch);
 }
 
 } // namespace voile

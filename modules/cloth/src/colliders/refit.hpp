@@ -8,7 +8,7 @@
 namespace voile
 {
 
-// Both have the same bindings, so one descriptor set serves both: leaves, positions, boxes.
+// Both have the same bindings, so one descriptor set serves both: padded_leaves, deforming_positions, padded_boxes.
 struct RefitKernels
 {
     gpu::Kernel leaves; // starts from the vertices
@@ -39,11 +39,9 @@ constexpr uint32_t aligned_first_box(uint32_t first)
     return (first + k_line - 2) / k_line * k_line + 1;
 }
 
-// Records a refit in the dispatches that it takes (refit_dispatches), each with its barrier to what follows. Positions
+// Records a refit in the dispatches that it takes, each with its barrier to what follows. Positions
 // must have been made visible to compute reads, and earlier reads of the boxes must be done. All boxes of the tree are
 // written.
 void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitPlace& place);
-
-[[nodiscard]] uint32_t refit_dispatches(const RefitKernels& kernels, uint32_t triangles);
 
 } // namespace voile

@@ -31,7 +31,7 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
                                   mesh.first(deformation.now),
                                   mesh.first(1 - deformation.now),
                                   mesh.vertices};
-    recorder.dispatch(solver.kernels.deform, solver.device->deform, mesh.vertices, solver.options.tuning.workgroup_size,
+    recorder.dispatch(solver.kernels.deform, solver.device->sets.deform, mesh.vertices, solver.options.tuning.workgroup_size,
                       push);
 }
 
@@ -40,7 +40,7 @@ void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const De
                   uint32_t to)
 {
     const shared::ColliderRecord& collider = solver.model.colliders[mesh.collider];
-    record_refit(recorder, solver.kernels.refit, solver.device->refit,
+    record_refit(recorder, solver.kernels.refit, solver.device->sets.refit,
                  {collider.first_node, collider.first_triangle, mesh.first(from), mesh.first(to), collider.triangles});
 }
 
@@ -76,18 +76,18 @@ void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver
     {
         const DeformingMesh& mesh = solver.model.deforming[i];
         const Deformation& deformation = solver.deformations[i];
-        const gpu::Buffer& input = solver.device->deforming_input;
+        const VkBuffer input = (*solver.device)[buffer::deforming_input].handle();
         if (!deformation.due)
             continue;
         if (!deformation.source)
         {
-            update(recorder, input, input_offset(mesh), std::as_bytes(std::span(deformation.positions)));
+            recorder.update(input, input_offset(mesh), std::as_bytes(std::span(deformation.positions)));
             continue;
         }
         const DeviceVertices& source = *deformation.source;
         const VkDeviceSize bytes = VkDeviceSize{mesh.vertices - 1} * source.stride + sizeof(glm::vec3);
         const VkBufferCopy region{source.offset, input_offset(mesh), bytes};
-        recorder.context().fn.vkCmdCopyBuffer(recorder.cmd(), source.buffer, input.handle(), 1, &region);
+        recorder.copy(source.buffer, input, region);
     }
 }
 

@@ -26,22 +26,25 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values)
 // The anchors as the GPU sees them, one at a time: recording allocates nothing.
 void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    const size_t count = std::min<size_t>(solver.anchors.size(), solver.device->anchor_capacity);
+    const DeviceState& device = *solver.device;
+    const size_t count = std::min<size_t>(solver.anchors.size(), device.anchor_capacity);
     for (size_t i = 0; i < count; ++i)
     {
         const shared::AnchorRecord record = make_record(solver.anchors[i]);
-        update(recorder, solver.device->anchors, i * sizeof(record), std::as_bytes(std::span(&record, 1)));
+        recorder.update(device[buffer::anchors].handle(), i * sizeof(record), std::as_bytes(std::span(&record, 1)));
     }
 }
 
 void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    for (uint32_t i = 0; i < solver.device->collider_count; ++i)
+    const DeviceState& device = *solver.device;
+    for (uint32_t i = 0; i < device.collider_count; ++i)
     {
         if (!is_moving(solver.model.colliders[i]))
             continue;
         const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i], solver.deformations);
-        update(recorder, solver.device->collider_motions, i * sizeof(motion), std::as_bytes(std::span(&motion, 1)));
+        recorder.update(device[buffer::collider_motions].handle(), i * sizeof(motion),
+                        std::as_bytes(std::span(&motion, 1)));
     }
 }
 
@@ -57,16 +60,16 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
     const DeviceState& device = *solver.device;
     for (const uint32_t cloth : solver.edits.records)
         if (cloth < device.cloth_count)
-            update(recorder, device.cloths, cloth * sizeof(shared::ClothRecord),
-                   std::as_bytes(std::span(&solver.model.records[cloth], 1)));
+            recorder.update(device[buffer::cloths].handle(), cloth * sizeof(shared::ClothRecord),
+                            std::as_bytes(std::span(&solver.model.records[cloth], 1)));
     if (solver.edits.attachments && !solver.dirty)
-        update(recorder, device.attachments, 0, bytes_of(solver.attachment_lists.attachments));
+        recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.attachment_lists.attachments));
     if (solver.edits.tethers && !solver.dirty)
-        update(recorder, device.tethers, 0, bytes_of(solver.attachment_lists.tethers));
+        recorder.update(device[buffer::tethers].handle(), 0, bytes_of(solver.attachment_lists.tethers));
     for (const uint32_t collider : solver.edits.colliders)
         if (collider < device.collider_count)
-            update(recorder, device.colliders, collider * sizeof(shared::ColliderRecord),
-                   std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
+            recorder.update(device[buffer::colliders].handle(), collider * sizeof(shared::ColliderRecord),
+                            std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
     if (moved.anchors)
         update_anchors(recorder, solver);
     if (moved.colliders)
@@ -102,18 +105,6 @@ float farthest_motion(const Solver::State& solver)
 }
 
 } // namespace
-
-void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
-{
-    constexpr size_t k_most = 65536;
-    while (!bytes.empty())
-    {
-        const auto piece = bytes.first(std::min(bytes.size(), k_most));
-        recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), buffer.handle(), offset, piece.size(), piece.data());
-        offset += piece.size();
-        bytes = bytes.subspan(piece.size());
-    }
-}
 
 shared::AnchorRecord make_record(const Anchor& anchor)
 {
@@ -213,12 +204,13 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     const auto uploaded = [&](const shared::EditPush& edit) { return edit.cloth < device.cloth_count; };
     for (const shared::EditPush& edit : solver.edits.places)
         if (uploaded(edit))
-            recorder.dispatch(solver.kernels.edit, device.edit, solver.model.records[edit.cloth].vertices, group, edit);
+            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.records[edit.cloth].vertices, group,
+                              edit);
     const size_t edited = std::erase_if(solver.edits.places, uploaded);
     if (due.anchors || edited > 0)
-        recorder.dispatch(solver.kernels.pins, device.pins, solver.passes.pins, group,
+        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins, group,
                           shared::AttachmentPush{0, solver.passes.pins, step.duration, 0, 0});
-    solver.normals_due |= edited > 0;
+    solver.history.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
     for (Anchor& anchor : solver.anchors)

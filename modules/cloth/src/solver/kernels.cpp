@@ -1,16 +1,13 @@
-// Kernels: compilation with the solver's workgroup size.
+// Kernels: compilation with the solver's options.
 #include "solver/kernels.hpp"
+
+#include "colliders/specialization.hpp"
 
 #include "voile/solver.hpp"
 
-#include "shared/attachment_layout.h"
-#include "shared/collider_layout.h"
-#include "shared/contact_layout.h"
-#include "shared/feature_layout.h"
-#include "shared/statistics_layout.h"
-#include "shared/step_layout.h"
-#include "shared/strain_layout.h"
 #include "voile_cloth_shaders.hpp"
+
+#include <algorithm>
 
 namespace voile
 {
@@ -28,75 +25,67 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
     const uint32_t group = options.tuning.workgroup_size;
     const auto method = static_cast<uint32_t>(options.tuning.contact_method);
-    const auto layout = static_cast<uint32_t>(options.tuning.mesh_layout);
-    constexpr uint32_t k_edit_bytes = sizeof(shared::EditPush);
-    constexpr uint32_t k_stage_bytes = sizeof(shared::StagePush);
-    std::vector<Request> requests{
-        {&kernels.stage, {"cloth rk4 stage", shaders::k_integrate_comp, 17, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.verlet, {"cloth verlet", shaders::k_verlet_comp, 14, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.pins, {"cloth pins", shaders::k_pin_comp, 5, sizeof(shared::AttachmentPush), {group}}},
-        {&kernels.attachments,
-         {"cloth holds", shaders::k_attachments_comp, 7, sizeof(shared::AttachmentPush), {group}}},
-        {&kernels.tethers, {"cloth tethers", shaders::k_tether_comp, 7, sizeof(shared::AttachmentPush), {group}}},
-        {&kernels.limit_strain,
-         {"cloth strain limit", shaders::k_limit_strain_comp, 12, sizeof(shared::StrainPush), {group, 0, layout}}},
-        {&kernels.limit_work, {"cloth limit work", shaders::k_limit_work_comp, 18, k_stage_bytes, {group, 0, layout}}},
-        {&kernels.limit_scale,
-         {"cloth limit scale", shaders::k_limit_scale_comp, 6, sizeof(shared::LimitScalePush), {group}}},
-        {&kernels.limit_guard, {"cloth limit guard", shaders::k_limit_guard_comp, 9, 0, {group}}},
-        {&kernels.edit, {"cloth edit", shaders::k_edit_comp, 6, k_edit_bytes, {group}}},
-        {&kernels.contact,
-         {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 0, 0, 0}}},
-        {&kernels.contact_convex,
-         {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 0, 1, 0}}},
-        {&kernels.contact_moving,
-         {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 1, 1, 0}}},
-        {&kernels.contact_many,
-         {"cloth contact", shaders::k_contact_comp, 24, sizeof(shared::ContactPush), {group, method, layout, 1, 1, 1}}},
-        {&kernels.collider_reach,
-         {"cloth collider reach", shaders::k_collider_reach_comp, 9, sizeof(shared::ColliderReachPush), {group}}},
-        {&kernels.feature_reach,
-         {"cloth feature reach",
-          shaders::k_feature_reach_comp,
-          11,
-          sizeof(shared::FeatureReachPush),
-          {group, 0, 0, 0}}},
-        {&kernels.feature_reach_moving,
-         {"cloth feature reach",
-          shaders::k_feature_reach_comp,
-          11,
-          sizeof(shared::FeatureReachPush),
-          {group, 0, 0, 1}}},
-        {&kernels.feature_contact,
-         {"cloth feature contact",
-          shaders::k_feature_contact_comp,
-          19,
-          sizeof(shared::FeaturePush),
-          {group, 0, layout, 0}}},
-        {&kernels.feature_contact_moving,
-         {"cloth feature contact",
-          shaders::k_feature_contact_comp,
-          19,
-          sizeof(shared::FeaturePush),
-          {group, 0, layout, 1}}},
-        {&kernels.recover, {"cloth recover", shaders::k_recover_comp, 16, sizeof(shared::RecoverPush), {group, 0}}},
-        {&kernels.recover_moving,
-         {"cloth recover", shaders::k_recover_comp, 16, sizeof(shared::RecoverPush), {group, 1}}},
-        {&kernels.deform, {"cloth deform", shaders::k_deform_comp, 2, sizeof(shared::DeformPush), {group}}},
-        {&kernels.normals, {"cloth normals", shaders::k_normals_comp, 7, 0, {group, 0, layout}}},
-        {&kernels.statistics,
-         {"cloth statistics", shaders::k_statistics_comp, 17, sizeof(shared::StatisticsPush), {group, 0, layout}}},
-        {&kernels.statistics_reduce,
-         {"cloth statistics reduce",
-          shaders::k_statistics_reduce_comp,
-          2,
-          sizeof(shared::StatisticsReducePush),
-          {group}}},
+    const auto interleaved = static_cast<uint32_t>(options.tuning.mesh_layout);
+    std::vector<Request> requests;
+    const auto add = [&](gpu::Kernel& kernel, const char* name, std::span<const uint32_t> spirv,
+                         const Specialization& specialization) {
+        requests.push_back({&kernel, {name, spirv, specialization.values()}});
     };
+    const Specialization plain{.workgroup_size = group};
+    const Specialization with_lists{.workgroup_size = group, .interleaved = interleaved};
+    add(kernels.stage, "cloth rk4 stage", shaders::k_integrate_comp, with_lists);
+    add(kernels.verlet, "cloth verlet", shaders::k_verlet_comp, with_lists);
+    add(kernels.pins, "cloth pins", shaders::k_pin_comp, plain);
+    add(kernels.attachments, "cloth holds", shaders::k_attachments_comp, plain);
+    add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
+    add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
+    add(kernels.limit_work, "cloth limit work", shaders::k_limit_work_comp, with_lists);
+    add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);
+    add(kernels.limit_guard, "cloth limit guard", shaders::k_limit_guard_comp, plain);
+    add(kernels.edit, "cloth edit", shaders::k_edit_comp, plain);
+    const auto add_contact = [&](gpu::Kernel& kernel, uint32_t move, uint32_t convex, uint32_t near_lists)
+    {
+        add(kernel, "cloth contact", shaders::k_contact_comp,
+            {.workgroup_size = group,
+             .contact_method = method,
+             .interleaved = interleaved,
+             .colliders_move = move,
+             .colliders_convex = convex,
+             .near_lists = near_lists});
+    };
+    add_contact(kernels.contact, 0, 0, 0);
+    add_contact(kernels.contact_convex, 0, 1, 0);
+    add_contact(kernels.contact_moving, 1, 1, 0);
+    add_contact(kernels.contact_many, 1, 1, 1);
+    add(kernels.collider_reach, "cloth collider reach", shaders::k_collider_reach_comp, plain);
+    const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
+    const Specialization moving{.workgroup_size = group, .colliders_move = 1};
+    add(kernels.feature_reach, "cloth feature reach", shaders::k_feature_reach_comp, at_rest);
+    add(kernels.feature_reach_moving, "cloth feature reach", shaders::k_feature_reach_comp, moving);
+    add(kernels.feature_contact, "cloth feature contact", shaders::k_feature_contact_comp,
+        {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 0});
+    add(kernels.feature_contact_moving, "cloth feature contact", shaders::k_feature_contact_comp,
+        {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 1});
+    add(kernels.recover, "cloth recover", shaders::k_recover_comp, at_rest);
+    add(kernels.recover_moving, "cloth recover", shaders::k_recover_comp, moving);
+    add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
+    add(kernels.normals, "cloth normals", shaders::k_normals_comp, with_lists);
+    add(kernels.statistics, "cloth statistics", shaders::k_statistics_comp, with_lists);
+    add(kernels.statistics_reduce, "cloth statistics reduce", shaders::k_statistics_reduce_comp, plain);
     return requests;
 }
 
 } // namespace
+
+uint32_t most_storage_buffers()
+{
+    Kernels none;
+    size_t most = 0;
+    for (const Request& request : requests_of(none, {}))
+        if (const auto shader = gpu::reflect(request.description))
+            most = std::max(most, shader.value().bindings.size());
+    return static_cast<uint32_t>(most);
+}
 
 gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
 {

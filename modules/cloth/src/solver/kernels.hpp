@@ -10,8 +10,6 @@ namespace voile
 
 struct SolverOptions;
 
-constexpr uint32_t k_most_storage_buffers = 24; // of a kernel: contact's
-
 struct Kernels
 {
     gpu::Kernel stage; // of RK4, any of the four
@@ -41,6 +39,9 @@ struct Kernels
     gpu::Kernel statistics;
     gpu::Kernel statistics_reduce;
 };
+
+// That any kernel binds.
+uint32_t most_storage_buffers();
 
 // Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what
 // they find (create_refit_kernels).

@@ -33,21 +33,21 @@ void end_scope(gpu::Recorder& recorder)
 }
 
 // The number of a step's first substep. Where the numbers are used up, all that is told apart by them is made anew.
-uint32_t count_substeps(gpu::Recorder& recorder, Solver::State& solver, uint32_t substeps)
+uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, uint32_t substeps)
 {
     const uint32_t taken = substeps + 1; // the strain limit has one of its own
-    if (solver.next_substep >= k_substeps_counted - taken)
+    if (history.next_substep >= k_substeps_counted - taken)
     {
-        solver.next_substep = 0;
+        history.next_substep = 0;
         forget_candidates(recorder, *solver.device);
     }
-    return std::exchange(solver.next_substep, solver.next_substep + taken);
+    return std::exchange(history.next_substep, history.next_substep + taken);
 }
 
 void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const uint32_t group = solver.options.tuning.workgroup_size;
-    recorder.dispatch(solver.kernels.normals, solver.device->normals_set, solver.device->patch_count * group, group,
+    recorder.dispatch(solver.kernels.normals, solver.device->sets.normals, solver.device->patch_count * group, group,
                       std::span<const std::byte>{});
 }
 
@@ -55,42 +55,54 @@ void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 //
 // Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
 // and every few steps for what rounding has; besides, as long as the step before has found one inside.
-void record_recovery(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
+void record_recovery(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step)
 {
     if (!solver.passes.recover)
         return;
-    if (std::exchange(solver.normals_due, false))
+    if (std::exchange(history.normals_due, false))
         record_normals(recorder, solver);
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.tuning.workgroup_size;
     const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    const bool periodic = solver.recovery_step % k_recovery_period == 0;
-    const bool all = std::exchange(solver.recovery_due, false) || solver.passes.moving || periodic;
-    const size_t now = solver.recovery_step++ % 2;
-    const size_t next = solver.recovery_step % 2;
+    const bool periodic = history.recovery_step % k_recovery_period == 0;
+    const bool all = std::exchange(history.recovery_due, false) || solver.passes.moving || periodic;
+    const size_t now = history.recovery_step++ % 2;
+    const size_t next = history.recovery_step % 2;
     const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride, recovery_word(next)};
-    clear_dispatch(recorder, device.depenetrations, recovery_word(next), 1, &device.recovery_votes[next]);
+    const VkBuffer depenetrations = device[buffer::depenetrations].handle();
+    clear_dispatch(recorder, depenetrations, recovery_word(next), 1, device[k_recovery_votes[next]].handle());
     if (all)
-        recorder.dispatch(kernel, device.recover[next], device.patch_count * group, group, push);
+        recorder.dispatch(kernel, device.sets.recover[next], device.patch_count * group, group, push);
     else
-        recorder.dispatch_indirect(kernel, device.recover[next], device.depenetrations.handle(),
+        recorder.dispatch_indirect(kernel, device.sets.recover[next], depenetrations,
                                    recovery_word(now) * sizeof(uint32_t), push);
     publish_dispatch(recorder);
 }
 
+// Everything of a step but what the host has changed. It changes nothing but `history`, so that a dry recorder can
+// count what the next step takes.
+void record_passes(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step,
+                   uint32_t substeps)
+{
+    const uint32_t first_substep = count_substeps(recorder, solver, history, substeps);
+    SubstepRecorder passes(recorder, solver, history, step, substeps, first_substep);
+    passes.record_collider_reach(0);
+    record_recovery(recorder, solver, history, step);
+    passes.record();
+    record_normals(recorder, solver);
+}
+
 } // namespace
 
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word, uint32_t groups_each,
-                    const gpu::Buffer* counts)
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
 {
     const VkDispatchIndirectCommand none{0, groups_each, 1};
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    recorder.context().fn.vkCmdUpdateBuffer(recorder.cmd(), size.handle(), word * sizeof(uint32_t), sizeof(none),
-                                            &none);
-    if (counts)
-        recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), counts->handle(), 0, VK_WHOLE_SIZE, 0);
+    recorder.update(size, word * sizeof(uint32_t), std::as_bytes(std::span(&none, 1)));
+    if (counts != VK_NULL_HANDLE)
+        recorder.fill(counts, 0);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
@@ -105,16 +117,15 @@ void publish_dispatch(gpu::Recorder& recorder)
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
 {
     constexpr float k_none = -1; // see contact_candidates.glsl
-    const auto fill = [&](const gpu::Buffer& buffer, uint32_t word)
-    { recorder.context().fn.vkCmdFillBuffer(recorder.cmd(), buffer.handle(), 0, VK_WHOLE_SIZE, word); };
+    const auto fill = [&](buffer::Name name, uint32_t word) { recorder.fill(device[name].handle(), word); };
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    fill(device.candidate_places, std::bit_cast<uint32_t>(k_none));
-    fill(device.candidate_triangles, 0);
-    fill(device.feature_corrections, VOILE_NO_SUBSTEP);
-    fill(device.depenetrations, 0);
+    fill(buffer::candidate_places, std::bit_cast<uint32_t>(k_none));
+    fill(buffer::candidate_triangles, 0);
+    fill(buffer::feature_corrections, VOILE_NO_SUBSTEP);
+    fill(buffer::depenetrations, 0);
     constexpr uint32_t k_not_a_number = 0xffffffff; // no place is in a box of these
-    fill(device.near_colliders, k_not_a_number);
+    fill(buffer::near_colliders, k_not_a_number);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
 }
@@ -133,14 +144,9 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
         return {};
     state_->lifetime.begin(recorder.cmd());
     begin_scope(recorder);
-    state_->recovery_due |= state_->changes_due();
+    state_->history.recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
-    const uint32_t substeps = State::substeps(*this, step);
-    SubstepRecorder passes(recorder, *state_, step, substeps, count_substeps(recorder, *state_, substeps));
-    passes.record_collider_reach(0);
-    record_recovery(recorder, *state_, step);
-    passes.record();
-    record_normals(recorder, *state_);
+    record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));
     end_scope(recorder);
     state_->lifetime.end(recorder.cmd());
     return {};
@@ -159,9 +165,9 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
     gpu::Recorder recorder(state_->context, cmd, timestamps);
     state_->lifetime.begin(cmd);
     begin_scope(recorder);
-    recorder.dispatch(kernels.statistics, device.statistics, device.patch_count * group, group,
+    recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
                       shared::StatisticsPush{device.collider_count, device.near_stride});
-    recorder.dispatch(kernels.statistics_reduce, device.statistics_reduce, group, group,
+    recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,
                       shared::StatisticsReducePush{device.patch_count, slot});
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
                      VK_ACCESS_2_HOST_READ_BIT_KHR);
@@ -173,22 +179,11 @@ uint32_t Solver::dispatches(const Step& step) const
 {
     if (!state_->device || state_->device->patch_count == 0 || !validate(step))
         return 0;
-    const DeviceState& device = *state_->device;
-    const bool rk4 = device.rk4_patches > 0;
-    const bool verlet = device.rk4_patches < device.patch_count;
-    const Passes& passes = state_->passes;
-    const uint32_t a_substep = (rk4 ? 4 : 0) + (verlet ? 1 : 0) + (passes.commit ? 1 : 0) +
-                               (passes.attachments > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) +
-                               (passes.features ? 1 : 0);
-    uint32_t strain = 0;
-    if (passes.strain_spacing > 0) // its passes, what bounds positions, contact, and the guard
-        strain = limit_passes(passes.strain_spacing) + (passes.attachments > 0 ? 1 : 0) + (passes.tethers > 0 ? 1 : 0) +
-                 7 + 3 * VOILE_LIMIT_LOOKS;
-    const uint32_t substeps = State::substeps(*this, step);
-    const auto looks_every = [&](uint32_t period) { return (substeps + period - 1) / period; };
-    const uint32_t looks = (passes.features ? looks_every(VOILE_FEATURE_PERIOD) : 0) +
-                           (device.near_stride > 0 ? looks_every(VOILE_NEAR_PERIOD) : 0);
-    return substeps * a_substep + (verlet ? 1 : 0) + looks + strain + (passes.recover ? 1 : 0) + 1;
+    gpu::Recorder dry(state_->context);
+    StepHistory history = state_->history;
+    history.normals_due = false; // what follows an upload is not counted
+    record_passes(dry, *state_, history, step, State::substeps(*this, step));
+    return dry.dispatches();
 }
 
 } // namespace voile

@@ -94,12 +94,12 @@ std::array<Region, 6> regions_of(const DeviceState& device, uint32_t recovery_st
     const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
         return Region{buffer.handle(), bytes_per_vertex * device.vertices};
     };
-    return {stream(device.state.positions, sizeof(glm::vec4)),
-            stream(device.state.residuals, sizeof(glm::uvec2)),
-            stream(device.state.velocities, sizeof(glm::vec4)),
-            stream(device.normals, sizeof(glm::vec4)),
-            Region{device.recovery_votes[recovery_step % 2].handle(), votes_bytes(device.cloth_count)},
-            Region{device.limit_scales.handle(), scales_bytes(device.cloth_count)}};
+    return {stream(device[buffer::positions], sizeof(glm::vec4)),
+            stream(device[buffer::residuals], sizeof(glm::uvec2)),
+            stream(device[buffer::velocities], sizeof(glm::vec4)),
+            stream(device[buffer::normals], sizeof(glm::vec4)),
+            Region{device[k_recovery_votes[recovery_step % 2]].handle(), votes_bytes(device.cloth_count)},
+            Region{device[buffer::limit_scales].handle(), scales_bytes(device.cloth_count)}};
 }
 
 VkDeviceSize total_bytes(const DeviceState& device)
@@ -149,7 +149,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const uint32_t vertices = snapshot.contents_->vertices;
     if (!state_->device || state_->device->vertices != vertices)
         return Error{"snapshot: it was made for another number of vertices"};
-    const uint32_t step = state_->recovery_step % k_recovery_period;
+    const uint32_t step = state_->history.recovery_step % k_recovery_period;
     const VkBuffer buffer = snapshot.contents_->buffer.handle();
     snapshot.contents_->filled = true;
     snapshot.contents_->recovery_step = step;
@@ -165,7 +165,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, offset, sizeof(step), &step);
     barrier(state_->context, cmd, false);
     state_->lifetime.end(cmd);
-    state_->recovery_due = true; // as after restoring: both go on alike
+    state_->history.recovery_due = true; // as after restoring: both go on alike
     return {};
 }
 
@@ -187,8 +187,8 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     }
     barrier(state_->context, cmd, false);
     state_->lifetime.end(cmd);
-    state_->recovery_step = snapshot.contents_->recovery_step;
-    state_->recovery_due = true;
+    state_->history.recovery_step = snapshot.contents_->recovery_step;
+    state_->history.recovery_due = true;
     return {};
 }
 

@@ -52,7 +52,7 @@ Requirements requirements()
 {
     Requirements result;
     result.device_extensions = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
-    result.storage_buffers = k_most_storage_buffers;
+    result.storage_buffers = most_storage_buffers();
     return result;
 }
 
@@ -92,6 +92,8 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     auto kernels = create_kernels(context.value(), options);
     if (!kernels)
         return kernels.error();
+    if (auto sets = check_sets(kernels.value()); !sets)
+        return sets.error();
     auto state = std::make_unique<State>();
     state->context = context.value();
     state->options = options;
@@ -219,9 +221,9 @@ VertexStreams Solver::vertices(ClothId cloth) const
         return streams;
     const DeviceState& device = *state_->device;
     const shared::ClothRecord& record = state_->model.records[cloth.index];
-    streams.positions = device.state.positions.handle();
-    streams.velocities = device.state.velocities.handle();
-    streams.normals = device.normals.handle();
+    streams.positions = device[buffer::positions].handle();
+    streams.velocities = device[buffer::velocities].handle();
+    streams.normals = device[buffer::normals].handle();
     streams.offset = record.first_vertex * sizeof(glm::vec4);
     streams.vertices = record.vertices;
     return streams;

@@ -60,6 +60,15 @@ constexpr float k_strain_radius = 0.95f; // of the iteration, for its accelerati
 // Steps from one look at all vertices to the next, where none was inside.
 constexpr uint32_t k_recovery_period = 8;
 
+// What one step leaves for the next, beside the buffers.
+struct StepHistory
+{
+    bool normals_due = false;   // they are of other places: after an upload, and after cloths were moved
+    bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
+    uint32_t recovery_step = 0; // counts the steps with recovery
+    uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
+};
+
 struct Solver::State
 {
     gpu::Context context;
@@ -71,12 +80,9 @@ struct Solver::State
     std::vector<ColliderPose> colliders;
     bool colliders_moved = false;          // in the last step
     std::vector<Deformation> deformations; // of model.deforming
-    float farthest_motion = 0;  // m, of anchors and colliders in the step that is recorded, if there are features
-    bool refit_due = false;     // boxes do not fit: after an upload, and after a mesh came to rest
-    bool normals_due = false;   // they are of other places: after an upload, and after cloths were moved
-    bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
-    uint32_t recovery_step = 0; // counts the steps with recovery
-    uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
+    float farthest_motion = 0; // m, of anchors and colliders in the step that is recorded, if there are features
+    bool refit_due = false;    // boxes do not fit: after an upload, and after a mesh came to rest
+    StepHistory history;
     AttachmentLists attachment_lists;
     gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
     Edits edits;
@@ -132,8 +138,8 @@ void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver);
 
 // Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many
 // workgroups each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
-void clear_dispatch(gpu::Recorder& recorder, const gpu::Buffer& size, uint32_t word = 0, uint32_t groups_each = 1,
-                    const gpu::Buffer* counts = nullptr);
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, uint32_t groups_each = 1,
+                    VkBuffer counts = VK_NULL_HANDLE);
 
 // Where the size of the recovery's dispatch stands in the buffer of depenetrations, of even and of odd steps.
 constexpr uint32_t recovery_word(size_t step)
@@ -147,9 +153,6 @@ void publish_dispatch(gpu::Recorder& recorder);
 // Empties the lists of candidates and the corrections by features, both told apart by substeps: the next contact pass
 // makes lists anew. Between barriers of its own.
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
-
-// vkCmdUpdateBuffer takes at most 64 KiB at a time, and multiples of 4 bytes.
-void update(gpu::Recorder& recorder, const gpu::Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
 
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);

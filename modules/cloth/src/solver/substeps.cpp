@@ -43,10 +43,10 @@ uint32_t limit_passes(uint32_t widest_spacing)
     return (levels * (k_strain_passes + 1) - 1) | 1u;
 }
 
-SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step,
-                                 uint32_t substeps, uint32_t first_substep)
-    : recorder_(recorder), solver_(solver), kernels_(solver.kernels), device_(*solver.device), step_(step),
-      group_(solver.options.tuning.workgroup_size), substeps_(substeps), first_substep_(first_substep),
+SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const StepHistory& history,
+                                 const Step& step, uint32_t substeps, uint32_t first_substep)
+    : recorder_(recorder), solver_(solver), history_(history), kernels_(solver.kernels), device_(*solver.device),
+      step_(step), group_(solver.options.tuning.workgroup_size), substeps_(substeps), first_substep_(first_substep),
       h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
       // Rays along normals look at what neighbors propose, which must not change meanwhile.
       swaps_(commits_ && solver.options.tuning.contact_method == ContactMethod::nearest_point)
@@ -55,9 +55,8 @@ SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& s
 
 void SubstepRecorder::record()
 {
-    const StateBuffers& start = device_.step_start;
     if (solver_.passes.strain_spacing > 0)
-        keep_state(start.positions, start.residuals, start.velocities);
+        keep_state(k_step_start);
     for (uint32_t substep = 0; substep < substeps_; ++substep)
     {
         if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
@@ -96,12 +95,12 @@ shared::StagePush SubstepRecorder::make_push(double substeps) const
 void SubstepRecorder::record_rk4(uint32_t substep)
 {
     constexpr double k_stage_times[] = {0, 0.5, 0.5, 1}; // of the substep
-    const auto& sets = device_.stages[commits_ && in_stage_b(substep) ? 1 : 0];
+    const auto& sets = device_.sets.stages[commits_ && in_stage_b(substep) ? 1 : 0];
     for (uint32_t stage = 1; stage <= 4; ++stage)
     {
         shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
         push.stage = stage;
-        recorder_.dispatch(kernels_.stage, stage == 4 && !commits_ ? device_.last_stage_alone : sets[stage - 1],
+        recorder_.dispatch(kernels_.stage, stage == 4 && !commits_ ? device_.sets.last_stage_alone : sets[stage - 1],
                            device_.rk4_patches * group_, group_, push);
     }
 }
@@ -116,9 +115,9 @@ void SubstepRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     push.first_patch = device_.rk4_patches;
     push.kick = substep == 0 ? 0.5f * h_ : h_;
     push.drift = h_;
-    VkDescriptorSet set = in_stage_b(substep) ? device_.verlet_back : device_.verlet_forth;
+    VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
-        set = device_.verlet_first;
+        set = device_.sets.verlet_first;
     recorder_.dispatch(kernels_.verlet, set, verlet_threads(), group_, push);
 }
 
@@ -126,7 +125,8 @@ void SubstepRecorder::finish_verlet(shared::StagePush push)
 {
     push.first_patch = device_.rk4_patches;
     push.kick = 0.5f * h_;
-    recorder_.dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.verlet_last_back : device_.verlet_last,
+    recorder_.dispatch(kernels_.verlet,
+                       in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
                        verlet_threads(), group_, push);
 }
 
@@ -134,11 +134,11 @@ void SubstepRecorder::record_attachments(uint32_t substep, float duration)
 {
     const size_t from = in_stage_b(substep) ? 1 : 0;
     shared::AttachmentPush push{solver_.passes.pins, solver_.passes.attachments, duration, progress(substep + 1),
-                                1 / step_.duration};
-    recorder_.dispatch(kernels_.attachments, device_.proposed_attachments[from], push.count, group_, push);
+                          1 / step_.duration};
+    recorder_.dispatch(kernels_.attachments, device_.sets.proposed_attachments[from], push.count, group_, push);
     push.first = 0;
     push.count = solver_.passes.tethers;
-    recorder_.dispatch(kernels_.tethers, device_.proposed_tethers[from], push.count, group_, push);
+    recorder_.dispatch(kernels_.tethers, device_.sets.proposed_tethers[from], push.count, group_, push);
 }
 
 // What comes after the last substep, for the strain limit, sees all colliders at their end.
@@ -162,12 +162,13 @@ void SubstepRecorder::record_collider_reach(uint32_t substep)
     const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
                                          1 / static_cast<float>(substeps_),       device_.collider_count,
                                          solver_.passes.features ? 1u : 0u,       device_.near_stride};
-    recorder_.dispatch(kernels_.collider_reach, device_.collider_reach, device_.patch_count * group_, group_, push);
+    recorder_.dispatch(kernels_.collider_reach, device_.sets.collider_reach, device_.patch_count * group_, group_,
+                       push);
 }
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
 {
-    clear_dispatch(recorder_, device_.feature_dispatch, 0, solver_.options.tuning.feature_threads);
+    clear_dispatch(recorder_, device_[buffer::feature_dispatch].handle(), 0, solver_.options.tuning.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
     const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
                                         sudden_speed(),
@@ -176,7 +177,7 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
                                         device_.collider_count,
                                         device_.near_stride};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
-                       device_.feature_reach, device_.patch_count * group_, group_, push);
+                       device_.sets.feature_reach, device_.patch_count * group_, group_, push);
     publish_dispatch(recorder_);
 }
 
@@ -189,8 +190,8 @@ void SubstepRecorder::record_features(uint32_t substep)
                                    first_substep_ + substep,
                                    device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-                                device_.feature_contact[in_stage_b(substep) ? 1 : 0][solver_.recovery_step % 2],
-                                device_.feature_dispatch.handle(), 0, push);
+                                device_.sets.feature_contact[in_stage_b(substep) ? 1 : 0][history_.recovery_step % 2],
+                                device_[buffer::feature_dispatch].handle(), 0, push);
 }
 
 void SubstepRecorder::record_contact(uint32_t substep)
@@ -209,11 +210,11 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.features = solver_.passes.features ? 1 : 0;
     push.recovers = solver_.passes.recover ? 1 : 0;
     push.near_stride = device_.near_stride;
-    push.recovery = recovery_word(solver_.recovery_step);
+    push.recovery = recovery_word(history_.recovery_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
-    recorder_.dispatch(contact_kernel(), device_.contact[in_stage_b(substep) ? 1 : 0], device_.patch_count * group_,
-                       group_, push);
+    recorder_.dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0],
+                       device_.patch_count * group_, group_, push);
 }
 
 const gpu::Kernel& SubstepRecorder::contact_kernel() const
@@ -230,28 +231,27 @@ const gpu::Kernel& SubstepRecorder::contact_kernel() const
 void SubstepRecorder::record_strain_limit()
 {
     record_limit_passes();
-    keep_state(device_.stage_a.positions, device_.stage_a.residuals, device_.stage_c.positions);
+    keep_state(k_before_limit);
     record_attachments(substeps_, 0);
     record_contact(substeps_);
     record_limit_guard();
 }
 
 // The guard of the strain limit compares states of a step.
-void SubstepRecorder::keep_state(const gpu::Buffer& positions, const gpu::Buffer& residuals,
-                                 const gpu::Buffer& velocities)
+void SubstepRecorder::keep_state(const StateBuffers& kept)
 {
     constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
     constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
-    const auto copy = [&](const gpu::Buffer& from, const gpu::Buffer& to, VkDeviceSize bytes_per_vertex)
+    const auto copy = [&](buffer::Name from, buffer::Name to, VkDeviceSize bytes_per_vertex)
     {
         const VkBufferCopy region{0, 0, device_.vertices * bytes_per_vertex};
-        recorder_.context().fn.vkCmdCopyBuffer(recorder_.cmd(), from.handle(), to.handle(), 1, &region);
+        recorder_.copy(device_[from].handle(), device_[to].handle(), region);
     };
     recorder_.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_copy,
                       VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    copy(device_.state.positions, positions, sizeof(glm::vec4));
-    copy(device_.state.residuals, residuals, sizeof(glm::uvec2));
-    copy(device_.state.velocities, velocities, sizeof(glm::vec4));
+    copy(k_state.positions, kept.positions, sizeof(glm::vec4));
+    copy(k_state.residuals, kept.residuals, sizeof(glm::uvec2));
+    copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
     recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
 }
@@ -262,15 +262,16 @@ void SubstepRecorder::record_limit_guard()
     shared::StagePush push{};
     push.gravity = step_.gravity;
     push.step = h_;
-    for (const VkDescriptorSet set : device_.limit_work)
+    for (const VkDescriptorSet set : device_.sets.limit_work)
         recorder_.dispatch(kernels_.limit_work, set, threads, group_, push);
     for (uint32_t look = 0; look <= VOILE_LIMIT_LOOKS; ++look)
     {
         if (look > 0) // at what is left of the limit's changes
-            recorder_.dispatch(kernels_.limit_work, device_.limit_work[3], threads, group_, push);
-        recorder_.dispatch(kernels_.limit_scale, device_.limit_scale, threads, group_,
+            recorder_.dispatch(kernels_.limit_work, device_.sets.limit_work[3], threads, group_, push);
+        recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, threads, group_,
                            shared::LimitScalePush{device_.patch_count, 1 / step_.duration, look});
-        recorder_.dispatch(kernels_.limit_guard, device_.limit_guard, threads, group_, std::span<const std::byte>{});
+        recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads, group_,
+                           std::span<const std::byte>{});
     }
 }
 
@@ -282,9 +283,9 @@ void SubstepRecorder::record_limit_passes()
     uint32_t pass = 0;
     const auto record_pass = [&](uint32_t spacing, bool between, bool first, float acceleration)
     {
-        const VkDescriptorSet set = pass == 0       ? device_.strain_first
-                                    : pass % 2 == 1 ? device_.strain_back
-                                                    : device_.strain_forth;
+        const VkDescriptorSet set = pass == 0       ? device_.sets.strain_first
+                                    : pass % 2 == 1 ? device_.sets.strain_back
+                                                    : device_.sets.strain_forth;
         ++pass;
         const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
                                       pass == passes ? 1u : 0u};

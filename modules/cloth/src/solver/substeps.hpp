@@ -12,8 +12,8 @@ uint32_t limit_passes(uint32_t widest_spacing);
 class SubstepRecorder
 {
 public:
-    SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const Step& step, uint32_t substeps,
-                    uint32_t first_substep);
+    SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const StepHistory& history, const Step& step,
+                    uint32_t substeps, uint32_t first_substep);
 
     // Which colliders come near which patches, until the next such look. Nothing where there are few. The first one
     // comes before whatever else looks for colliders in the step.
@@ -38,7 +38,7 @@ private:
     void record_strain_limit();
     void record_limit_passes();
     void record_limit_guard();
-    void keep_state(const gpu::Buffer& positions, const gpu::Buffer& residuals, const gpu::Buffer& velocities);
+    void keep_state(const StateBuffers& kept); // a copy of the state
     // Whether a substep begins in stage B: the state goes back and forth between there and its own buffers. Where
     // contact is to commit it ends in these, since the last one copies if their number is odd. Without contact that is
     // Verlet's alone.
@@ -50,6 +50,7 @@ private:
 
     gpu::Recorder& recorder_;
     const Solver::State& solver_;
+    const StepHistory& history_;
     const Kernels& kernels_;
     const DeviceState& device_;
     const Step& step_;

@@ -167,48 +167,49 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
         std::span<const std::byte> bytes;
     };
     const Staged staged[] = {
-        {next.cloths, 0, bytes_of(s.model.records)},
-        {next.patches, 0, bytes_of(data.patches.patches)},
-        {next.mesh_vertices, 0, bytes_of(data.lists.vertices)},
-        {next.mesh_springs, 0, bytes_of(data.lists.springs)},
-        {next.mesh_corners, 0, bytes_of(data.lists.corners)},
-        {next.membrane_corners, 0, bytes_of(data.lists.membrane)},
-        {next.colliders, 0, bytes_of(s.model.colliders)},
-        {next.collider_motions, 0, bytes_of(motions)},
-        {next.deforming_positions, kept_deforming * sizeof(glm::vec4),
+        {next[buffer::cloths], 0, bytes_of(s.model.records)},
+        {next[buffer::patches], 0, bytes_of(data.patches.patches)},
+        {next[buffer::mesh_vertices], 0, bytes_of(data.lists.vertices)},
+        {next[buffer::mesh_springs], 0, bytes_of(data.lists.springs)},
+        {next[buffer::mesh_corners], 0, bytes_of(data.lists.corners)},
+        {next[buffer::membrane_corners], 0, bytes_of(data.lists.membrane)},
+        {next[buffer::colliders], 0, bytes_of(s.model.colliders)},
+        {next[buffer::collider_motions], 0, bytes_of(motions)},
+        {next[buffer::deforming_positions], kept_deforming * sizeof(glm::vec4),
          bytes_of(s.model.deforming_positions, kept_deforming)},
-        {next.padded_leaves, 0, bytes_of(s.model.padded_leaves)},
-        {next.nodes, 0, bytes_of(s.model.nodes)},
-        {next.triangles, 0, bytes_of(s.model.triangles)},
-        {next.feature_sets, 0, bytes_of(data.features.sets)},
-        {next.feature_nodes, 0, bytes_of(data.features.nodes)},
-        {next.features, 0, bytes_of(data.features.features)},
-        {next.start, 0, bytes_of(s.model.start)},
-        {next.start_residuals, 0, bytes_of(s.model.residuals)},
-        {next.anchors, 0, bytes_of(anchors)},
-        {next.attachments, 0, bytes_of(s.attachment_lists.attachments)},
-        {next.tethers, 0, bytes_of(s.attachment_lists.tethers)},
-        {next.limit_scales, kept_scales, bytes_of(limit_scales)},
-        {next.state.positions, kept_bytes, bytes_of(s.model.positions, kept)},
-        {next.state.residuals, kept_residual_bytes, bytes_of(s.model.residuals, kept)},
-        {next.state.velocities, kept_bytes, bytes_of(s.model.velocities, kept)},
-        {next.normals, kept_bytes, bytes_of(up)},
-        {next.recovery_votes[0], kept_votes, bytes_of(no_votes)},
-        {next.recovery_votes[1], kept_votes, bytes_of(no_votes)},
+        {next[buffer::padded_leaves], 0, bytes_of(s.model.padded_leaves)},
+        {next[buffer::bvh_nodes], 0, bytes_of(s.model.nodes)},
+        {next[buffer::bvh_triangles], 0, bytes_of(s.model.triangles)},
+        {next[buffer::feature_sets], 0, bytes_of(data.features.sets)},
+        {next[buffer::feature_nodes], 0, bytes_of(data.features.nodes)},
+        {next[buffer::features], 0, bytes_of(data.features.features)},
+        {next[buffer::start], 0, bytes_of(s.model.start)},
+        {next[buffer::start_residuals], 0, bytes_of(s.model.residuals)},
+        {next[buffer::anchors], 0, bytes_of(anchors)},
+        {next[buffer::attachments], 0, bytes_of(s.attachment_lists.attachments)},
+        {next[buffer::tethers], 0, bytes_of(s.attachment_lists.tethers)},
+        {next[buffer::limit_scales], kept_scales, bytes_of(limit_scales)},
+        {next[buffer::positions], kept_bytes, bytes_of(s.model.positions, kept)},
+        {next[buffer::residuals], kept_residual_bytes, bytes_of(s.model.residuals, kept)},
+        {next[buffer::velocities], kept_bytes, bytes_of(s.model.velocities, kept)},
+        {next[buffer::normals], kept_bytes, bytes_of(up)},
+        {next[buffer::recovery_votes_a], kept_votes, bytes_of(no_votes)},
+        {next[buffer::recovery_votes_b], kept_votes, bytes_of(no_votes)},
     };
     for (const Staged& item : staged)
         if (auto result = uploader.stage(item.destination, item.offset, item.bytes); !result)
             return result.error();
     if (s.device)
     {
-        uploader.copy(s.device->state.positions, next.state.positions, kept_bytes);
-        uploader.copy(s.device->state.residuals, next.state.residuals, kept_residual_bytes);
-        uploader.copy(s.device->state.velocities, next.state.velocities, kept_bytes);
-        uploader.copy(s.device->normals, next.normals, kept_bytes);
-        uploader.copy(s.device->limit_scales, next.limit_scales, kept_scales);
+        uploader.copy((*s.device)[buffer::positions], next[buffer::positions], kept_bytes);
+        uploader.copy((*s.device)[buffer::residuals], next[buffer::residuals], kept_residual_bytes);
+        uploader.copy((*s.device)[buffer::velocities], next[buffer::velocities], kept_bytes);
+        uploader.copy((*s.device)[buffer::normals], next[buffer::normals], kept_bytes);
+        uploader.copy((*s.device)[buffer::limit_scales], next[buffer::limit_scales], kept_scales);
         for (size_t i = 0; i < 2; ++i)
-            uploader.copy(s.device->recovery_votes[i], next.recovery_votes[i], kept_votes);
-        uploader.copy(s.device->deforming_positions, next.deforming_positions, kept_deforming * sizeof(glm::vec4));
+            uploader.copy((*s.device)[k_recovery_votes[i]], next[k_recovery_votes[i]], kept_votes);
+        uploader.copy((*s.device)[buffer::deforming_positions], next[buffer::deforming_positions],
+                      kept_deforming * sizeof(glm::vec4));
     }
 
     Upload upload;
@@ -226,9 +227,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     gpu::Recorder recorder(s.context, cmd);
     forget_candidates(recorder, next);
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
-    clear_dispatch(recorder, next.feature_dispatch);
+    clear_dispatch(recorder, next[buffer::feature_dispatch].handle());
     for (size_t i = 0; i < 2; ++i)
-        clear_dispatch(recorder, next.depenetrations, recovery_word(i));
+        clear_dispatch(recorder, next[buffer::depenetrations].handle(), recovery_word(i));
     if (s.edits.attachments) // what is no longer held has its mass again
         for (uint32_t cloth = 0; s.device && cloth < s.device->cloth_count; ++cloth)
             s.edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, cloth});
@@ -240,8 +241,8 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     record_uploaded_boxes(recorder, s);
     upload.contents_->lifetime.end(cmd);
     s.lifetime.end(cmd);
-    s.normals_due = true;
-    s.recovery_due = true;
+    s.history.normals_due = true;
+    s.history.recovery_due = true;
     s.edits.attachments = s.edits.tethers = false;
     s.update_passes();
     return upload;

@@ -1,7 +1,9 @@
-// Kernel: a compute pipeline whose bindings are storage buffers 0..n-1 of descriptor set 0.
+// Kernel: a compute pipeline over storage buffers. Its bindings, push constants and specialization constants are those
+// that its SPIR-V declares.
 #pragma once
 
 #include "voile/gpu/buffer.hpp"
+#include "voile/gpu/shader_interface.hpp"
 
 #include <initializer_list>
 #include <span>
@@ -12,14 +14,19 @@ namespace voile::gpu
 
 struct KernelDescription
 {
-    const char* name = nullptr;           // label, pipeline name and timestamp name; a literal
-    std::span<const uint32_t> spirv;      // one compute entry point "main"
-    uint32_t buffers = 0;                 // storage buffers, bindings 0..buffers-1
-    uint32_t push_bytes = 0;              // size of the push-constant block, at most 128
-    std::vector<uint32_t> specialization; // constant_id 0 is the workgroup size in x by convention
+    const char* name = nullptr;      // label, pipeline name and timestamp name; a literal
+    std::span<const uint32_t> spirv; // one compute entry point "main"; its descriptors are storage buffers of set 0
+    // A value for each specialization constant of the shader, and for no other. Id 0 is the workgroup size in x by
+    // convention.
+    std::vector<SpecializationConstant> specialization;
 };
 
-// Errors: more push-constant bytes, a larger workgroup, more shared memory or more storage buffers than `limits` allow.
+// What the shader declares. Errors: a descriptor that is no storage buffer of set 0, a specialization constant that is
+// given no value or that the shader does not have; each names the kernel.
+Result<ShaderInterface> reflect(const KernelDescription& description);
+
+// Errors: those of reflect; more push-constant bytes, a larger workgroup, more shared memory or more storage buffers
+// than `limits` allow.
 Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description);
 
 class Kernel
@@ -37,7 +44,7 @@ public:
     [[nodiscard]] VkPipeline pipeline() const { return pipeline_; }
     [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_; }
-    [[nodiscard]] uint32_t buffers() const { return buffers_; }
+    [[nodiscard]] const std::vector<ShaderBinding>& bindings() const { return bindings_; } // ascending by number
     [[nodiscard]] uint32_t push_bytes() const { return push_bytes_; }
 
 private:
@@ -48,8 +55,15 @@ private:
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
-    uint32_t buffers_ = 0;
+    std::vector<ShaderBinding> bindings_;
     uint32_t push_bytes_ = 0;
+};
+
+// A buffer for the binding of that number, whole.
+struct BufferBinding
+{
+    uint32_t number = 0;
+    VkBuffer buffer = VK_NULL_HANDLE;
 };
 
 // Descriptor sets of one pool, written once when they are made.
@@ -63,9 +77,14 @@ public:
 
     static Result<BindingPool> create(const Context& context, uint32_t max_sets, uint32_t max_buffers);
 
-    // Binds `buffers` (one per binding, in order, whole) for `kernel`. The set lives as long as the pool. Error if the
-    // pool's sets or buffers are used up, even if the driver has more.
-    Result<VkDescriptorSet> bind(const Kernel& kernel, std::initializer_list<VkBuffer> buffers);
+    // A set for `kernel`, with one buffer for each of its bindings, in any order. The set lives as long as the pool.
+    // Errors, which name the kernel and the binding: a binding without a buffer or with two, a number that the kernel
+    // does not have. Error where the pool's sets or buffers are used up, whatever the driver has beyond them.
+    Result<VkDescriptorSet> bind(const Kernel& kernel, std::span<const BufferBinding> buffers);
+    Result<VkDescriptorSet> bind(const Kernel& kernel, std::initializer_list<BufferBinding> buffers)
+    {
+        return bind(kernel, std::span(buffers.begin(), buffers.size()));
+    }
 
 private:
     Context context_;

@@ -1,4 +1,5 @@
-// Recorder: records compute passes. A dispatch also records its barrier.
+// Recorder: where compute passes are recorded. The helper that dispatches owns the barrier. A dry recorder, which has
+// no command buffer, counts the dispatches of the same code.
 #pragma once
 
 #include "voile/gpu/kernel.hpp"
@@ -44,6 +45,9 @@ public:
     {
     }
 
+    // A dry recorder: it counts dispatches and records nothing.
+    explicit Recorder(const Context& context) : context_(context), dry_(true) {}
+
     void split_with(Split split, void* user)
     {
         split_ = split;
@@ -75,11 +79,18 @@ public:
         dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
     }
 
+    // Copies of the host's bytes, a multiple of 4, into a buffer. It may have any size: each command takes 64 KiB.
+    void update(VkBuffer buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
+    // Sets all words of a buffer.
+    void fill(VkBuffer buffer, uint32_t word);
+    void copy(VkBuffer source, VkBuffer destination, const VkBufferCopy& region);
+
     // A global memory barrier between two scopes.
     void barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
                  VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access);
 
-    [[nodiscard]] VkCommandBuffer cmd() const { return cmd_; }
+    [[nodiscard]] bool is_dry() const { return dry_; }
+    [[nodiscard]] VkCommandBuffer cmd() const { return cmd_; } // null if dry
     [[nodiscard]] Timestamps* timestamps() const { return timestamps_; }
     [[nodiscard]] const Context& context() const { return context_; }
     [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
@@ -91,8 +102,9 @@ private:
     void finish_dispatch(); // counts it and splits the command buffer
 
     const Context& context_;
-    VkCommandBuffer cmd_;
-    Timestamps* timestamps_;
+    VkCommandBuffer cmd_ = VK_NULL_HANDLE;
+    Timestamps* timestamps_ = nullptr;
+    bool dry_ = false;
     Split split_ = nullptr;
     void* split_user_ = nullptr;
     uint32_t dispatches_ = 0;

@@ -1,0 +1,80 @@
+// DescriptorSets: which buffer each binding of each kernel has.
+#pragma once
+
+#include "solver/kernels.hpp"
+
+#include "shared/bindings.h"
+
+#include <array>
+#include <vector>
+
+namespace voile
+{
+
+// The buffer of a role in one set.
+struct RoleBuffer
+{
+    binding::Name binding;
+    buffer::Name buffer;
+};
+
+// Buffers of each of a kernel's bindings, in their order: that of the role, or the buffer of the same name. Errors,
+// which name the kernel and the binding: a role without a buffer or with two, one that the kernel does not have, a
+// binding that buffers.h does not declare, entries of another type or size than declared.
+gpu::Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<const RoleBuffer> roles);
+
+struct DescriptorSets
+{
+    // What goes on from the state, and from stage B where contact leaves there what it changes.
+    std::array<std::array<VkDescriptorSet, 4>, 2> stages{};
+    VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
+    // Velocity Verlet goes from the state to stage B, with predictions in the velocities of stages A and C.
+    VkDescriptorSet verlet_first{};     // state to stage B: the velocities are those of the positions' time
+    VkDescriptorSet verlet_forth{};     // state to stage B
+    VkDescriptorSet verlet_back{};      // stage B to state
+    VkDescriptorSet verlet_last{};      // velocities of the state alone
+    VkDescriptorSet verlet_last_back{}; // stage B to state
+    VkDescriptorSet pins{};
+    std::array<VkDescriptorSet, 2> proposed_attachments{}; // of stage B, of the state
+    std::array<VkDescriptorSet, 2> proposed_tethers{};
+    VkDescriptorSet strain_first{};              // state to stage B
+    VkDescriptorSet strain_back{};               // stage B to stage A
+    VkDescriptorSet strain_forth{};              // stage A to stage B
+    std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
+    VkDescriptorSet limit_scale{};
+    VkDescriptorSet limit_guard{};
+    VkDescriptorSet edit{};
+    std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
+    VkDescriptorSet collider_reach{};
+    VkDescriptorSet feature_reach{};
+    // Corrections of stage B, of the state; with the votes of an even step, of an odd one.
+    std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
+    std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
+    VkDescriptorSet deform{};
+    VkDescriptorSet refit{};
+    VkDescriptorSet normals{};
+    VkDescriptorSet statistics{};
+    VkDescriptorSet statistics_reduce{};
+};
+
+// A set that is to be written, and its roles.
+struct SetDescription
+{
+    VkDescriptorSet* set;
+    const gpu::Kernel* kernel;
+    std::vector<RoleBuffer> roles;
+};
+
+// All of them, which point into `sets` and `kernels`.
+std::vector<SetDescription> describe_sets(DescriptorSets& sets, const Kernels& kernels);
+
+// That every set can be resolved. Errors: see resolve.
+gpu::Result<void> check_sets(const Kernels& kernels);
+
+using BufferHandles = std::array<VkBuffer, buffer::k_numbers>; // by name
+
+// Writes all sets, from a pool of their size. Errors: see resolve; out of memory.
+gpu::Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
+                                         const BufferHandles& buffers);
+
+} // namespace voile

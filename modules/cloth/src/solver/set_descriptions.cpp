@@ -1,0 +1,249 @@
+// describe_sets: the roles of every set.
+#include "solver/descriptor_sets.hpp"
+#include "solver/state_buffers.hpp"
+
+namespace voile
+{
+
+namespace
+{
+
+// Where a substep that begins in the state, or one that begins in stage B, leaves what it proposes.
+struct Proposal
+{
+    StateBuffers earlier;
+    StateBuffers proposed;
+    buffer::Name earlier_predicted; // Verlet's
+    buffer::Name predicted;
+};
+
+constexpr Proposal k_proposals[] = {
+    {k_state, k_stage_b, buffer::stage_a_velocities, buffer::stage_c_velocities},
+    {k_stage_b, k_state, buffer::stage_c_velocities, buffer::stage_a_velocities},
+};
+
+class Describer
+{
+public:
+    Describer(DescriptorSets& sets, const Kernels& kernels) : sets_(sets), kernels_(kernels) {}
+
+    std::vector<SetDescription> describe();
+
+private:
+    void add(VkDescriptorSet& set, const gpu::Kernel& kernel, std::initializer_list<RoleBuffer> roles = {})
+    {
+        descriptions_.push_back({&set, &kernel, roles});
+    }
+
+    void add_stage(VkDescriptorSet& set, const StateBuffers& base, const StateBuffers& third, const StateBuffers& input,
+                   const StateBuffers& output);
+    void add_stages();
+    void add_verlet();
+    void add_attachments();
+    void add_strain_limit();
+    void add_limit_work(VkDescriptorSet& set, buffer::Name works, const StateBuffers& here, const StateBuffers& before,
+                        const StateBuffers& after);
+    void add_limit_guard();
+    void add_contact();
+    void add_recovery();
+
+    DescriptorSets& sets_;
+    const Kernels& kernels_;
+    std::vector<SetDescription> descriptions_;
+};
+
+void Describer::add_stage(VkDescriptorSet& set, const StateBuffers& base, const StateBuffers& third,
+                          const StateBuffers& input, const StateBuffers& output)
+{
+    add(set, kernels_.stage,
+        {{binding::base_positions, base.positions},
+         {binding::base_residuals, base.residuals},
+         {binding::base_velocities, base.velocities},
+         {binding::stage_positions, input.positions},
+         {binding::stage_residuals, input.residuals},
+         {binding::stage_velocities, input.velocities},
+         {binding::next_positions, output.positions},
+         {binding::next_residuals, output.residuals},
+         {binding::next_velocities, output.velocities},
+         {binding::second_velocities, k_stage_a.velocities},
+         {binding::third_velocities, third.velocities}});
+}
+
+void Describer::add_stages()
+{
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const auto& [base, other, base_predicted, predicted] = k_proposals[parity];
+        add_stage(sets_.stages[parity][0], base, other, base, k_stage_a);
+        add_stage(sets_.stages[parity][1], base, other, k_stage_a, other);
+        add_stage(sets_.stages[parity][2], base, other, other, k_stage_c);
+        add_stage(sets_.stages[parity][3], base, other, k_stage_c, other);
+    }
+    add_stage(sets_.last_stage_alone, k_state, k_stage_b, k_stage_c, k_state);
+}
+
+void Describer::add_verlet()
+{
+    // Of a Verlet cloth: positions, velocities at their time or predicted for it, velocities half a substep before.
+    struct Motion
+    {
+        buffer::Name positions;
+        buffer::Name residuals;
+        buffer::Name predicted;
+        buffer::Name velocities;
+    };
+    const auto add_set = [&](VkDescriptorSet& set, const Motion& input, const Motion& output)
+    {
+        add(set, kernels_.verlet,
+            {{binding::stage_positions, input.positions},
+             {binding::stage_residuals, input.residuals},
+             {binding::stage_velocities, input.predicted},
+             {binding::half_step_velocities, input.velocities},
+             {binding::next_positions, output.positions},
+             {binding::next_residuals, output.residuals},
+             {binding::next_velocities, output.velocities},
+             {binding::next_predicted, output.predicted}});
+    };
+    constexpr Motion k_start{k_state.positions, k_state.residuals, k_state.velocities, k_state.velocities};
+    constexpr Motion k_here{k_state.positions, k_state.residuals, k_stage_a.velocities, k_state.velocities};
+    constexpr Motion k_there{k_stage_b.positions, k_stage_b.residuals, k_stage_c.velocities, k_stage_b.velocities};
+    // The last kick leaves positions alone; what it would write of them goes where nobody reads it.
+    constexpr Motion k_end{k_stage_b.positions, k_stage_b.residuals, k_stage_c.velocities, k_state.velocities};
+    add_set(sets_.verlet_first, k_start, k_there);
+    add_set(sets_.verlet_forth, k_here, k_there);
+    add_set(sets_.verlet_back, k_there, k_here);
+    add_set(sets_.verlet_last, k_here, k_end);
+    add_set(sets_.verlet_last_back, k_there, k_here);
+}
+
+// What acts on the state between steps, and on the state that a substep proposes.
+void Describer::add_attachments()
+{
+    add(sets_.pins, kernels_.pins);
+    add(sets_.edit, kernels_.edit);
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const auto& [earlier, proposed, earlier_predicted, predicted] = k_proposals[parity];
+        add(sets_.proposed_attachments[parity], kernels_.attachments,
+            {{binding::proposed_positions, proposed.positions},
+             {binding::proposed_residuals, proposed.residuals},
+             {binding::proposed_velocities, proposed.velocities},
+             {binding::proposed_predicted, predicted}});
+        add(sets_.proposed_tethers[parity], kernels_.tethers,
+            {{binding::proposed_positions, proposed.positions},
+             {binding::proposed_residuals, proposed.residuals},
+             {binding::proposed_velocities, proposed.velocities},
+             {binding::proposed_predicted, predicted},
+             {binding::earlier_positions, earlier.positions}});
+    }
+}
+
+void Describer::add_strain_limit()
+{
+    const auto add_set = [&](VkDescriptorSet& set, const StateBuffers& input, const StateBuffers& output)
+    {
+        add(set, kernels_.limit_strain,
+            {{binding::stage_positions, input.positions},
+             {binding::stage_residuals, input.residuals},
+             {binding::stage_velocities, input.velocities},
+             {binding::next_positions, output.positions},
+             {binding::next_residuals, output.residuals},
+             {binding::next_velocities, output.velocities},
+             {binding::step_positions, k_state.positions},
+             {binding::step_velocities, k_state.velocities}});
+    };
+    add_set(sets_.strain_first, k_state, k_stage_b);
+    add_set(sets_.strain_back, k_stage_b, k_stage_a);
+    add_set(sets_.strain_forth, k_stage_a, k_stage_b);
+}
+
+void Describer::add_limit_work(VkDescriptorSet& set, buffer::Name works, const StateBuffers& here,
+                               const StateBuffers& before, const StateBuffers& after)
+{
+    add(set, kernels_.limit_work,
+        {{binding::stage_positions, here.positions},
+         {binding::stage_residuals, here.residuals},
+         {binding::stage_velocities, here.velocities},
+         {binding::before_positions, before.positions},
+         {binding::before_residuals, before.residuals},
+         {binding::before_velocities, before.velocities},
+         {binding::after_positions, after.positions},
+         {binding::after_residuals, after.residuals},
+         {binding::after_velocities, after.velocities},
+         {binding::works, works}});
+}
+
+void Describer::add_limit_guard()
+{
+    auto& works = sets_.limit_work;
+    add_limit_work(works[0], buffer::step_works_first, k_step_start, k_step_start, k_before_limit);
+    add_limit_work(works[1], buffer::step_works_last, k_before_limit, k_step_start, k_before_limit);
+    add_limit_work(works[2], buffer::limit_works_before, k_before_limit, k_before_limit, k_state);
+    add_limit_work(works[3], buffer::limit_works_after, k_state, k_before_limit, k_state);
+    add(sets_.limit_scale, kernels_.limit_scale);
+    add(sets_.limit_guard, kernels_.limit_guard,
+        {{binding::before_positions, k_before_limit.positions},
+         {binding::before_residuals, k_before_limit.residuals},
+         {binding::before_velocities, k_before_limit.velocities}});
+}
+
+void Describer::add_contact()
+{
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const auto& [earlier, proposed, earlier_predicted, predicted] = k_proposals[parity];
+        add(sets_.contact[parity], kernels_.contact,
+            {{binding::proposed_positions, proposed.positions},
+             {binding::proposed_residuals, proposed.residuals},
+             {binding::proposed_velocities, proposed.velocities},
+             {binding::proposed_predicted, predicted},
+             {binding::earlier_positions, earlier.positions},
+             {binding::earlier_residuals, earlier.residuals},
+             {binding::earlier_velocities, earlier.velocities},
+             {binding::earlier_predicted, earlier_predicted}});
+        for (size_t votes = 0; votes < 2; ++votes)
+            add(sets_.feature_contact[parity][votes], kernels_.feature_contact,
+                {{binding::proposed_positions, proposed.positions},
+                 {binding::proposed_residuals, proposed.residuals},
+                 {binding::proposed_velocities, proposed.velocities},
+                 {binding::proposed_predicted, predicted},
+                 {binding::earlier_positions, earlier.positions},
+                 {binding::earlier_residuals, earlier.residuals},
+                 {binding::step_votes, k_recovery_votes[votes]}});
+    }
+    add(sets_.feature_reach, kernels_.feature_reach);
+    add(sets_.collider_reach, kernels_.collider_reach);
+}
+
+void Describer::add_recovery()
+{
+    for (size_t i = 0; i < 2; ++i)
+        add(sets_.recover[i], kernels_.recover,
+            {{binding::next_votes, k_recovery_votes[i]}, {binding::last_votes, k_recovery_votes[1 - i]}});
+}
+
+std::vector<SetDescription> Describer::describe()
+{
+    add_stages();
+    add_verlet();
+    add_attachments();
+    add_strain_limit();
+    add_limit_guard();
+    add_contact();
+    add_recovery();
+    add(sets_.deform, kernels_.deform);
+    add(sets_.refit, kernels_.refit.leaves);
+    add(sets_.normals, kernels_.normals);
+    add(sets_.statistics, kernels_.statistics);
+    add(sets_.statistics_reduce, kernels_.statistics_reduce);
+    return std::move(descriptions_);
+}
+
+} // namespace
+
+std::vector<SetDescription> describe_sets(DescriptorSets& sets, const Kernels& kernels)
+{
+    return Describer(sets, kernels).describe();
+}
+
+} // namespace voile

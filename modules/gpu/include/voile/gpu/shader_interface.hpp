@@ -1,0 +1,51 @@
+// ShaderInterface: what a compute shader binds and takes, read from its SPIR-V.
+#pragma once
+
+#include "voile/gpu/result.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voile::gpu
+{
+
+// A storage buffer of descriptor set 0.
+struct ShaderBinding
+{
+    uint32_t number = 0;
+    std::string name;     // of its block; empty where names were stripped
+    bool read = false;    // as declared: a "writeonly" buffer is not read,
+    bool written = false; // and a "readonly" one is not written
+    uint32_t stride = 0;  // bytes per entry of the array that it ends with; 0: it ends with none
+};
+
+struct ShaderConstant
+{
+    uint32_t id = 0;
+    std::string name; // empty where names were stripped
+};
+
+// The value of a specialization constant.
+struct SpecializationConstant
+{
+    uint32_t id = 0;
+    uint32_t value = 0;
+};
+
+struct ShaderInterface
+{
+    std::vector<ShaderBinding> bindings;   // ascending by number
+    std::vector<ShaderConstant> constants; // the specialization constants, ascending by id
+    uint32_t push_bytes = 0;               // size of the push-constant block; 0: none
+    uint64_t shared_bytes = 0; // of all variables of a workgroup, each as std430 lays it out: what an implementation
+                               // takes, or a little more
+};
+
+// `spirv` must be valid. `specialization` decides the sizes of shared arrays. Names serve messages alone: everything
+// else survives their removal. Errors: a descriptor that is no storage buffer of set 0.
+Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
+                                std::span<const SpecializationConstant> specialization);
+
+} // namespace voile::gpu

@@ -1,0 +1,137 @@
+// The storage buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
+// allocates and binds it by its name, and docs/buffers.md lists who reads and writes it.
+//
+// VOILE_BUFFER(number, name, entry, count, meaning): what a solver allocates at each upload. `count` is an expression
+// over BufferCounts (device_state.cpp). A kernel that declares a binding of that name gets the buffer.
+// VOILE_SOLVER_BUFFER(number, name, entry, meaning): what outlives uploads.
+// VOILE_ROLE(number, name, entry, meaning): what a kernel calls a buffer that changes from set to set. Each set says
+// which (descriptor_sets.cpp).
+//
+// Numbers are unique; those of roles begin at buffer::k_numbers. A new line takes the next free number.
+
+#ifndef VOILE_BUFFER
+#define VOILE_BUFFER(number, name, entry, count, meaning)
+#endif
+#ifndef VOILE_SOLVER_BUFFER
+#define VOILE_SOLVER_BUFFER(number, name, entry, meaning)
+#endif
+#ifndef VOILE_ROLE
+#define VOILE_ROLE(number, name, entry, meaning)
+#endif
+
+// clang-format off
+
+// Cloths.
+VOILE_BUFFER(0, cloths, ClothRecord, cloths, "size, springs, bounds, friction, drag of a cloth")
+VOILE_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, what kernels need of their cloth, whether it is near features")
+VOILE_BUFFER(2, mesh_vertices, MeshVertex, lists.vertices.size(), "where the lists of a mesh vertex begin")
+VOILE_BUFFER(3, mesh_springs, MeshSpring, lists.springs.size(), "springs of mesh vertices, the lists of a workgroup interleaved")
+VOILE_BUFFER(4, mesh_corners, MeshCorner, lists.corners.size(), "triangles around mesh vertices, interleaved like springs")
+VOILE_BUFFER(5, membrane_corners, MembraneCorner, lists.membrane.size(), "the same triangles at rest, in warp and weft")
+VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of what the density multiplies")
+VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start position")
+VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
+
+// The state between steps.
+VOILE_BUFFER(9, positions, vec4, vertices, "position and inverse mass; the host draws from it")
+VOILE_BUFFER(10, residuals, uvec2, vertices, "what the floats of the position do not hold, in 40 bits (fine_position.glsl)")
+VOILE_BUFFER(11, velocities, vec4, vertices, "velocity and flags (VOILE_VERTEX_*); the host draws from it")
+
+// Stages of the integrators. Under Verlet the velocities of A and C are the predicted ones of the state and of stage B.
+VOILE_BUFFER(12, stage_a_positions, vec4, vertices, "RK4 stage 1, passes of the strain limit, the state before its guard")
+VOILE_BUFFER(13, stage_a_residuals, uvec2, vertices, "residuals of stage A")
+VOILE_BUFFER(14, stage_a_velocities, vec4, vertices, "RK4 stage 1, passes of the strain limit; velocities that Verlet predicts for the state")
+VOILE_BUFFER(15, stage_b_positions, vec4, vertices, "RK4 stages 2 and 4, Verlet: the positions that a substep proposes")
+VOILE_BUFFER(16, stage_b_residuals, uvec2, vertices, "residuals of stage B")
+VOILE_BUFFER(17, stage_b_velocities, vec4, vertices, "RK4 stages 2 and 4, Verlet: the velocities that a substep proposes")
+VOILE_BUFFER(18, stage_c_positions, vec4, vertices, "RK4 stage 3; velocities before the guard of the strain limit")
+VOILE_BUFFER(19, stage_c_residuals, uvec2, vertices, "residuals of stage C")
+VOILE_BUFFER(20, stage_c_velocities, vec4, vertices, "RK4 stage 3; velocities that Verlet predicts for stage B")
+
+// Attachments.
+VOILE_BUFFER(21, anchors, AnchorRecord, anchors, "the pose of an anchor at the step's start and end")
+VOILE_BUFFER(22, attachments, AttachmentRecord, attachments, "an attached vertex; pins come first")
+VOILE_BUFFER(23, tethers, TetherRecord, tethers, "the tethers of a vertex")
+
+// Colliders.
+VOILE_BUFFER(24, colliders, ColliderRecord, colliders, "a collider where it was added, and its origin")
+VOILE_BUFFER(25, collider_motions, ColliderMotion, colliders, "its poses at the step's start and end")
+VOILE_BUFFER(26, bvh_nodes, BvhNode, model.nodes.size(), "hierarchies of rigid meshes")
+VOILE_BUFFER(27, bvh_triangles, BvhTriangle, model.triangles.size(), "their triangles, in leaf order")
+VOILE_BUFFER(28, deforming_input, float, deforming_vertices * k_most_stride / sizeof(float), "vertices of deforming meshes as the host gives them, up to 64 bytes per vertex")
+VOILE_BUFFER(29, deforming_positions, vec4, 2 * deforming_vertices, "vertices of deforming meshes, twice: where the step starts, where it ends")
+VOILE_BUFFER(30, padded_leaves, PaddedLeaf, model.padded_leaves.size(), "triangles of deforming meshes")
+VOILE_BUFFER(31, padded_boxes, PaddedBox, model.padded_boxes, "boxes of their hierarchies, level by level")
+VOILE_BUFFER(32, near_colliders, uint, patches * near_stride, "per patch the box in which its list holds, the first and the last word that is not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
+
+// Contact.
+VOILE_BUFFER(33, candidate_places, vec4, vertices, "where the list of triangles near a vertex holds")
+VOILE_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list: its length, two radii, the triangles")
+VOILE_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that it is inside of, and the velocity at which it leaves")
+VOILE_BUFFER(36, recovery_votes_a, uint, cloths * VOILE_VOTE_WORDS, "of even steps, per cloth: on which side of its normals it leaves colliders, the sum of all directions, which colliders (VOILE_VOTE_*)")
+VOILE_BUFFER(37, recovery_votes_b, uint, cloths * VOILE_VOTE_WORDS, "the same of odd steps")
+VOILE_BUFFER(38, feature_sets, FeatureSet, features.sets.size(), "the feature edges and vertices of a collider")
+VOILE_BUFFER(39, feature_nodes, BvhNode, features.nodes.size(), "hierarchies of features")
+VOILE_BUFFER(40, features, Feature, features.features.size(), "a feature edge or vertex, and where it faces")
+VOILE_BUFFER(41, feature_corrections, FeatureCorrection, features.features.empty() ? 0 : vertices, "a shift, a change of velocity, and the substep in which they hold")
+VOILE_BUFFER(42, feature_patches, uint, patches, "the patches that come near features")
+VOILE_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over these patches, cleared before they are written")
+
+// Strain limit.
+VOILE_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")
+VOILE_BUFFER(45, step_start_residuals, uvec2, vertices, "residuals at the start of the step")
+VOILE_BUFFER(46, step_start_velocities, vec4, vertices, "velocities at the start of the step")
+VOILE_BUFFER(47, step_works_first, LimitWork, patches, "energy and work of the step, at its start")
+VOILE_BUFFER(48, step_works_last, LimitWork, patches, "energy and work of the step, at its end")
+VOILE_BUFFER(49, limit_works_before, LimitWork, patches, "energy and work of the limit, before it")
+VOILE_BUFFER(50, limit_works_after, LimitWork, patches, "energy and work of the limit, after it")
+VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "what a cloth keeps of the limit's changes, and its reserve of energy")
+
+// Statistics.
+VOILE_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
+VOILE_SOLVER_BUFFER(53, statistics, StatisticsRecord, "statistics of all cloths, one record per slot; the host reads it")
+
+// Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
+VOILE_ROLE(64, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")
+VOILE_ROLE(65, base_residuals, uvec2, "RK4: the residuals before the substep")
+VOILE_ROLE(66, base_velocities, vec4, "RK4: the velocities before the substep")
+VOILE_ROLE(67, stage_positions, vec4, "the positions that the pass starts from")
+VOILE_ROLE(68, stage_residuals, uvec2, "the residuals that the pass starts from")
+VOILE_ROLE(69, stage_velocities, vec4, "the velocities that the pass starts from; under Verlet those predicted for the time of the positions")
+VOILE_ROLE(70, half_step_velocities, vec4, "Verlet: the velocities, half a substep before the positions")
+VOILE_ROLE(71, next_positions, vec4, "the positions that the pass writes")
+VOILE_ROLE(72, next_residuals, uvec2, "the residuals that the pass writes")
+VOILE_ROLE(73, next_velocities, vec4, "the velocities that the pass writes")
+VOILE_ROLE(74, next_predicted, vec4, "Verlet: the velocities predicted for the next substep")
+VOILE_ROLE(75, second_velocities, vec4, "RK4: the velocities of stage 2")
+VOILE_ROLE(76, third_velocities, vec4, "RK4: the velocities of stage 3")
+
+// What a substep proposes, and the state before it, where contact leaves its result unless it works in place.
+VOILE_ROLE(77, proposed_positions, vec4, "the positions that integration proposes")
+VOILE_ROLE(78, proposed_residuals, uvec2, "the residuals that integration proposes")
+VOILE_ROLE(79, proposed_velocities, vec4, "the velocities that integration proposes")
+VOILE_ROLE(80, proposed_predicted, vec4, "Verlet: the velocities predicted for the proposed positions")
+VOILE_ROLE(81, earlier_positions, vec4, "the positions before the substep")
+VOILE_ROLE(82, earlier_residuals, uvec2, "the residuals before the substep")
+VOILE_ROLE(83, earlier_velocities, vec4, "the velocities before the substep")
+VOILE_ROLE(84, earlier_predicted, vec4, "Verlet: the velocities predicted for the earlier positions")
+VOILE_ROLE(85, step_votes, uint, "votes of this step's recovery")
+VOILE_ROLE(86, last_votes, uint, "votes of the last step's recovery")
+VOILE_ROLE(87, next_votes, uint, "votes that recovery casts")
+
+// The strain limit: the states before and after what is measured.
+VOILE_ROLE(88, step_positions, vec4, "the positions that the strain limit starts from")
+VOILE_ROLE(89, step_velocities, vec4, "the velocities that the strain limit starts from")
+VOILE_ROLE(90, before_positions, vec4, "the positions before the change that is measured")
+VOILE_ROLE(91, before_residuals, uvec2, "the residuals before the change that is measured")
+VOILE_ROLE(92, before_velocities, vec4, "the velocities before the change that is measured")
+VOILE_ROLE(93, after_positions, vec4, "the positions after the change that is measured")
+VOILE_ROLE(94, after_residuals, uvec2, "the residuals after the change that is measured")
+VOILE_ROLE(95, after_velocities, vec4, "the velocities after the change that is measured")
+VOILE_ROLE(96, works, LimitWork, "the energy and work that is measured")
+
+// clang-format on
+
+#undef VOILE_BUFFER
+#undef VOILE_SOLVER_BUFFER
+#undef VOILE_ROLE
