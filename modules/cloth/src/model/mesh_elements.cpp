@@ -1,6 +1,8 @@
 // Springs and hinges of a mesh, and the softening of what its slivers have too stiff.
 #include "model/mesh_elements.hpp"
 
+#include "geometry/counting_sort.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,34 +59,6 @@ Hinge make_hinge(std::span<const glm::dvec3> positions, const MeshSide& first, c
     return hinge;
 }
 
-// A hinge as one of its triangles has it.
-struct TriangleHinge
-{
-    const Hinge* hinge;
-    int side;
-};
-
-// The isometric model of one triangle. Its curvature is S = sum over its hinges of (fold / 2A) m m^T, m the side's
-// normal in the plane (Grinspun et al. 2006, "Computing discrete shape operators on general meshes", equation 2 with
-// the angle shared by both triangles), its energy 1/2 B A |S|^2: a quadratic form with constant coefficients, as in
-// Bergou et al. 2006. Their own sum over hinges alone resists a bend across the strip less where the strip is bent
-// along (a Poisson ratio of -1/3, which lets a narrow cantilever hang 12 % too low); this one is exact for every state
-// of constant curvature.
-void add_bending(std::span<const TriangleHinge> triangle, std::vector<BendingEntry>& entries)
-{
-    for (const auto& [hinge, side] : triangle)
-        for (const auto& [other, other_side] : triangle)
-        {
-            const double cosine = glm::dot(hinge->normal[side], other->normal[other_side]);
-            const double scale = cosine * cosine / (4 * hinge->areas[side]);
-            for (int i = 0; i < 4; ++i)
-                for (int j = 0; j < 4; ++j)
-                    if (hinge->corner[i] != other->corner[j]) // each pair comes twice, once either way round
-                        entries.push_back(
-                            {hinge->corner[i], other->corner[j], 0.5 * scale * hinge->factor[i] * other->factor[j]});
-        }
-}
-
 // Stiffness over the mass of the lighter end.
 double rate_of(const ElementSpring& spring, std::span<const double> areas)
 {
@@ -109,9 +83,14 @@ double largest_rate(std::vector<double> rates, double ahead)
     const size_t few = std::max(rates.size() / 100, std::min(rates.size() / 20, k_few));
     if (few < k_fewest)
         return std::numeric_limits<double>::max();
-    std::sort(rates.begin(), rates.end());
-    const double bound = ahead * rates[rates.size() - 1 - few];
-    return *(std::upper_bound(rates.begin(), rates.end(), bound) - 1);
+    const auto last = rates.end() - 1 - static_cast<std::ptrdiff_t>(few);
+    std::nth_element(rates.begin(), last, rates.end());
+    const double bound = ahead * *last;
+    double largest = *last;
+    for (auto rate = last; rate != rates.end(); ++rate) // the others are at most *last
+        if (*rate <= bound)
+            largest = std::max(largest, *rate);
+    return largest;
 }
 
 // Likewise, of the corner where it is largest: what the fold alone has of the row sums of the bending form.
@@ -197,8 +176,9 @@ std::vector<MeshSide> sides_of(std::span<const glm::dvec3> positions, std::span<
             sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], triangle, corner, area});
         }
     }
-    std::stable_sort(sides.begin(), sides.end(),
-                     [](const MeshSide& l, const MeshSide& r) { return l.key() < r.key(); });
+    sort_by_two_keys(
+        sides, positions.size(), [](const MeshSide& side) { return side.a; },
+        [](const MeshSide& side) { return side.b; });
     return sides;
 }
 
@@ -220,18 +200,6 @@ void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> s
             elements.hinges.push_back(make_hinge(positions, sides[i], sides[j]));
             elements.hinges.back().edge = index;
         }
-}
-
-std::vector<BendingEntry> bending_of(const MeshElements& elements, size_t triangles)
-{
-    std::vector<std::vector<TriangleHinge>> hinges(triangles);
-    for (const Hinge& hinge : elements.hinges)
-        for (int side = 0; side < 2; ++side)
-            hinges[hinge.triangle[side]].push_back({&hinge, side});
-    std::vector<BendingEntry> entries;
-    for (const std::vector<TriangleHinge>& triangle : hinges)
-        add_bending(triangle, entries);
-    return entries;
 }
 
 uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool masses_alike)

@@ -61,17 +61,6 @@ struct MeshElements
 // The springs and folds of an edge, given all of its sides; it is noted with the triangles, if there are any.
 void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> sides, MeshElements& elements);
 
-// What one triangle adds to the bending form.
-struct BendingEntry
-{
-    uint32_t a;
-    uint32_t b;
-    double value;
-};
-
-// The isometric model, triangle by triangle.
-std::vector<BendingEntry> bending_of(const MeshElements& elements, size_t triangles);
-
 // Slivers: a triangle of next to no height has edges between vertices that weigh next to nothing, or shorter than all
 // others, and folds that turn over when a vertex moves by its height. One of them would set the substeps of the whole
 // cloth. Here what is by far stiffer against the mass it moves than nearly all others of its kind is softened to the

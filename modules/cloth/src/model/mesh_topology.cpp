@@ -3,13 +3,13 @@
 
 #include "geometry/closedness.hpp"
 #include "model/mesh_elements.hpp"
+#include "model/mesh_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace voile
 {
@@ -25,60 +25,22 @@ bool degenerate(std::span<const glm::dvec3> x, const glm::uvec3& t)
     return triangle_area(x, t) <= 1e-6 * longest * longest;
 }
 
-// What a pair of vertices has: a spring along an edge or across one, the isometric model's coefficient, or both.
-struct Pair
-{
-    uint32_t a;
-    uint32_t b;
-    double edge;     // weight of the spring along the edge between them; 0: none
-    double opposite; // weight of the spring across an edge; 0: none
-    double bending;
-};
-
-// Every pair of vertices once, its weights and coefficients summed up.
-std::vector<Pair> merged(std::vector<Pair> pairs)
-{
-    for (Pair& pair : pairs)
-        if (pair.a > pair.b)
-            std::swap(pair.a, pair.b);
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& l, const Pair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
-    std::vector<Pair> result;
-    for (const Pair& pair : pairs)
-    {
-        if (!result.empty() && result.back().a == pair.a && result.back().b == pair.b)
-        {
-            result.back().edge += pair.edge;
-            result.back().opposite += pair.opposite;
-            result.back().bending += pair.bending;
-        }
-        else
-            result.push_back(pair);
-    }
-    return result;
-}
-
-// The entries of a pair at the list of `other`: one, or two where an edge's ends are opposite to another edge as well.
-std::vector<shared::MeshSpring> entries_of(const Pair& pair, uint32_t other, float rest_length)
-{
-    std::vector<shared::MeshSpring> entries;
-    if (pair.edge > 0)
-        entries.push_back({other, rest_length, static_cast<float>(pair.edge), static_cast<float>(pair.bending)});
-    if (pair.opposite > 0 || pair.edge == 0)
-        entries.push_back({other | VOILE_OPPOSITE_BIT, rest_length, static_cast<float>(pair.opposite),
-                           pair.edge > 0 ? 0 : static_cast<float>(pair.bending)});
-    return entries;
-}
-
 // `fabric`: of the membrane; none: springs along the edges.
 MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                          const FabricCoordinates* fabric, MeshReport& report)
 {
     const std::vector<MeshSide> sides = sides_of(positions, triangles);
     MeshElements elements;
+    const size_t pairs_of_sides = sides.size() / 2; // as many edges and folds as a closed surface has, or so
+    elements.edges.reserve(pairs_of_sides + pairs_of_sides / 16);
+    elements.opposites.reserve(pairs_of_sides);
+    elements.hinges.reserve(pairs_of_sides);
     if (fabric)
+    {
+        elements.triangles.reserve(triangles.size());
         for (const glm::uvec3& t : triangles)
             elements.triangles.push_back(make_membrane_triangle(positions, t, *fabric));
+    }
     for (size_t first = 0; first < sides.size();)
     {
         size_t last = first + 1;
@@ -92,20 +54,6 @@ MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const 
         first = last;
     }
     return elements;
-}
-
-// `triangles`: that bend by the isometric model.
-std::vector<Pair> pairs_of(const MeshElements& elements, size_t triangles)
-{
-    std::vector<Pair> pairs;
-    for (const ElementSpring& spring : elements.edges)
-        pairs.push_back({spring.a, spring.b, spring.weight, 0, 0});
-    for (const ElementSpring& spring : elements.opposites)
-        pairs.push_back({spring.a, spring.b, 0, spring.weight, 0});
-    if (triangles > 0)
-        for (const BendingEntry& entry : bending_of(elements, triangles))
-            pairs.push_back({entry.a, entry.b, 0, 0, entry.value});
-    return merged(std::move(pairs));
 }
 
 uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
@@ -131,38 +79,79 @@ uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles
     return components;
 }
 
-void fill_lists(MeshTopology& mesh, std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                std::span<const Pair> pairs)
+// The entries of a pair at the list of either end: one, or two where an edge's ends are opposite to another edge as
+// well.
+uint32_t entries_of(const PairSums& pair)
 {
-    std::vector<std::vector<shared::MeshSpring>> springs(mesh.vertices.size());
-    std::vector<std::vector<shared::MeshCorner>> corners(mesh.vertices.size());
-    std::vector<std::vector<shared::MembraneCorner>> membrane(mesh.vertices.size());
-    const auto put = [&](uint32_t vertex, uint32_t other, const Pair& pair)
+    return pair.edge > 0 && pair.opposite > 0 ? 2 : 1;
+}
+
+void add_entries(const PairSums& pair, uint32_t other, float rest_length, shared::MeshSpring* entry)
+{
+    if (pair.edge > 0)
+        *entry++ = {other, rest_length, static_cast<float>(pair.edge), static_cast<float>(pair.bending)};
+    if (pair.opposite > 0 || pair.edge == 0)
+        *entry = {other | VOILE_OPPOSITE_BIT, rest_length, static_cast<float>(pair.opposite),
+                  pair.edge > 0 ? 0 : static_cast<float>(pair.bending)};
+}
+
+// A vertex has its lower neighbors first.
+void fill_springs(MeshTopology& mesh, std::span<const glm::dvec3> positions, const MeshPairs& pairs)
+{
+    const auto visit = [&](auto&& each)
     {
-        for (const shared::MeshSpring& entry :
-             entries_of(pair, other, static_cast<float>(glm::distance(positions[pair.a], positions[pair.b]))))
-            springs[vertex].push_back(entry);
+        for (uint32_t a = 0; a < positions.size(); ++a)
+            for (uint32_t i = pairs.first[a]; i < pairs.first[a + 1]; ++i)
+                each(a, pairs.others[i], pairs.sums[i]);
     };
-    for (const Pair& pair : pairs) // sorted by a, then b: a vertex meets its smaller neighbors first
-        put(pair.b, pair.a, pair);
-    for (const Pair& pair : pairs)
-        put(pair.a, pair.b, pair);
+    visit(
+        [&](uint32_t a, uint32_t b, const PairSums& pair)
+        {
+            mesh.vertices[a].springs += entries_of(pair);
+            mesh.vertices[b].springs += entries_of(pair);
+        });
+    std::vector<uint32_t> next(positions.size());
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < positions.size(); ++i)
+    {
+        mesh.vertices[i].first_spring = next[i] = count;
+        count += mesh.vertices[i].springs;
+    }
+    mesh.springs.resize(count);
+    const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair, float length)
+    {
+        add_entries(pair, other, length, &mesh.springs[next[vertex]]);
+        next[vertex] += entries_of(pair);
+    };
+    const auto length_of = [&](uint32_t a, uint32_t b)
+    { return static_cast<float>(glm::distance(positions[a], positions[b])); };
+    visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(b, a, pair, length_of(a, b)); });
+    visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(a, b, pair, length_of(a, b)); });
+}
+
+void fill_corners(MeshTopology& mesh, std::span<const glm::uvec3> triangles)
+{
+    for (const glm::uvec3& t : triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            ++mesh.vertices[t[corner]].corners;
+    std::vector<uint32_t> next(mesh.vertices.size());
+    uint32_t count = 0;
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    {
+        mesh.vertices[i].first_corner = next[i] = count;
+        count += mesh.vertices[i].corners;
+    }
+    mesh.corners.resize(count);
+    mesh.membrane_corners.resize(count);
     for (size_t i = 0; i < triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
         {
             const glm::uvec3& t = triangles[i];
-            corners[t[corner]].push_back({t[(corner + 1) % 3], t[(corner + 2) % 3]});
-            membrane[t[corner]].push_back(mesh.membrane.empty() ? shared::MembraneCorner{}
-                                                                : make_membrane_corner(mesh.membrane[i], t[corner]));
+            const uint32_t entry = next[t[corner]]++;
+            mesh.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+            if (!mesh.membrane.empty())
+                mesh.membrane_corners[entry] = make_membrane_corner(mesh.membrane[i], t[corner]);
         }
-    for (size_t i = 0; i < mesh.vertices.size(); ++i)
-    {
-        mesh.vertices[i] = {static_cast<uint32_t>(mesh.springs.size()), static_cast<uint32_t>(springs[i].size()),
-                            static_cast<uint32_t>(mesh.corners.size()), static_cast<uint32_t>(corners[i].size())};
-        mesh.springs.insert(mesh.springs.end(), springs[i].begin(), springs[i].end());
-        mesh.corners.insert(mesh.corners.end(), corners[i].begin(), corners[i].end());
-        mesh.membrane_corners.insert(mesh.membrane_corners.end(), membrane[i].begin(), membrane[i].end());
-    }
 }
 
 // Bounds for every shape that the mesh can take (see grid_rates). A spring shares each of its ends with others: it may
@@ -220,6 +209,7 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
                                 const FabricCoordinates& fabric, bool isometric, bool masses_alike)
 {
     std::vector<glm::uvec3> solid;
+    solid.reserve(triangles.size());
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
                  [&](const glm::uvec3& t) { return !degenerate(positions, t); });
     MeshTopology mesh;
@@ -230,8 +220,11 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     mesh.vertices.resize(positions.size());
     mesh.areas.resize(positions.size());
     for (const glm::uvec3& t : solid)
+    {
+        const double third = triangle_area(positions, t) / 3;
         for (int corner = 0; corner < 3; ++corner)
-            mesh.areas[t[corner]] += triangle_area(positions, t) / 3;
+            mesh.areas[t[corner]] += third;
+    }
     for (const double area : mesh.areas)
     {
         mesh.report.isolated_vertices += area > 0 ? 0 : 1;
@@ -239,6 +232,7 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     }
     mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
     std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be one place to float
+    offsets.reserve(positions.size());
     for (const glm::dvec3& x : positions)
         offsets.emplace_back(x - positions.front());
     const std::vector<uint32_t> welded = weld(offsets);
@@ -247,9 +241,9 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
 
     MeshElements elements = elements_of(positions, solid, masses_alike ? nullptr : &fabric, mesh.report);
     mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
-    const std::vector<Pair> pairs = pairs_of(elements, isometric ? solid.size() : 0);
+    fill_springs(mesh, positions, make_pairs(elements, positions.size(), solid.size(), isometric));
     mesh.membrane = std::move(elements.triangles);
-    fill_lists(mesh, positions, solid, pairs);
+    fill_corners(mesh, solid);
     find_bounds(mesh);
     return mesh;
 }
