@@ -1,6 +1,6 @@
 // The cache of hierarchies: hits and misses, its size limit, and its use by several threads.
 #include "colliders/bvh_cache.hpp"
-#include "model/model.hpp"
+#include "colliders/collider_model.hpp"
 #include "support/bvh_checks.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
@@ -163,15 +163,16 @@ TEST_CASE("colliders of all solvers share one cache, and a changed vertex or sca
     const uint64_t before = cache.counts().builds;
     const auto builds = [&] { return cache.counts().builds - before; };
 
-    voile::Model one;
+    voile::ColliderModels one;
     REQUIRE(one.add(collider()));
     CHECK(builds() == 1);
     REQUIRE(one.add(collider()));
-    voile::Model other;
+    voile::ColliderModels other;
     REQUIRE(other.add(collider()));
     CHECK(builds() == 1);
     CHECK(one.colliders.size() == 2);
-    CHECK(one.nodes.size() == 2 * other.nodes.size());
+    CHECK(one.nodes == 2 * other.nodes);
+    CHECK(one.colliders[0].hierarchy == other.colliders[0].hierarchy);
 
     mesh.positions[7].x += 0.01f;
     REQUIRE(other.add(collider()));

@@ -1,5 +1,5 @@
 // The feature edges and feature vertices of colliders: exactly those that can protrude between the vertices of a cloth.
-#include "colliders/collider_features.hpp"
+#include "colliders/collider_model.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/hard_shapes.hpp"
@@ -38,9 +38,11 @@ Count count(const voile::engine::Mesh& mesh)
     voile::GridCloth sheet = tests::flat_sheet(21, std::numbers::sqrt2_v<float> / 2, 1);
     tests::fabric_of(sheet).thickness = k_thickness;
     REQUIRE(model.add(sheet));
-    REQUIRE(model.add(tests::collider(mesh)));
+    voile::ColliderModels colliders;
+    REQUIRE(colliders.add(tests::collider(mesh)));
+    voile::update_features(colliders, model);
     Count result;
-    for (const auto& feature : voile::find_features(model).features)
+    for (const auto& feature : colliders.colliders[0].features->features)
     {
         if (feature.a == feature.b)
             ++result.corners;

@@ -1,6 +1,7 @@
 // The features of all colliders: primitives, and the hierarchies over what there is.
 #include "colliders/collider_features.hpp"
 
+#include "colliders/collider_model.hpp"
 #include "colliders/mesh_features.hpp"
 #include "geometry/bvh.hpp"
 
@@ -13,20 +14,6 @@ namespace
 {
 
 using shared::Feature;
-
-float longest_edge(const Model& model, uint32_t index)
-{
-    const ClothModel& cloth = model.cloths[index];
-    if (!cloth.mesh)
-        return glm::length(cloth.spacing); // the diagonal of a cell, whose triangles have it as a side
-    float longest = 0;
-    const auto place = [&](uint32_t vertex)
-    { return glm::vec3(model.start[model.records[index].first_vertex + vertex]); };
-    for (const glm::uvec3& t : cloth.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            longest = std::max(longest, glm::distance(place(t[corner]), place(t[(corner + 1) % 3])));
-    return longest;
-}
 
 // Whether a chord between two vertices on something round of this radius sinks towards it by more than is allowed.
 bool is_thin(float radius, const FeatureScale& scale)
@@ -63,8 +50,9 @@ Feature round_feature(const glm::vec3& a, const glm::vec3& b, float radius)
     return {a, radius, b, -1, glm::vec3(0, 1, 0), 0};
 }
 
-std::vector<Feature> features_of(const Model& model, const shared::ColliderRecord& record, const FeatureScale& scale)
+std::vector<Feature> features_of(const ColliderModel& collider, const FeatureScale& scale)
 {
+    const shared::ColliderRecord& record = collider.record;
     if (scale.edge == 0)
         return {};
     const glm::vec3 end(record.shape); // of a capsule
@@ -72,7 +60,7 @@ std::vector<Feature> features_of(const Model& model, const shared::ColliderRecor
     switch (record.kind)
     {
     case VOILE_COLLIDER_MESH:
-        return mesh_features(model, record, scale);
+        return collider.hierarchy ? mesh_features(*collider.hierarchy, record.flags, scale) : std::vector<Feature>();
     case VOILE_COLLIDER_BOX:
         return box_features(record);
     case VOILE_COLLIDER_SPHERE:
@@ -89,19 +77,38 @@ std::vector<Feature> features_of(const Model& model, const shared::ColliderRecor
     }
 }
 
-// Appends them, ordered by the leaves of a hierarchy over their boxes.
-void append(FeatureLists& lists, const std::vector<Feature>& features, float edge)
+// The same mesh, seen alike.
+bool same_mesh(const ColliderModel& a, const ColliderModel& b)
 {
-    shared::FeatureSet set{};
-    set.edge = edge;
-    if (features.empty())
+    constexpr uint32_t k_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
+    return a.hierarchy && a.hierarchy == b.hierarchy && ((a.record.flags ^ b.record.flags) & k_flags) == 0;
+}
+
+} // namespace
+
+FeatureScale feature_scale(const Model& model, uint32_t layers)
+{
+    FeatureScale scale;
+    for (const ClothModel& cloth : model.cloths)
     {
-        lists.sets.push_back(set);
-        return;
+        if ((cloth.record.layers & layers) == 0)
+            continue;
+        const float thickness = cloth.record.thickness;
+        scale.thickness = scale.edge == 0 ? thickness : std::min(scale.thickness, thickness);
+        scale.edge = std::max(scale.edge, cloth.longest_edge);
     }
-    set.first_node = static_cast<uint32_t>(lists.nodes.size());
-    set.first_feature = static_cast<uint32_t>(lists.features.size());
-    set.features = static_cast<uint32_t>(features.size());
+    return scale;
+}
+
+ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale)
+{
+    ColliderFeatures result;
+    result.scale = scale;
+    result.set.edge = scale.edge;
+    const std::vector<Feature> features = features_of(collider, scale);
+    if (features.empty())
+        return result;
+    result.set.features = static_cast<uint32_t>(features.size());
     std::vector<glm::vec3> corners; // of triangles that have the boxes of the features
     std::vector<glm::uvec3> triangles;
     for (const Feature& feature : features)
@@ -111,41 +118,31 @@ void append(FeatureLists& lists, const std::vector<Feature>& features, float edg
         corners.push_back(glm::max(feature.a, feature.b) + feature.radius);
         triangles.emplace_back(first, first + 1, first + 1);
     }
-    const Bvh bvh = build_bvh(corners, triangles);
+    Bvh bvh = build_bvh(corners, triangles);
+    result.features.reserve(features.size()); // ordered by the leaves
     for (const shared::BvhTriangle& triangle : bvh.triangles)
-        lists.features.push_back(features[triangle.index]);
+        result.features.push_back(features[triangle.index]);
     const shared::BvhNode& root = bvh.nodes.front();
-    set.box_min = glm::min(root.left_min, root.right_min);
-    set.box_max = glm::max(root.left_max, root.right_max);
-    lists.nodes.insert(lists.nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
-    lists.sets.push_back(set);
+    result.set.box_min = glm::min(root.left_min, root.right_min);
+    result.set.box_max = glm::max(root.left_max, root.right_max);
+    result.nodes = std::move(bvh.nodes);
+    return result;
 }
 
-} // namespace
-
-FeatureScale feature_scale(const Model& model, uint32_t layers)
+void update_features(ColliderModels& colliders, const Model& model)
 {
-    FeatureScale scale;
-    for (uint32_t c = 0; c < model.records.size(); ++c)
+    for (ColliderModel& collider : colliders.colliders)
     {
-        if ((model.records[c].layers & layers) == 0)
+        const FeatureScale scale = feature_scale(model, collider.record.layers);
+        if (collider.features && collider.features->scale == scale)
             continue;
-        const float thickness = model.records[c].thickness;
-        scale.thickness = scale.edge == 0 ? thickness : std::min(scale.thickness, thickness);
-        scale.edge = std::max(scale.edge, longest_edge(model, c));
+        collider.features = nullptr;
+        for (const ColliderModel& other : colliders.colliders)
+            if (other.features && other.features->scale == scale && same_mesh(collider, other))
+                collider.features = other.features;
+        if (!collider.features)
+            collider.features = std::make_shared<const ColliderFeatures>(make_features(collider, scale));
     }
-    return scale;
-}
-
-FeatureLists find_features(const Model& model)
-{
-    FeatureLists lists;
-    for (const shared::ColliderRecord& record : model.colliders)
-    {
-        const FeatureScale scale = feature_scale(model, record.layers);
-        append(lists, features_of(model, record, scale), scale.edge);
-    }
-    return lists;
 }
 
 } // namespace voile

@@ -3,12 +3,16 @@
 
 #include "model/model.hpp"
 
+#include "shared/bvh_layout.h"
 #include "shared/feature_layout.h"
 
 #include <vector>
 
 namespace voile
 {
+
+struct ColliderModel; // collider_model.hpp
+struct ColliderModels;
 
 // What decides whether a cloth's own vertices feel a corner or an edge: vertices keep `thickness` from the surface, and
 // a chord of length `edge` between two of them sinks towards it by as much as the surface bends on the way.
@@ -27,10 +31,11 @@ constexpr float k_allowed_share = 0.75f;
 // Of the cloths that meet colliders of these layers, as they were added. edge == 0: there is none.
 FeatureScale feature_scale(const Model& model, uint32_t layers);
 
-// The features of all colliders, with a hierarchy over each one's.
-struct FeatureLists
+// The features of one collider, with a hierarchy over them; offsets in `set` are counted from its own first ones.
+struct ColliderFeatures
 {
-    std::vector<shared::FeatureSet> sets; // one a collider
+    FeatureScale scale;
+    shared::FeatureSet set{};
     std::vector<shared::Feature> features;
     std::vector<shared::BvhNode> nodes;
 };
@@ -39,6 +44,10 @@ struct FeatureLists
 // longer than a quarter of the larger of that and the thickness, and corners that lie as far from each other. Of an
 // open or two-sided mesh its border too. Boxes, and spheres and capsules that are thin by the same measure. Meshes that
 // deform have none.
-FeatureLists find_features(const Model& model);
+ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale);
+
+// Finds the features of colliders that have none yet, or whose cloths have another scale now. The others keep theirs,
+// and colliders of the same mesh share them.
+void update_features(ColliderModels& colliders, const Model& model);
 
 } // namespace voile

@@ -41,11 +41,11 @@ bool is_rigid(const glm::mat4& transform)
     return affine && glm::determinant(turn) > 0;
 }
 
-shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose,
+shared::ColliderMotion make_motion(const ColliderModels& models, uint32_t collider, const ColliderPose& pose,
                                    std::span<const Deformation> deformations)
 {
     // In double: floats of what is far from the origin are coarse.
-    const glm::dmat4 placement(model.placements[collider]);
+    const glm::dmat4 placement(models.colliders[collider].placement);
     const glm::dmat4 from = glm::dmat4(pose.from) * placement;
     const glm::dmat4 to = glm::dmat4(pose.to) * placement;
     const glm::dquat rotation_from = rotation_of(from);
@@ -55,17 +55,17 @@ shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const 
     shared::ColliderMotion motion{};
     motion.rotation_from = components(rotation_from);
     motion.rotation_to = components(rotation_to);
-    const glm::dvec4 origin(model.origins[collider], 1);
+    const glm::dvec4 origin(models.colliders[collider].origin, 1);
     const glm::dvec3 place_from(from * origin);
     motion.origin = rounded(place_from);
     motion.place_from = place_from - glm::dvec3(motion.origin);
     motion.place_to = glm::dvec3(to * origin) - glm::dvec3(motion.origin);
-    for (size_t i = 0; i < model.deforming.size(); ++i)
-        if (model.deforming[i].collider == collider)
+    for (size_t i = 0; i < models.deforming.size(); ++i)
+        if (models.deforming[i].collider == collider)
         {
             const Deformation& deformation = deformations[i];
-            motion.first_from = model.deforming[i].first(deformation.now);
-            motion.first_to = model.deforming[i].first(deformation.due ? 1 - deformation.now : deformation.now);
+            motion.first_from = models.deforming[i].first(deformation.now);
+            motion.first_to = models.deforming[i].first(deformation.due ? 1 - deformation.now : deformation.now);
         }
     return motion;
 }

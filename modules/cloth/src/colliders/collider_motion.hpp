@@ -1,7 +1,7 @@
 // How colliders move: poses of the host's as the GPU reads them.
 #pragma once
 
-#include "model/model.hpp"
+#include "colliders/collider_model.hpp"
 #include "voile/solver.hpp"
 
 namespace voile
@@ -34,8 +34,8 @@ inline bool is_moving(const shared::ColliderRecord& collider)
 // within 1e-4.
 bool is_rigid(const glm::mat4& transform);
 
-// `deformations`: of model.deforming.
-shared::ColliderMotion make_motion(const Model& model, uint32_t collider, const ColliderPose& pose,
+// `deformations`: of models.deforming.
+shared::ColliderMotion make_motion(const ColliderModels& models, uint32_t collider, const ColliderPose& pose,
                                    std::span<const Deformation> deformations);
 
 } // namespace voile

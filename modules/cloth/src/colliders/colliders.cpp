@@ -1,7 +1,7 @@
 // Colliders with a formula: validation and records. Meshes are in mesh_collider.cpp.
+#include "colliders/collider_model.hpp"
 #include "colliders/collider_motion.hpp"
 #include "geometry/rounding.hpp"
-#include "model/model.hpp"
 
 #include <cmath>
 
@@ -79,28 +79,28 @@ shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, cons
 // m: what floats may take from where a collider is. Beyond it has the finer position of those that move.
 constexpr double k_most_origin_error = 1e-5;
 
-ColliderId Model::append(const shared::ColliderRecord& record, const glm::dvec3& origin, const glm::mat4& placement)
+ColliderId ColliderModels::append(ColliderModel collider)
 {
-    colliders.push_back(record);
-    placements.push_back(placement);
-    origins.push_back(origin);
-    colliders.back().origin = rounded(origin);
-    if (placement != glm::mat4(1) || glm::distance(origin, glm::dvec3(rounded(origin))) > k_most_origin_error)
-        colliders.back().flags |= VOILE_COLLIDER_MOVED;
+    const glm::dvec3& origin = collider.origin;
+    collider.record.origin = rounded(origin);
+    if (collider.placement != glm::mat4(1) ||
+        glm::distance(origin, glm::dvec3(collider.record.origin)) > k_most_origin_error)
+        collider.record.flags |= VOILE_COLLIDER_MOVED;
+    colliders.push_back(std::move(collider));
     return {static_cast<uint32_t>(colliders.size() - 1)};
 }
 
-void Model::place_plane(const Plane& plane, const glm::dvec3& point)
+void place_plane(ColliderModel& plane, const glm::dvec3& point)
 {
-    shared::ColliderRecord& record = colliders[plane.collider];
+    shared::ColliderRecord& record = plane.record;
     const glm::dvec3 normal(record.shape);
-    const auto offset = static_cast<double>(plane.offset);
+    const auto offset = static_cast<double>(*plane.plane_offset);
     record.origin = rounded(point - (glm::dot(normal, point) - offset) * normal);
-    origins[plane.collider] = record.origin;
+    plane.origin = record.origin;
     record.shape.w = static_cast<float>(offset - glm::dot(normal, glm::dvec3(record.origin)));
 }
 
-Result<ColliderId> Model::add(const PlaneCollider& collider)
+Result<ColliderId> ColliderModels::add(const PlaneCollider& collider)
 {
     if (!finite(collider.normal) || std::abs(glm::length(collider.normal) - 1) > 1e-3f)
         return invalid("collider", collider.name, "the plane's normal is not of unit length");
@@ -110,12 +110,12 @@ Result<ColliderId> Model::add(const PlaneCollider& collider)
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
     record.shape = glm::vec4(glm::normalize(collider.normal), 0);
-    const ColliderId id = append(record, glm::dvec3(0));
-    place_plane(planes.emplace_back(Plane{id.index, collider.offset}), glm::dvec3(0));
+    const ColliderId id = append({.record = record, .plane_offset = collider.offset});
+    place_plane(colliders[id.index], glm::dvec3(0));
     return id;
 }
 
-Result<ColliderId> Model::add(const SphereCollider& collider)
+Result<ColliderId> ColliderModels::add(const SphereCollider& collider)
 {
     Checks checks(collider.name, collider.friction);
     checks.position("center", collider.center);
@@ -124,10 +124,10 @@ Result<ColliderId> Model::add(const SphereCollider& collider)
         return checks.status().error();
     auto record = make_collider_record(VOILE_COLLIDER_SPHERE, collider.layers, collider.friction);
     record.shape = glm::vec4(glm::vec3(0), collider.radius);
-    return append(record, collider.center);
+    return append({.record = record, .origin = collider.center});
 }
 
-Result<ColliderId> Model::add(const CapsuleCollider& collider)
+Result<ColliderId> ColliderModels::add(const CapsuleCollider& collider)
 {
     Checks checks(collider.name, collider.friction);
     checks.position("from", collider.from);
@@ -139,10 +139,10 @@ Result<ColliderId> Model::add(const CapsuleCollider& collider)
     const glm::dvec3 from(collider.from);
     const glm::dvec3 to(collider.to);
     record.shape = glm::dvec4(0.5 * (to - from), collider.radius);
-    return append(record, 0.5 * (from + to));
+    return append({.record = record, .origin = 0.5 * (from + to)});
 }
 
-Result<ColliderId> Model::add(const BoxCollider& collider)
+Result<ColliderId> ColliderModels::add(const BoxCollider& collider)
 {
     if (!is_rigid(collider.transform))
         return invalid("collider", collider.name, "the box's transform is not rigid");
@@ -161,7 +161,7 @@ Result<ColliderId> Model::add(const BoxCollider& collider)
     const glm::dvec3 min(collider.min);
     const glm::dvec3 max(collider.max);
     record.shape = glm::dvec4(0.5 * (max - min), 0);
-    return append(record, 0.5 * (min + max), collider.transform);
+    return append({.record = record, .origin = 0.5 * (min + max), .placement = collider.transform});
 }
 
 } // namespace voile

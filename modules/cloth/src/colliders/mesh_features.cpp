@@ -44,9 +44,9 @@ struct Side
 class MeshFeatures
 {
 public:
-    MeshFeatures(const MeshTree& tree, const shared::ColliderRecord& collider, const FeatureScale& scale)
-        : tree_(tree), scale_(scale), two_sided_((collider.flags & VOILE_COLLIDER_ONE_SIDED) == 0),
-          closed_((collider.flags & VOILE_COLLIDER_CLOSED) != 0),
+    MeshFeatures(const MeshTree& tree, uint32_t flags, const FeatureScale& scale)
+        : tree_(tree), scale_(scale), two_sided_((flags & VOILE_COLLIDER_ONE_SIDED) == 0),
+          closed_((flags & VOILE_COLLIDER_CLOSED) != 0),
           bend_(std::atan(4 * k_allowed_share * scale.thickness / scale.edge)),
           crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)),
           spacing_(std::max(scale.edge, scale.thickness) / 4)
@@ -223,14 +223,9 @@ private:
 
 } // namespace
 
-std::vector<Feature> mesh_features(const Model& model, const shared::ColliderRecord& collider,
-                                   const FeatureScale& scale)
+std::vector<Feature> mesh_features(const Bvh& hierarchy, uint32_t flags, const FeatureScale& scale)
 {
-    if ((collider.flags & VOILE_COLLIDER_DEFORMS) != 0)
-        return {};
-    const auto nodes = std::span(model.nodes).subspan(collider.first_node, collider.nodes);
-    const auto triangles = std::span(model.triangles).subspan(collider.first_triangle, collider.triangles);
-    return MeshFeatures({nodes, triangles}, collider, scale).run();
+    return MeshFeatures({hierarchy.nodes, hierarchy.triangles}, flags, scale).run();
 }
 
 } // namespace voile

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "colliders/collider_features.hpp"
+#include "geometry/bvh.hpp"
 
 namespace voile
 {
 
-// See find_features.
-std::vector<shared::Feature> mesh_features(const Model& model, const shared::ColliderRecord& collider,
-                                           const FeatureScale& scale);
+// See make_features. `flags`: of the collider's record.
+std::vector<shared::Feature> mesh_features(const Bvh& hierarchy, uint32_t flags, const FeatureScale& scale);
 
 } // namespace voile

@@ -1,10 +1,10 @@
 // Meshes as they are given: validation, placement, welding, orientation.
 #include "colliders/mesh_input.hpp"
 
+#include "colliders/collider_model.hpp"
 #include "geometry/closedness.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "geometry/rounding.hpp"
-#include "model/model.hpp"
 
 #include <algorithm>
 

@@ -51,7 +51,7 @@ Result<void> validate_attachment(const Model& model, const Attachment& attachmen
 
 shared::AttachmentRecord make_record(const Model& model, uint32_t cloth, const Attachment& attachment)
 {
-    const uint32_t vertex = model.records[cloth].first_vertex + attachment.vertex;
+    const uint32_t vertex = model.cloths[cloth].record.first_vertex + attachment.vertex;
     shared::AttachmentRecord record{};
     record.vertex = vertex;
     record.cloth = cloth;
@@ -65,7 +65,7 @@ shared::AttachmentRecord make_record(const Model& model, uint32_t cloth, const A
         record.flags |= VOILE_ATTACHMENT_BACKSTOP;
     if (attachment.position || !is_pin(attachment))
         record.flags |= VOILE_ATTACHMENT_PLACED;
-    const glm::vec4 start(glm::vec3(model.start[vertex]), 1);
+    const glm::vec4 start(glm::vec3(model.cloths[cloth].start[attachment.vertex]), 1);
     record.place =
         attachment.position ? *attachment.position : glm::vec3(glm::inverse(model.anchors[record.anchor]) * start);
     return record;
@@ -142,7 +142,7 @@ Result<void> check_anchor(const Model& model, AnchorId anchor)
 Result<void> validate_attachments(const Model& model, uint32_t cloth, std::span<const Attachment> attachments)
 {
     const std::string& name = model.cloths[cloth].name;
-    const uint32_t vertices = model.records[cloth].vertices;
+    const uint32_t vertices = model.cloths[cloth].record.vertices;
     std::vector<bool> attached(vertices);
     for (const Attachment& attachment : attachments)
     {

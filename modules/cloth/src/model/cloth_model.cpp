@@ -1,5 +1,5 @@
 // What grids and meshes have in common: validation, the record that follows from a material, the state at the start.
-#include "model/model.hpp"
+#include "model/cloth_model.hpp"
 
 #include "geometry/rounding.hpp"
 
@@ -260,8 +260,9 @@ bool bends_isometrically(const ClothMaterial& material)
     return std::get<Material>(material).bending_stiffness > 0;
 }
 
-void apply_material(const ClothModel& cloth, shared::ClothRecord& record)
+void apply_material(ClothModel& cloth)
 {
+    shared::ClothRecord& record = cloth.record;
     const auto* fabric = std::get_if<Fabric>(&cloth.material);
     record.flags = cloth.integrator == Integrator::verlet ? VOILE_CLOTH_VERLET : 0;
     std::visit([&](const auto& m) { apply_surface(m, record); }, cloth.material);
@@ -311,14 +312,28 @@ glm::uvec2 residual_of(const glm::dvec3& place)
 
 // What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
 // for masses given outright.
-double mass_measure(const ClothModel& cloth, const shared::ClothRecord& record, uint32_t vertex)
+double mass_measure(const ClothModel& cloth, uint32_t vertex)
 {
+    const shared::ClothRecord& record = cloth.record;
     const bool fabric = std::holds_alternative<Fabric>(cloth.material);
     if (cloth.mesh)
         return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
     const double share =
         vertex_scale(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
     return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
+}
+
+// m, at the start.
+float longest_edge(const ClothModel& cloth)
+{
+    if (!cloth.mesh)
+        return glm::length(cloth.spacing); // the diagonal of a cell, whose triangles have it as a side
+    float longest = 0;
+    for (const glm::uvec3& t : cloth.mesh->triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            longest = std::max(
+                longest, glm::distance(glm::vec3(cloth.start[t[corner]]), glm::vec3(cloth.start[t[(corner + 1) % 3]])));
+    return longest;
 }
 
 } // namespace
@@ -350,48 +365,53 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
     return {};
 }
 
-void append_state(Model& model, const ClothInput& cloth, std::span<const glm::dvec3> places, uint32_t index)
+void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> places)
 {
-    ClothModel& kept = model.cloths[index];
-    shared::ClothRecord& record = model.records[index];
+    cloth.start.reserve(places.size());
+    cloth.residuals.reserve(places.size());
     for (uint32_t i = 0; i < places.size(); ++i)
     {
-        const double measure = mass_measure(kept, record, i);
+        const double measure = mass_measure(cloth, i);
         double inverse = measure > 0 ? 1 / measure : 0;
-        if (!cloth.inverse_masses.empty())
+        if (!input.inverse_masses.empty())
         {
-            inverse = measure > 0 ? static_cast<double>(cloth.inverse_masses[i]) : 0;
-            kept.own_inverse_mass = std::max(kept.own_inverse_mass, inverse * measure);
+            inverse = measure > 0 ? static_cast<double>(input.inverse_masses[i]) : 0;
+            cloth.own_inverse_mass = std::max(cloth.own_inverse_mass, inverse * measure);
         }
-        model.start.emplace_back(glm::vec3(places[i]), static_cast<float>(inverse));
-        model.residuals.push_back(residual_of(places[i]));
+        cloth.start.emplace_back(glm::vec3(places[i]), static_cast<float>(inverse));
+        cloth.residuals.push_back(residual_of(places[i]));
     }
-    if (kept.own_inverse_mass > 0)
-        apply_material(kept, record);
-    kept.velocity = cloth.velocity;
-    for (uint32_t i = 0; i < places.size(); ++i)
+    if (cloth.own_inverse_mass > 0)
+        apply_material(cloth);
+    cloth.velocity = input.velocity;
+    cloth.positions.reserve(places.size());
+    cloth.velocities.reserve(places.size());
+    for (const glm::vec4& start : cloth.start)
     {
-        const float inverse_mass = model.start[record.first_vertex + i].w * record.inverse_density;
-        model.positions.emplace_back(glm::vec3(places[i]), inverse_mass);
-        model.velocities.emplace_back(inverse_mass > 0 ? cloth.velocity : glm::vec3(0), 0);
+        const float inverse_mass = start.w * cloth.record.inverse_density;
+        cloth.positions.emplace_back(glm::vec3(start), inverse_mass);
+        cloth.velocities.emplace_back(inverse_mass > 0 ? input.velocity : glm::vec3(0), 0);
+        const glm::dvec3 place(start);
+        cloth.extent.join({place, place});
     }
+    cloth.longest_edge = longest_edge(cloth);
     std::vector<bool> pinned(places.size());
-    for (const uint32_t vertex : cloth.pins)
+    for (const uint32_t vertex : input.pins)
     {
         if (pinned[vertex])
             continue;
         pinned[vertex] = true;
-        model.positions[record.first_vertex + vertex].w = 0;
-        model.velocities[record.first_vertex + vertex] = glm::vec4(0);
-        kept.attachments.push_back(pin(vertex));
+        cloth.positions[vertex].w = 0;
+        cloth.velocities[vertex] = glm::vec4(0);
+        cloth.attachments.push_back(pin(vertex));
     }
 }
 
-std::vector<glm::uvec3> cloth_triangles(const Model& model, uint32_t cloth)
+std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth)
 {
-    if (model.cloths[cloth].mesh)
-        return model.cloths[cloth].triangles;
-    const shared::ClothRecord& record = model.records[cloth];
+    if (cloth.mesh)
+        return cloth.mesh->triangles;
+    const shared::ClothRecord& record = cloth.record;
     std::vector<glm::uvec3> result;
     result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
     for (uint32_t row = 0; row + 1 < record.rows; ++row)

@@ -54,12 +54,9 @@ Result<ClothId> Model::add(const GridCloth& grid)
         return valid.error();
     const ClothInput input{grid.name,       grid.transform, grid.velocity,      grid.material,
                            grid.integrator, grid.pins,      grid.inverse_masses};
-    const size_t first = positions.size();
     const size_t count = size_t{grid.columns} * grid.rows;
     if (auto valid = validate(input, count); !valid)
         return valid.error();
-    if (first + count > UINT32_MAX / 2)
-        return invalid("cloth", grid.name, "more than 2 147 483 647 vertices in one solver");
     const std::vector<glm::dvec3> world = places(grid);
     if (auto range = check_places(grid.name, world); !range)
         return range.error();
@@ -69,18 +66,10 @@ Result<ClothId> Model::add(const GridCloth& grid)
     cloth.material = grid.material;
     cloth.integrator = grid.integrator;
     cloth.spacing = spacing_of(grid);
-    shared::ClothRecord record{};
-    record.first_vertex = static_cast<uint32_t>(first);
-    record.vertices = static_cast<uint32_t>(count);
-    record.columns = grid.columns;
-    record.rows = grid.rows;
-    record.layers = grid.layers;
-    apply_material(cloth, record);
-    const auto index = static_cast<uint32_t>(cloths.size());
-    cloths.push_back(std::move(cloth));
-    records.push_back(record);
-    append_state(*this, input, world, index);
-    return ClothId{index};
+    cloth.record.columns = grid.columns;
+    cloth.record.rows = grid.rows;
+    cloth.record.layers = grid.layers;
+    return append(std::move(cloth), input, world);
 }
 
 } // namespace voile

@@ -1,4 +1,4 @@
-// Meshes as cloth: validation, their lists, and the layout of these on the GPU.
+// Meshes as cloth: validation, their places and topology.
 #include "model/model.hpp"
 
 #include <algorithm>
@@ -71,20 +71,12 @@ Projection project(const MeshCloth& cloth)
     return result;
 }
 
-// Appends the lists of `vertices` as one workgroup's block to `entries`.
-template <typename Entry>
-void interleave_block(std::span<const shared::MeshVertex> vertices, uint32_t stride,
-                      uint32_t shared::MeshVertex::*first, uint32_t shared::MeshVertex::*count,
-                      std::span<const Entry> source, std::vector<Entry>& entries)
+std::shared_ptr<const MeshTopology> make_topology(const MeshCloth& cloth, std::span<const glm::dvec3> world)
 {
-    uint32_t longest = 0;
-    for (const shared::MeshVertex& vertex : vertices)
-        longest = std::max(longest, vertex.*count);
-    const size_t begin = entries.size();
-    entries.resize(begin + size_t{longest} * stride);
-    for (size_t lane = 0; lane < vertices.size(); ++lane)
-        for (uint32_t entry = 0; entry < vertices[lane].*count; ++entry)
-            entries[begin + lane + size_t{entry} * stride] = source[vertices[lane].*first + entry];
+    const Projection projection = project(cloth);
+    return std::make_shared<const MeshTopology>(
+        make_mesh_topology(world, cloth.triangles, {cloth.texture_coordinates, projection.coordinates, projection.view},
+                           bends_isometrically(cloth.material), std::holds_alternative<Material>(cloth.material)));
 }
 
 } // namespace
@@ -96,12 +88,9 @@ Result<ClothId> Model::add(const MeshCloth& description)
     const ClothInput input{description.name,          description.transform,  description.velocity,
                            description.material,      description.integrator, description.pins,
                            description.inverse_masses};
-    const size_t first = positions.size();
     const size_t count = description.positions.size();
     if (auto valid = validate(input, count); !valid)
         return valid.error();
-    if (first + count > UINT32_MAX / 2)
-        return invalid("cloth", description.name, "more than 2 147 483 647 vertices in one solver");
     const std::vector<glm::dvec3> world = places(description);
     if (auto range = check_places(description.name, world); !range)
         return range.error();
@@ -110,70 +99,23 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.name = description.name;
     cloth.material = description.material;
     cloth.integrator = description.integrator;
-    Projection projection = project(description);
-    cloth.mesh = make_mesh_topology(
-        world, description.triangles, {description.texture_coordinates, projection.coordinates, projection.view},
-        bends_isometrically(description.material), std::holds_alternative<Material>(description.material));
-    if (cloth.mesh->springs.empty())
+    cloth.mesh = make_topology(description, world);
+    if (cloth.mesh->lists.springs.empty())
         return invalid("cloth", description.name,
                        "none of its " + std::to_string(description.triangles.size()) + " triangles has an area");
-    cloth.triangles.assign(description.triangles.begin(), description.triangles.end());
-    cloth.texture_coordinates.assign(description.texture_coordinates.begin(), description.texture_coordinates.end());
-    if (cloth.texture_coordinates.empty())
-        cloth.texture_coordinates = std::move(projection.coordinates);
-
-    shared::ClothRecord record{};
-    record.layers = description.layers;
-    record.first_vertex = static_cast<uint32_t>(first);
-    record.vertices = static_cast<uint32_t>(count);
-    record.first_list = static_cast<uint32_t>(mesh_vertices.size());
-    apply_material(cloth, record);
-    for (shared::MeshVertex vertex : cloth.mesh->vertices)
-    {
-        vertex.first_spring += static_cast<uint32_t>(mesh_springs.size());
-        vertex.first_corner += static_cast<uint32_t>(mesh_corners.size());
-        mesh_vertices.push_back(vertex);
-    }
-    mesh_springs.insert(mesh_springs.end(), cloth.mesh->springs.begin(), cloth.mesh->springs.end());
-    mesh_corners.insert(mesh_corners.end(), cloth.mesh->corners.begin(), cloth.mesh->corners.end());
-    membrane_corners.insert(membrane_corners.end(), cloth.mesh->membrane_corners.begin(),
-                            cloth.mesh->membrane_corners.end());
-    const auto index = static_cast<uint32_t>(cloths.size());
-    cloths.push_back(std::move(cloth));
-    records.push_back(record);
-    append_state(*this, input, world, index);
-    return ClothId{index};
+    cloth.lists = uploaded_lists(cloth.mesh);
+    cloth.record.layers = description.layers;
+    return append(std::move(cloth), input, world);
 }
 
-MeshLists interleave(const Model& model, uint32_t workgroup_size)
+std::shared_ptr<const MeshLists> Model::uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh) const
 {
-    MeshLists lists;
-    lists.vertices = model.mesh_vertices;
-    for (const shared::ClothRecord& record : model.records)
-    {
-        if (record.columns > 0)
-            continue;
-        const auto vertices = std::span(lists.vertices).subspan(record.first_list, record.vertices);
-        for (size_t first = 0; first < vertices.size(); first += workgroup_size)
-        {
-            const auto block = vertices.subspan(first, std::min<size_t>(workgroup_size, vertices.size() - first));
-            const auto first_spring = static_cast<uint32_t>(lists.springs.size());
-            const auto first_corner = static_cast<uint32_t>(lists.corners.size());
-            interleave_block<shared::MeshSpring>(block, workgroup_size, &shared::MeshVertex::first_spring,
-                                                 &shared::MeshVertex::springs, model.mesh_springs, lists.springs);
-            interleave_block<shared::MeshCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
-                                                 &shared::MeshVertex::corners, model.mesh_corners, lists.corners);
-            interleave_block<shared::MembraneCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
-                                                     &shared::MeshVertex::corners, model.membrane_corners,
-                                                     lists.membrane);
-            for (uint32_t lane = 0; lane < block.size(); ++lane)
-            {
-                block[lane].first_spring = first_spring + lane;
-                block[lane].first_corner = first_corner + lane;
-            }
-        }
-    }
-    return lists;
+    for (auto cloth = cloths.rbegin(); cloth != cloths.rend(); ++cloth) // instances are added one after the other
+        if (cloth->mesh == mesh)
+            return cloth->lists;
+    if (interleaved)
+        return std::make_shared<const MeshLists>(interleave(mesh->lists, limits.workgroup_size));
+    return {mesh, &mesh->lists};
 }
 
 } // namespace voile

@@ -107,20 +107,20 @@ void fill_springs(MeshTopology& mesh, std::span<const glm::dvec3> positions, con
     visit(
         [&](uint32_t a, uint32_t b, const PairSums& pair)
         {
-            mesh.vertices[a].springs += entries_of(pair);
-            mesh.vertices[b].springs += entries_of(pair);
+            mesh.lists.vertices[a].springs += entries_of(pair);
+            mesh.lists.vertices[b].springs += entries_of(pair);
         });
     std::vector<uint32_t> next(positions.size());
     uint32_t count = 0;
     for (uint32_t i = 0; i < positions.size(); ++i)
     {
-        mesh.vertices[i].first_spring = next[i] = count;
-        count += mesh.vertices[i].springs;
+        mesh.lists.vertices[i].first_spring = next[i] = count;
+        count += mesh.lists.vertices[i].springs;
     }
-    mesh.springs.resize(count);
+    mesh.lists.springs.resize(count);
     const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair, float length)
     {
-        add_entries(pair, other, length, &mesh.springs[next[vertex]]);
+        add_entries(pair, other, length, &mesh.lists.springs[next[vertex]]);
         next[vertex] += entries_of(pair);
     };
     const auto length_of = [&](uint32_t a, uint32_t b)
@@ -133,24 +133,24 @@ void fill_corners(MeshTopology& mesh, std::span<const glm::uvec3> triangles)
 {
     for (const glm::uvec3& t : triangles)
         for (int corner = 0; corner < 3; ++corner)
-            ++mesh.vertices[t[corner]].corners;
-    std::vector<uint32_t> next(mesh.vertices.size());
+            ++mesh.lists.vertices[t[corner]].corners;
+    std::vector<uint32_t> next(mesh.lists.vertices.size());
     uint32_t count = 0;
-    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
     {
-        mesh.vertices[i].first_corner = next[i] = count;
-        count += mesh.vertices[i].corners;
+        mesh.lists.vertices[i].first_corner = next[i] = count;
+        count += mesh.lists.vertices[i].corners;
     }
-    mesh.corners.resize(count);
-    mesh.membrane_corners.resize(count);
+    mesh.lists.corners.resize(count);
+    mesh.lists.membrane.resize(count);
     for (size_t i = 0; i < triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
         {
             const glm::uvec3& t = triangles[i];
             const uint32_t entry = next[t[corner]]++;
-            mesh.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+            mesh.lists.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
             if (!mesh.membrane.empty())
-                mesh.membrane_corners[entry] = make_membrane_corner(mesh.membrane[i], t[corner]);
+                mesh.lists.membrane[entry] = make_membrane_corner(mesh.membrane[i], t[corner]);
         }
 }
 
@@ -166,13 +166,13 @@ void find_bounds(MeshTopology& mesh)
         double alike[2] = {0, 0}; // by kind: edges, opposite vertices
         double bending = 0;
     };
-    std::vector<Sums> sums(mesh.vertices.size());
+    std::vector<Sums> sums(mesh.lists.vertices.size());
     const auto visit_springs = [&](auto&& visit)
     {
-        for (size_t i = 0; i < mesh.vertices.size(); ++i)
-            for (uint32_t s = 0; s < mesh.vertices[i].springs; ++s)
+        for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
+            for (uint32_t s = 0; s < mesh.lists.vertices[i].springs; ++s)
             {
-                const shared::MeshSpring& spring = mesh.springs[mesh.vertices[i].first_spring + s];
+                const shared::MeshSpring& spring = mesh.lists.springs[mesh.lists.vertices[i].first_spring + s];
                 const bool opposite = (spring.neighbor & VOILE_OPPOSITE_BIT) != 0;
                 visit(i, spring.neighbor & ~VOILE_OPPOSITE_BIT, opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE,
                       spring);
@@ -195,7 +195,7 @@ void find_bounds(MeshTopology& mesh)
             if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
                 raise(mesh.fabric.opposite, sums[i].opposite / mesh.areas[i] + sums[j].opposite / mesh.areas[j]);
         });
-    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
         if (mesh.areas[i] > 0)
         {
             raise(mesh.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
@@ -214,10 +214,11 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
                  [&](const glm::uvec3& t) { return !degenerate(positions, t); });
     MeshTopology mesh;
     mesh.isometric = isometric;
+    mesh.masses_alike = masses_alike;
     mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
     mesh.report.components = count_components(positions.size(), solid);
     mesh.report.shortest_edge = std::numeric_limits<float>::max();
-    mesh.vertices.resize(positions.size());
+    mesh.lists.vertices.resize(positions.size());
     mesh.areas.resize(positions.size());
     for (const glm::uvec3& t : solid)
     {
@@ -244,6 +245,9 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     fill_springs(mesh, positions, make_pairs(elements, positions.size(), solid.size(), isometric));
     mesh.membrane = std::move(elements.triangles);
     fill_corners(mesh, solid);
+    mesh.triangles.assign(triangles.begin(), triangles.end());
+    const std::span<const glm::vec2> coordinates = fabric.texture.empty() ? fabric.projected : fabric.texture;
+    mesh.texture_coordinates.assign(coordinates.begin(), coordinates.end());
     find_bounds(mesh);
     return mesh;
 }

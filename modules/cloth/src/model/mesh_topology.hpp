@@ -4,6 +4,7 @@
 #include "voile/descriptions.hpp"
 
 #include "model/membrane.hpp"
+#include "model/mesh_lists.hpp"
 #include "shared/cloth_layout.h"
 
 #include <span>
@@ -13,17 +14,18 @@ namespace voile
 {
 
 // Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbors, and
-// corners likewise, in the order of the triangles. A fabric's mesh has a membrane corner for each of these.
+// corners likewise, in the order of the triangles. Each spring stands twice, once for either end. A fabric's mesh has a
+// membrane corner for each corner.
 struct MeshTopology
 {
-    std::vector<shared::MeshVertex> vertices;
-    std::vector<shared::MeshSpring> springs; // each spring twice, once for either end
-    std::vector<shared::MeshCorner> corners;
-    std::vector<shared::MembraneCorner> membrane_corners;
-    std::vector<MembraneTriangle> membrane; // of a fabric
-    std::vector<double> areas;              // m^2, a third of the triangles around each vertex; 0 for isolated ones
+    MeshLists lists;
+    std::vector<MembraneTriangle> membrane;     // of a fabric
+    std::vector<double> areas;                  // m^2, a third of the triangles around each vertex; 0: isolated
+    std::vector<glm::uvec3> triangles;          // as they were given
+    std::vector<glm::vec2> texture_coordinates; // m of fabric, as they were given or projected
     MeshReport report;
-    bool isometric = false; // it has the coefficients of isometric bending
+    bool isometric = false;    // it has the coefficients of isometric bending
+    bool masses_alike = false; // it has springs along its edges in place of a membrane
 
     // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike; the
     // membrane's follows from the fabric (membrane_rate).

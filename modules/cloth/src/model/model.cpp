@@ -1,5 +1,4 @@
-// Model: what the validation of all input shares. Cloths are in cloth_model.cpp, grid_cloth.cpp and mesh_cloth.cpp,
-// colliders in colliders.cpp and mesh_collider.cpp.
+// Model: appending a cloth, and what the validation of all cloths shares.
 #include "model/model.hpp"
 
 #include <algorithm>
@@ -11,15 +10,15 @@ namespace voile
 static_assert(k_most_coordinate == static_cast<float>(VOILE_MOST_COORDINATE));
 static_assert(k_most_speed == static_cast<float>(VOILE_MOST_SPEED));
 
-Result<void> check_room(const Model& model, const std::string& what, const std::string& name,
+Result<void> check_room(const DeviceLimits& limits, const std::string& what, const std::string& name,
                         const std::string& contents, uint64_t bytes)
 {
-    if (bytes <= model.max_buffer_bytes)
+    if (bytes <= limits.max_buffer_bytes)
         return {};
     const uint64_t needed = (bytes + (1u << 20) - 1) >> 20;
     return invalid(what, name,
                    contents + " need buffers of " + std::to_string(needed) + " MiB, the device binds at most " +
-                       std::to_string(model.max_buffer_bytes >> 20) + " MiB");
+                       std::to_string(limits.max_buffer_bytes >> 20) + " MiB");
 }
 
 Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world)
@@ -46,15 +45,31 @@ glm::dmat4 without_rounding(const glm::mat4& transform)
     return result;
 }
 
-Result<void> check_dispatch(const Model& model, const std::string& what, const std::string& name,
+Result<void> check_dispatch(const DeviceLimits& limits, const std::string& what, const std::string& name,
                             const std::string& contents, uint64_t workgroups)
 {
-    if (workgroups <= model.max_workgroups)
+    if (workgroups <= limits.max_workgroups)
         return {};
     return invalid(what, name,
                    contents + " " + std::to_string(workgroups) + " workgroups of " +
-                       std::to_string(model.workgroup_size) + ", the device dispatches at most " +
-                       std::to_string(model.max_workgroups) + "; a larger Tuning::workgroup_size needs fewer");
+                       std::to_string(limits.workgroup_size) + ", the device dispatches at most " +
+                       std::to_string(limits.max_workgroups) + "; a larger Tuning::workgroup_size needs fewer");
+}
+
+Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> places)
+{
+    if (size_t{vertices} + places.size() > UINT32_MAX / 2)
+        return invalid("cloth", cloth.name, "more than 2 147 483 647 vertices in one solver");
+    shared::ClothRecord& record = cloth.record;
+    record.first_vertex = vertices;
+    record.vertices = static_cast<uint32_t>(places.size());
+    record.first_list = cloth.mesh ? mesh_vertices : 0;
+    apply_material(cloth);
+    set_start(cloth, input, places);
+    vertices += record.vertices;
+    mesh_vertices += cloth.mesh ? record.vertices : 0;
+    cloths.push_back(std::move(cloth));
+    return ClothId{static_cast<uint32_t>(cloths.size() - 1)};
 }
 
 } // namespace voile

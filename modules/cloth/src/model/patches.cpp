@@ -50,7 +50,7 @@ Patches make_patches(const Model& model, uint32_t workgroup_size)
     {
         for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         {
-            const shared::ClothRecord& record = model.records[cloth];
+            const shared::ClothRecord& record = model.cloths[cloth].record;
             if (model.cloths[cloth].integrator != integrator)
                 continue;
             if (record.columns > 0)

@@ -23,15 +23,15 @@ struct Surface
 
 Surface make_surface(const Model& model, uint32_t cloth)
 {
-    const shared::ClothRecord& record = model.records[cloth];
+    const shared::ClothRecord& record = model.cloths[cloth].record;
     Surface surface;
-    surface.triangles = cloth_triangles(model, cloth);
+    surface.triangles = cloth_triangles(model.cloths[cloth]);
     surface.places.reserve(record.vertices);
     const glm::vec2 spacing = model.cloths[cloth].spacing;
     for (uint32_t i = 0; i < record.vertices; ++i)
     {
         // A grid may start stretched by its transform; its shape at rest is flat.
-        const glm::vec3 start(model.start[record.first_vertex + i]);
+        const glm::vec3 start(model.cloths[cloth].start[i]);
         surface.places.emplace_back(record.columns > 0
                                         ? glm::vec3(static_cast<float>(i % record.columns) * spacing.x,
                                                     static_cast<float>(i / record.columns) * spacing.y, 0)
@@ -173,7 +173,7 @@ Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint3
     const Surface surface = make_surface(model, cloth);
     if (surface.pins.empty())
         return invalid("cloth", name, "tethers need a pin, and it has none");
-    const uint32_t first = model.records[cloth].first_vertex;
+    const uint32_t first = model.cloths[cloth].record.first_vertex;
     std::vector<shared::TetherRecord> records(surface.places.size());
     for (const std::vector<uint32_t>& group : pin_groups(surface))
     {

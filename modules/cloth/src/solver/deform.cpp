@@ -21,7 +21,7 @@ uint32_t stride_of(const Deformation& deformation)
 void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh,
                      const Deformation& deformation)
 {
-    const glm::vec3 origin = solver.model.colliders[mesh.collider].origin;
+    const glm::vec3 origin = solver.collider_models.colliders[mesh.collider].record.origin;
     glm::dmat4 transform(mesh.transform);
     transform[3] -= glm::dvec4(origin, 0);
     const shared::DeformPush push{glm::mat4(transform),
@@ -39,18 +39,18 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
 void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const DeformingMesh& mesh, uint32_t from,
                   uint32_t to)
 {
-    const shared::ColliderRecord& collider = solver.model.colliders[mesh.collider];
+    const shared::ColliderRecord& collider = solver.collider_models.colliders[mesh.collider].record;
     record_refit(recorder, solver.kernels.refit, solver.device->sets.refit,
                  {collider.first_node, collider.first_triangle, mesh.first(from), mesh.first(to), collider.triangles});
 }
 
 // The deforming mesh of a collider, or the reason why there is none.
-Result<size_t> find_deforming(const Model& model, ColliderId collider)
+Result<size_t> find_deforming(const ColliderModels& models, ColliderId collider)
 {
-    for (size_t i = 0; i < model.deforming.size(); ++i)
-        if (model.deforming[i].collider == collider.index)
+    for (size_t i = 0; i < models.deforming.size(); ++i)
+        if (models.deforming[i].collider == collider.index)
             return i;
-    if (auto exists = check_id("collider", collider.index, model.colliders.size()); !exists)
+    if (auto exists = check_id("collider", collider.index, models.colliders.size()); !exists)
         return exists.error();
     return Error{"collider " + std::to_string(collider.index) + " does not deform: it was added without \"deforms\""};
 }
@@ -74,7 +74,7 @@ void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver
 {
     for (size_t i = 0; i < solver.device->deforming_count; ++i)
     {
-        const DeformingMesh& mesh = solver.model.deforming[i];
+        const DeformingMesh& mesh = solver.collider_models.deforming[i];
         const Deformation& deformation = solver.deformations[i];
         const VkBuffer input = (*solver.device)[buffer::deforming_input].handle();
         if (!deformation.due)
@@ -96,7 +96,7 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
     bool came_to_rest = false;
     for (size_t i = 0; i < solver.device->deforming_count; ++i)
     {
-        const DeformingMesh& mesh = solver.model.deforming[i];
+        const DeformingMesh& mesh = solver.collider_models.deforming[i];
         Deformation& deformation = solver.deformations[i];
         if (deformation.due)
             record_vertices(recorder, solver, mesh, deformation);
@@ -113,12 +113,12 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
 
 void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver)
 {
-    if (solver.model.deforming.empty())
+    if (solver.collider_models.deforming.empty())
         return;
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR);
     for (size_t i = 0; i < solver.device->deforming_count; ++i)
-        record_boxes(recorder, solver, solver.model.deforming[i], solver.deformations[i].now,
+        record_boxes(recorder, solver, solver.collider_models.deforming[i], solver.deformations[i].now,
                      solver.deformations[i].now);
     solver.refit_due = false;
 }
@@ -126,10 +126,10 @@ void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver)
 Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::vec3> positions)
 {
     State& s = *state_;
-    const auto index = find_deforming(s.model, collider);
+    const auto index = find_deforming(s.collider_models, collider);
     if (!index)
         return index.error();
-    const DeformingMesh& mesh = s.model.deforming[index.value()];
+    const DeformingMesh& mesh = s.collider_models.deforming[index.value()];
     const std::string name = "collider " + std::to_string(collider.index);
     if (positions.size() != mesh.vertices)
         return Error{name + ": " + std::to_string(positions.size()) + " positions, but it was added with " +
@@ -149,7 +149,7 @@ Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::v
 Result<void> Solver::deform_collider(ColliderId collider, const DeviceVertices& vertices)
 {
     State& s = *state_;
-    const auto index = find_deforming(s.model, collider);
+    const auto index = find_deforming(s.collider_models, collider);
     if (!index)
         return index.error();
     const std::string name = "collider " + std::to_string(collider.index);

@@ -13,8 +13,8 @@ namespace
 struct BufferCounts
 {
     const Model& model;
-    const MeshLists& lists;
-    const FeatureLists& features;
+    const ColliderModels& collider_models;
+    const UploadData& data;
     size_t cloths;
     size_t vertices;
     size_t patches;
@@ -66,25 +66,26 @@ uint32_t near_stride(uint32_t colliders, uint32_t patches, uint64_t max_bytes)
 } // namespace
 
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const UploadData& data, const gpu::Buffer& statistics)
+                                             const ColliderModels& colliders, const UploadData& data,
+                                             const gpu::Buffer& statistics)
 {
     DeviceState state;
-    state.vertices = static_cast<uint32_t>(model.positions.size());
+    state.vertices = model.vertices;
     state.patch_count = static_cast<uint32_t>(data.patches.patches.size());
-    state.deforming_vertices = model.deforming_positions.size();
-    state.deforming_count = model.deforming.size();
+    state.deforming_vertices = colliders.deforming_positions;
+    state.deforming_count = colliders.deforming.size();
     state.rk4_patches = data.patches.rk4;
     state.anchor_capacity = data.anchors;
     state.attachment_capacity = data.attachments;
     state.tether_capacity = data.tethers;
-    state.feature_count = static_cast<uint32_t>(data.features.features.size());
+    state.feature_count = static_cast<uint32_t>(data.features);
     state.cloth_count = static_cast<uint32_t>(model.cloths.size());
-    state.collider_count = static_cast<uint32_t>(model.colliders.size());
-    state.near_stride = near_stride(state.collider_count, state.patch_count, model.max_buffer_bytes);
+    state.collider_count = static_cast<uint32_t>(colliders.colliders.size());
+    state.near_stride = near_stride(state.collider_count, state.patch_count, model.limits.max_buffer_bytes);
     const BufferCounts counts{.model = model,
-                              .lists = data.lists,
-                              .features = data.features,
-                              .cloths = model.records.size(),
+                              .collider_models = colliders,
+                              .data = data,
+                              .cloths = model.cloths.size(),
                               .vertices = state.vertices,
                               .patches = state.patch_count,
                               .colliders = state.collider_count,

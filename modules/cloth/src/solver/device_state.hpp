@@ -1,7 +1,7 @@
 // DeviceState: the buffers of a solver at its present size, and the descriptor sets that bind them.
 #pragma once
 
-#include "colliders/collider_features.hpp"
+#include "colliders/collider_model.hpp"
 #include "model/model.hpp"
 #include "solver/descriptor_sets.hpp"
 #include "solver/state_buffers.hpp"
@@ -51,12 +51,15 @@ struct DeviceState
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }
 };
 
-// What an upload puts into the buffers beside the model's own arrays.
+// What an upload puts into the buffers beside the models' own arrays.
 struct UploadData
 {
     Patches patches;
-    MeshLists lists;
-    FeatureLists features;
+    size_t springs = 0;                           // of all meshes, as they are uploaded
+    size_t corners = 0;                           // likewise
+    std::vector<shared::FeatureSet> feature_sets; // of all colliders
+    size_t features = 0;
+    size_t feature_nodes = 0;
     uint32_t anchors = 0; // room for as many
     uint32_t attachments = 0;
     uint32_t tethers = 0;
@@ -64,6 +67,7 @@ struct UploadData
 
 // `statistics`: where the reduction writes, one record a slot.
 gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const UploadData& data, const gpu::Buffer& statistics);
+                                             const ColliderModels& colliders, const UploadData& data,
+                                             const gpu::Buffer& statistics);
 
 } // namespace voile

@@ -40,9 +40,9 @@ void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
     const DeviceState& device = *solver.device;
     for (uint32_t i = 0; i < device.collider_count; ++i)
     {
-        if (!is_moving(solver.model.colliders[i]))
+        if (!is_moving(solver.collider_models.colliders[i].record))
             continue;
-        const shared::ColliderMotion motion = make_motion(solver.model, i, solver.colliders[i], solver.deformations);
+        const shared::ColliderMotion motion = make_motion(solver.collider_models, i, solver.colliders[i], solver.deformations);
         recorder.update(device[buffer::collider_motions].handle(), i * sizeof(motion),
                         std::as_bytes(std::span(&motion, 1)));
     }
@@ -61,7 +61,7 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
     for (const uint32_t cloth : solver.edits.records)
         if (cloth < device.cloth_count)
             recorder.update(device[buffer::cloths].handle(), cloth * sizeof(shared::ClothRecord),
-                            std::as_bytes(std::span(&solver.model.records[cloth], 1)));
+                            std::as_bytes(std::span(&solver.model.cloths[cloth].record, 1)));
     if (solver.edits.attachments && !solver.dirty)
         recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.attachment_lists.attachments));
     if (solver.edits.tethers && !solver.dirty)
@@ -69,7 +69,7 @@ void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const 
     for (const uint32_t collider : solver.edits.colliders)
         if (collider < device.collider_count)
             recorder.update(device[buffer::colliders].handle(), collider * sizeof(shared::ColliderRecord),
-                            std::as_bytes(std::span(&solver.model.colliders[collider], 1)));
+                            std::as_bytes(std::span(&solver.collider_models.colliders[collider].record, 1)));
     if (moved.anchors)
         update_anchors(recorder, solver);
     if (moved.colliders)
@@ -95,9 +95,9 @@ float farthest_motion(const Solver::State& solver)
     for (size_t i = 0; i < solver.colliders.size(); ++i)
     {
         const ColliderPose& pose = solver.colliders[i];
-        const shared::ColliderRecord& record = solver.model.colliders[i];
+        const shared::ColliderRecord& record = solver.collider_models.colliders[i].record;
         const bool has_box = record.kind == VOILE_COLLIDER_MESH;
-        const glm::dvec3 center = has_box ? solver.model.origins[i] : glm::dvec3(0);
+        const glm::dvec3 center = has_box ? solver.collider_models.colliders[i].origin : glm::dvec3(0);
         const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
         farthest = std::max(farthest, way_of(pose.from, pose.to, center, radius));
     }
@@ -148,23 +148,25 @@ void Solver::State::update_passes()
         passes.attachments = static_cast<uint32_t>(attachment_lists.attachments.size()) - attachment_lists.pins;
         passes.tethers = static_cast<uint32_t>(attachment_lists.tethers.size());
     }
-    const std::span present = std::span(model.colliders).first(device->collider_count);
-    const auto any_collider = [&](auto&& predicate) { return std::ranges::any_of(present, predicate); };
+    const std::span present = std::span(collider_models.colliders).first(device->collider_count);
+    const auto any_collider = [&](auto&& predicate)
+    { return std::ranges::any_of(present, predicate, &ColliderModel::record); };
     passes.moving = any_collider(is_moving);
     passes.convex =
         any_collider([](const auto& collider)
                      { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
     passes.mesh_extent = 0;
-    for (const shared::ColliderRecord& collider : present)
-        passes.mesh_extent = std::max(passes.mesh_extent, collider.extent);
+    for (const ColliderModel& collider : present)
+        passes.mesh_extent = std::max(passes.mesh_extent, collider.record.extent);
     passes.features = device->feature_count > 0;
     passes.recover =
         options.recovery &&
         (passes.convex || any_collider([](const auto& collider)
                                        { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
     passes.strain_spacing = 0;
-    for (const shared::ClothRecord& record : std::span(model.records).first(device->cloth_count))
+    for (const ClothModel& cloth : std::span(model.cloths).first(device->cloth_count))
     {
+        const shared::ClothRecord& record = cloth.record;
         if (record.strain_limit == 0)
             continue;
         // Half of the longer side and less; a mesh has as many passes as a grid of its size.
@@ -204,7 +206,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     const auto uploaded = [&](const shared::EditPush& edit) { return edit.cloth < device.cloth_count; };
     for (const shared::EditPush& edit : solver.edits.places)
         if (uploaded(edit))
-            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.records[edit.cloth].vertices, group,
+            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.cloths[edit.cloth].record.vertices, group,
                               edit);
     const size_t edited = std::erase_if(solver.edits.places, uploaded);
     if (due.anchors || edited > 0)

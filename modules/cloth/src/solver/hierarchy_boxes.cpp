@@ -30,15 +30,15 @@ std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t l
 {
     if (!state_->has(collider))
         return {};
-    const Model& model = state_->model;
-    const shared::ColliderRecord& record = model.colliders[collider.index];
-    if (record.kind != VOILE_COLLIDER_MESH || (record.flags & VOILE_COLLIDER_DEFORMS) != 0)
+    const ColliderModel& model = state_->collider_models.colliders[collider.index];
+    const shared::ColliderRecord& record = model.record;
+    if (!model.hierarchy)
         return {};
     std::vector<BoundingBox> boxes;
     if (level == 0)
         boxes.push_back({record.box_min, record.box_max});
     else
-        collect(&model.nodes[record.first_node], 0, level, boxes);
+        collect(model.hierarchy->nodes.data(), 0, level, boxes);
     for (BoundingBox& box : boxes)
         box = {box.min + record.origin, box.max + record.origin};
     return boxes;

@@ -98,9 +98,10 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
     state->context = context.value();
     state->options = options;
     state->options.tuning.feature_threads = feature_threads(state->context, options);
-    state->model.max_buffer_bytes = state->context.max_buffer_bytes;
-    state->model.max_workgroups = state->context.limits.maxComputeWorkGroupCount[0];
-    state->model.workgroup_size = options.tuning.workgroup_size;
+    state->model.limits = {options.tuning.workgroup_size, state->context.limits.maxComputeWorkGroupCount[0],
+                           state->context.max_buffer_bytes};
+    state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;
+    state->collider_models.limits = state->model.limits;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
     if (!statistics)
@@ -119,12 +120,12 @@ Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& 
 Result<ClothId> Solver::add_cloth(const GridCloth& grid)
 {
     constexpr uint64_t k_bytes_a_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
-    const uint64_t bytes = (state_->model.positions.size() + uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
-    if (auto room = check_room(state_->model, "cloth", grid.name,
+    const uint64_t bytes = (state_->model.vertices + uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
+    if (auto room = check_room(state_->model.limits, "cloth", grid.name,
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
         !room)
         return room.error();
-    const uint64_t patches = count_grid_patches(grid.columns, grid.rows, state_->model.workgroup_size);
+    const uint64_t patches = count_grid_patches(grid.columns, grid.rows, state_->model.limits.workgroup_size);
     if (auto dispatch = state_->check_patches(grid.name, patches); !dispatch)
         return dispatch.error();
     auto result = state_->model.add(grid);
@@ -137,12 +138,12 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 {
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_a_vertex = 256;
-    const uint64_t bytes = (state_->model.mesh_vertices.size() + mesh.positions.size()) * k_bytes_a_vertex;
-    if (auto room =
-            check_room(state_->model, "cloth", mesh.name, std::to_string(mesh.positions.size()) + " vertices", bytes);
+    const uint64_t bytes = (state_->model.mesh_vertices + mesh.positions.size()) * k_bytes_a_vertex;
+    if (auto room = check_room(state_->model.limits, "cloth", mesh.name,
+                               std::to_string(mesh.positions.size()) + " vertices", bytes);
         !room)
         return room.error();
-    const uint64_t patches = count_mesh_patches(mesh.positions.size(), state_->model.workgroup_size);
+    const uint64_t patches = count_mesh_patches(mesh.positions.size(), state_->model.limits.workgroup_size);
     if (auto dispatch = state_->check_patches(mesh.name, patches); !dispatch)
         return dispatch.error();
     auto result = state_->model.add(mesh);
@@ -153,11 +154,11 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 
 Result<ColliderId> Solver::add_collider(const Collider& collider)
 {
-    auto result = std::visit([&](const auto& shape) { return state_->model.add(shape); }, collider);
+    auto result = std::visit([&](const auto& shape) { return state_->collider_models.add(shape); }, collider);
     if (result)
     {
         state_->colliders.emplace_back();
-        state_->deformations.resize(state_->model.deforming.size());
+        state_->deformations.resize(state_->collider_models.deforming.size());
         state_->dirty = true;
     }
     return result;
@@ -194,8 +195,8 @@ uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
     if (!validate(Step{.duration = duration}))
         return 0;
     uint32_t substeps = 1;
-    for (const shared::ClothRecord& record : state_->model.records)
-        substeps = std::max(substeps, voile::stable_substeps(record, static_cast<double>(duration)));
+    for (const ClothModel& cloth : state_->model.cloths)
+        substeps = std::max(substeps, voile::stable_substeps(cloth.record, static_cast<double>(duration)));
     return std::min(substeps, std::max(max_substeps, 1u));
 }
 
@@ -204,7 +205,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     Stability result;
     if (!state_->has(cloth) || !validate(step))
         return result;
-    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
     result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
     const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
@@ -220,7 +221,7 @@ VertexStreams Solver::vertices(ClothId cloth) const
     if (!state_->device || cloth.index >= state_->device->cloth_count)
         return streams;
     const DeviceState& device = *state_->device;
-    const shared::ClothRecord& record = state_->model.records[cloth.index];
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
     streams.positions = device[buffer::positions].handle();
     streams.velocities = device[buffer::velocities].handle();
     streams.normals = device[buffer::normals].handle();
@@ -231,7 +232,7 @@ VertexStreams Solver::vertices(ClothId cloth) const
 
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
-    return state_->has(cloth) ? cloth_triangles(state_->model, cloth.index) : std::vector<glm::uvec3>{};
+    return state_->has(cloth) ? cloth_triangles(state_->model.cloths[cloth.index]) : std::vector<glm::uvec3>{};
 }
 
 std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
@@ -240,8 +241,8 @@ std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
         return {};
     const ClothModel& model = state_->model.cloths[cloth.index];
     if (model.mesh)
-        return model.texture_coordinates;
-    const shared::ClothRecord& record = state_->model.records[cloth.index];
+        return model.mesh->texture_coordinates;
+    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
     std::vector<glm::vec2> result;
     result.reserve(record.vertices);
     for (uint32_t row = 0; row < record.rows; ++row)
@@ -272,18 +273,15 @@ const gpu::Context& Solver::context() const
 
 uint32_t Solver::vertex_count() const
 {
-    return static_cast<uint32_t>(state_->model.positions.size());
+    return state_->model.vertices;
 }
 
 uint32_t Solver::triangle_count() const
 {
     size_t count = 0;
-    for (size_t i = 0; i < state_->model.cloths.size(); ++i)
-    {
-        const shared::ClothRecord& record = state_->model.records[i];
-        count += record.columns > 0 ? size_t{2} * (record.columns - 1) * (record.rows - 1)
-                                    : state_->model.cloths[i].triangles.size();
-    }
+    for (const ClothModel& cloth : state_->model.cloths)
+        count += cloth.mesh ? cloth.mesh->triangles.size()
+                            : size_t{2} * (cloth.record.columns - 1) * (cloth.record.rows - 1);
     return static_cast<uint32_t>(count);
 }
 

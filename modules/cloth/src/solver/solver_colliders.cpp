@@ -12,18 +12,6 @@ namespace voile
 namespace
 {
 
-// The hierarchy of one mesh collider.
-Bvh bvh_of(const Model& model, uint32_t collider)
-{
-    const shared::ColliderRecord& record = model.colliders[collider];
-    const auto slice = [](const auto& values, uint32_t first, uint32_t count)
-    { return std::vector(values.begin() + first, values.begin() + first + count); };
-    Bvh bvh;
-    bvh.nodes = slice(model.nodes, record.first_node, record.nodes);
-    bvh.triangles = slice(model.triangles, record.first_triangle, record.triangles);
-    return bvh;
-}
-
 // The nearest place of a collider's surface, both in the collider's space, as its record has it.
 using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
 
@@ -52,9 +40,9 @@ glm::dvec3 on_box(const glm::dvec3& half_size, const glm::dvec3& offset)
     return place;
 }
 
-FindSurface surface_finder(const Model& model, uint32_t collider, double distance)
+FindSurface surface_finder(const ColliderModel& collider, double distance)
 {
-    const shared::ColliderRecord& record = model.colliders[collider];
+    const shared::ColliderRecord& record = collider.record;
     const glm::dvec3 shape(record.shape);
     const auto size = static_cast<double>(record.shape.w);
     switch (record.kind)
@@ -68,9 +56,9 @@ FindSurface surface_finder(const Model& model, uint32_t collider, double distanc
     case VOILE_COLLIDER_BOX:
         return [=](const glm::dvec3& x) { return on_box(shape, x); };
     default:
-        return [bvh = bvh_of(model, collider), distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
+        return [bvh = collider.hierarchy, distance](const glm::dvec3& x) -> std::optional<glm::dvec3>
         {
-            const auto nearest = nearest_point(bvh, x, distance);
+            const auto nearest = nearest_point(*bvh, x, distance);
             return nearest ? std::optional(nearest->point) : std::nullopt;
         };
     }
@@ -86,8 +74,8 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     if (!is_rigid(motion))
         return Error{"collider " + std::to_string(collider.index) +
                      (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
-    const glm::dvec4 center =
-        glm::dmat4(s.model.placements[collider.index]) * glm::dvec4(s.model.origins[collider.index], 1);
+    ColliderModel& model = s.collider_models.colliders[collider.index];
+    const glm::dvec4 center = glm::dmat4(model.placement) * glm::dvec4(model.origin, 1);
     const glm::vec3 moved(glm::dvec3(glm::dmat4(motion) * center));
     if (auto range = check("collider " + std::to_string(collider.index), "its center", moved, k_most_coordinate, " m");
         !range)
@@ -96,7 +84,7 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     pose.to = motion;
     if (pose.anchor)
         s.anchors[pose.anchor->index].to = motion;
-    uint32_t& flags = s.model.colliders[collider.index].flags;
+    uint32_t& flags = model.record.flags;
     if ((flags & VOILE_COLLIDER_MOVED) == 0 && motion != glm::mat4(1))
     {
         flags |= VOILE_COLLIDER_MOVED;
@@ -116,19 +104,20 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
     if (!(distance >= 0) || !std::isfinite(distance))
         return Error{"attachments on a surface: the distance is " + std::to_string(distance) +
                      " m, must be finite and >= 0"};
-    if ((s.model.colliders[collider.index].flags & VOILE_COLLIDER_DEFORMS) != 0)
+    const ColliderModel& model = s.collider_models.colliders[collider.index];
+    if ((model.record.flags & VOILE_COLLIDER_DEFORMS) != 0)
         return Error{"attachments on a surface: collider " + std::to_string(collider.index) +
                      " deforms, and attachments follow rigid motion only"};
     const auto limit = static_cast<double>(distance);
-    const FindSurface find = surface_finder(s.model, collider.index, limit);
-    const glm::dmat4 placement(s.model.placements[collider.index]);
+    const FindSurface find = surface_finder(model, limit);
+    const glm::dmat4 placement(model.placement);
     const glm::dmat4 back = glm::inverse(placement);
-    const glm::dvec3 origin = s.model.origins[collider.index];
-    const shared::ClothRecord& record = s.model.records[cloth.index];
+    const glm::dvec3 origin = model.origin;
+    const std::vector<glm::vec4>& start = s.model.cloths[cloth.index].start;
     std::vector<Attachment> attachments;
-    for (uint32_t i = 0; i < record.vertices; ++i)
+    for (uint32_t i = 0; i < start.size(); ++i)
     {
-        const glm::dvec3 world(s.model.start[record.first_vertex + i]);
+        const glm::dvec3 world(start[i]);
         const glm::dvec3 x = glm::dvec3(back * glm::dvec4(world, 1)) - origin;
         if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
             attachments.push_back(pin(i).at(glm::vec3(placement * glm::dvec4(*place + origin, 1))));

@@ -49,7 +49,7 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
         return valid;
     const bool heavier = density(material) != density(model.material);
     model.material = material;
-    apply_material(model, s.model.records[cloth.index]);
+    apply_material(model);
     s.edits.records.push_back(cloth.index);
     if (heavier)
         add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));

@@ -75,11 +75,12 @@ struct Solver::State
     SolverOptions options;
     Kernels kernels;
     Model model;
+    ColliderModels collider_models;
     std::vector<Anchor> anchors{Anchor{}}; // the first is the world
     bool anchors_moved = false;            // in the last step
     std::vector<ColliderPose> colliders;
     bool colliders_moved = false;          // in the last step
-    std::vector<Deformation> deformations; // of model.deforming
+    std::vector<Deformation> deformations; // of collider_models.deforming
     float farthest_motion = 0; // m, of anchors and colliders in the step that is recorded, if there are features
     bool refit_due = false;    // boxes do not fit: after an upload, and after a mesh came to rest
     StepHistory history;
@@ -92,14 +93,14 @@ struct Solver::State
     LifetimeCheck lifetime; // the last member: it looks before anything is destroyed
 
     [[nodiscard]] bool has(ClothId cloth) const { return cloth.index < model.cloths.size(); }
-    [[nodiscard]] bool has(ColliderId collider) const { return collider.index < model.colliders.size(); }
+    [[nodiscard]] bool has(ColliderId collider) const { return collider.index < collider_models.colliders.size(); }
     [[nodiscard]] Result<void> check(ClothId cloth) const
     {
         return check_id("cloth", cloth.index, model.cloths.size());
     }
     [[nodiscard]] Result<void> check(ColliderId collider) const
     {
-        return check_id("collider", collider.index, model.colliders.size());
+        return check_id("collider", collider.index, collider_models.colliders.size());
     }
 
     // Substeps that a step takes.
@@ -116,7 +117,7 @@ struct Solver::State
     // Errors: a cloth of so many patches makes dispatches too large.
     [[nodiscard]] Result<void> check_patches(const std::string& name, uint64_t patches) const
     {
-        return check_dispatch(model, "cloth", name, "with it the solver has", model.patches + patches);
+        return check_dispatch(model.limits, "cloth", name, "with it the solver has", model.patches + patches);
     }
     // After a cloth of so many patches was added.
     void added(uint64_t patches)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace voile
 {
@@ -11,23 +10,31 @@ namespace voile
 namespace
 {
 
+// Bytes of a buffer, in the pieces in which their owners have them.
+using Pieces = std::vector<std::span<const std::byte>>;
+
 class Uploader
 {
 public:
     Uploader(const gpu::Context& context, VkCommandBuffer cmd) : context_(context), cmd_(cmd) {}
 
-    // Stages `bytes` for `destination` at `offset`; nothing for no bytes.
-    gpu::Result<void> stage(const gpu::Buffer& destination, VkDeviceSize offset, std::span<const std::byte> bytes)
+    // Stages the pieces one after the other for `destination` at `offset`; nothing for no bytes.
+    gpu::Result<void> stage(const gpu::Buffer& destination, VkDeviceSize offset, const Pieces& pieces)
     {
-        if (bytes.empty())
+        size_t bytes = 0;
+        for (const auto& piece : pieces)
+            bytes += piece.size();
+        if (bytes == 0)
             return {};
-        auto staging = gpu::create_buffer(context_, "cloth staging", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                          gpu::Memory::upload);
+        auto staging =
+            gpu::create_buffer(context_, "cloth staging", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload);
         if (!staging)
             return staging.error();
-        std::copy(bytes.begin(), bytes.end(), staging.value().mapped().begin());
+        auto end = staging.value().mapped().begin();
+        for (const auto& piece : pieces)
+            end = std::copy(piece.begin(), piece.end(), end);
         staging.value().flush();
-        copies_.push_back({staging.value().handle(), destination.handle(), {0, offset, bytes.size()}});
+        copies_.push_back({staging.value().handle(), destination.handle(), {0, offset, bytes}});
         staging_.push_back(std::move(staging.value()));
         return {};
     }
@@ -69,51 +76,123 @@ private:
     std::vector<Copy> copies_;
 };
 
-struct Extent
-{
-    glm::dvec3 min{std::numeric_limits<double>::infinity()};
-    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
-
-    void join(const Extent& other)
-    {
-        min = glm::min(min, other.min);
-        max = glm::max(max, other.max);
-    }
-};
-
-std::vector<Extent> cloth_extents(const Model& model)
-{
-    std::vector<Extent> extents(model.records.size());
-    for (size_t c = 0; c < extents.size(); ++c)
-        for (uint32_t i = 0; i < model.records[c].vertices; ++i)
-        {
-            const glm::dvec3 x(model.start[model.records[c].first_vertex + i]);
-            extents[c].join({x, x});
-        }
-    return extents;
-}
-
 // Planes have their origins near where the cloths that meet them start.
-void place_planes(Model& model, std::span<const ColliderPose> poses)
+void place_planes(Solver::State& solver)
 {
-    const std::vector<Extent> extents = model.planes.empty() ? std::vector<Extent>() : cloth_extents(model);
-    for (const Plane& plane : model.planes)
+    for (size_t i = 0; i < solver.colliders.size(); ++i)
     {
+        ColliderModel& plane = solver.collider_models.colliders[i];
+        if (!plane.plane_offset)
+            continue;
         Extent all;
-        for (size_t c = 0; c < extents.size(); ++c)
-            if ((model.records[c].layers & model.colliders[plane.collider].layers) != 0)
-                all.join(extents[c]);
-        if (all.min.x > all.max.x)
+        for (const ClothModel& cloth : solver.model.cloths)
+            if ((cloth.record.layers & plane.record.layers) != 0)
+                all.join(cloth.extent);
+        if (all.empty())
             continue;
         const glm::dvec4 middle(0.5 * (all.min + all.max), 1);
-        model.place_plane(plane, glm::dvec3(glm::inverse(glm::dmat4(poses[plane.collider].to)) * middle));
+        place_plane(plane, glm::dvec3(glm::inverse(glm::dmat4(solver.colliders[i].to)) * middle));
     }
 }
 
 template <typename T>
-std::span<const std::byte> bytes_of(const std::vector<T>& values, size_t from = 0)
+Pieces bytes_of(const std::vector<T>& values)
 {
-    return std::as_bytes(std::span(values).subspan(from));
+    return {std::as_bytes(std::span(values))};
+}
+
+// One member of each object, one after the other.
+template <typename Object, typename Member>
+Pieces bytes_of(std::span<const Object> objects, const Member& member)
+{
+    Pieces pieces;
+    pieces.reserve(objects.size());
+    for (const Object& object : objects)
+        if (const auto* values = member(object))
+            pieces.push_back(std::as_bytes(std::span(*values)));
+    return pieces;
+}
+
+template <typename Object, typename Value>
+std::vector<Value> values_of(const std::vector<Object>& objects, Value Object::*member)
+{
+    std::vector<Value> values;
+    values.reserve(objects.size());
+    for (const Object& object : objects)
+        values.push_back(object.*member);
+    return values;
+}
+
+// The vertices of all meshes, their lists counted from the first entries of all. Counts these in `data`.
+std::vector<shared::MeshVertex> list_vertices(const Model& model, UploadData& data)
+{
+    std::vector<shared::MeshVertex> vertices;
+    vertices.reserve(model.mesh_vertices);
+    for (const ClothModel& cloth : model.cloths)
+    {
+        if (!cloth.lists)
+            continue;
+        for (shared::MeshVertex vertex : cloth.lists->vertices)
+        {
+            vertex.first_spring += static_cast<uint32_t>(data.springs);
+            vertex.first_corner += static_cast<uint32_t>(data.corners);
+            vertices.push_back(vertex);
+        }
+        data.springs += cloth.lists->springs.size();
+        data.corners += cloth.lists->corners.size();
+    }
+    return vertices;
+}
+
+// One set per collider, its offsets those of all features.
+void count_features(const ColliderModels& models, UploadData& data)
+{
+    for (const ColliderModel& collider : models.colliders)
+    {
+        shared::FeatureSet& set = data.feature_sets.emplace_back(collider.features->set);
+        if (set.features == 0)
+            continue;
+        set.first_node = static_cast<uint32_t>(data.feature_nodes);
+        set.first_feature = static_cast<uint32_t>(data.features);
+        data.feature_nodes += collider.features->nodes.size();
+        data.features += collider.features->features.size();
+    }
+}
+
+// An array of the lists of each mesh, in a piece per cloth.
+template <typename T>
+Pieces bytes_of(const Model& model, std::vector<T> MeshLists::*member)
+{
+    return bytes_of(std::span<const ClothModel>(model.cloths),
+                    [&](const ClothModel& cloth) { return cloth.lists ? &((*cloth.lists).*member) : nullptr; });
+}
+
+// An array of each of these cloths.
+template <typename T>
+Pieces bytes_of(std::span<const ClothModel> cloths, std::vector<T> ClothModel::*member)
+{
+    return bytes_of(cloths, [&](const ClothModel& cloth) { return &(cloth.*member); });
+}
+
+// An array of each hierarchy, or of the features of each collider.
+template <typename Owner, typename T>
+Pieces bytes_of(const ColliderModels& models, std::shared_ptr<const Owner> ColliderModel::*owner,
+                std::vector<T> Owner::*member)
+{
+    return bytes_of(std::span<const ColliderModel>(models.colliders), [&](const ColliderModel& collider)
+                    { return collider.*owner ? &((*(collider.*owner)).*member) : nullptr; });
+}
+
+// From now on the state is the GPU's.
+void forget_uploaded(Solver::State& solver)
+{
+    for (ClothModel& cloth : solver.model.cloths)
+    {
+        cloth.positions = {};
+        cloth.velocities = {};
+    }
+    for (DeformingMesh& mesh : solver.collider_models.deforming)
+        mesh.positions = {};
 }
 
 } // namespace
@@ -125,17 +204,17 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     UploadData data;
     data.patches = make_patches(s.model, s.options.tuning.workgroup_size);
     if (s.options.feature_contact)
-        data.features = find_features(s.model);
-    data.lists =
-        s.options.tuning.mesh_layout == MeshLayout::interleaved
-            ? interleave(s.model, s.options.tuning.workgroup_size)
-            : MeshLists{s.model.mesh_vertices, s.model.mesh_springs, s.model.mesh_corners, s.model.membrane_corners};
+    {
+        update_features(s.collider_models, s.model);
+        count_features(s.collider_models, data);
+    }
+    const std::vector<shared::MeshVertex> mesh_vertices = list_vertices(s.model, data);
     static constexpr uint32_t k_room = 16; // for holds and anchors that come later
     const auto room = [](size_t count) { return std::bit_ceil(std::max(static_cast<uint32_t>(count), k_room)); };
     data.anchors = room(s.anchors.size());
     data.attachments = room(s.attachment_lists.attachments.size());
     data.tethers = room(s.attachment_lists.tethers.size());
-    auto created = create_device_state(s.context, s.kernels, s.model, data, s.statistics);
+    auto created = create_device_state(s.context, s.kernels, s.model, s.collider_models, data, s.statistics);
     if (!created)
         return created.error();
     DeviceState& next = created.value();
@@ -147,57 +226,64 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const VkDeviceSize kept_residual_bytes = kept * sizeof(glm::uvec2);
     const size_t kept_cloths = s.device ? s.device->cloth_count : 0;
     const VkDeviceSize kept_votes = votes_bytes(kept_cloths);
-    const std::vector<std::byte> no_votes(votes_bytes(s.model.records.size()) - kept_votes);
+    const std::vector<std::byte> no_votes(votes_bytes(s.model.cloths.size()) - kept_votes);
     const VkDeviceSize kept_scales = scales_bytes(kept_cloths);
     Uploader uploader(s.context, cmd);
-    const std::vector<glm::vec4> up(s.model.positions.size() - kept, glm::vec4(0, 1, 0, 0));
-    place_planes(s.model, s.colliders);
+    const std::vector<glm::vec4> up(s.model.vertices - kept, glm::vec4(0, 1, 0, 0));
+    place_planes(s);
     std::vector<shared::ColliderMotion> motions;
     for (uint32_t i = 0; i < s.colliders.size(); ++i)
-        motions.push_back(make_motion(s.model, i, s.colliders[i], s.deformations));
+        motions.push_back(make_motion(s.collider_models, i, s.colliders[i], s.deformations));
+    const std::vector<shared::ClothRecord> records = values_of(s.model.cloths, &ClothModel::record);
+    const std::vector<shared::ColliderRecord> collider_records =
+        values_of(s.collider_models.colliders, &ColliderModel::record);
     std::vector<shared::AnchorRecord> anchors;
     for (const Anchor& anchor : s.anchors)
         anchors.push_back(make_record(anchor));
-    const std::vector<shared::LimitScale> limit_scales(s.model.records.size() - kept_cloths,
+    const std::vector<shared::LimitScale> limit_scales(s.model.cloths.size() - kept_cloths,
                                                        shared::LimitScale{1, 1, 0, 1, 0, 0});
+    const std::span<const ClothModel> added = std::span(s.model.cloths).subspan(kept_cloths);
+    const ColliderModels& colliders = s.collider_models;
+    const std::span<const DeformingMesh> deforming(colliders.deforming);
+    const std::span<const DeformingMesh> added_deforming = deforming.subspan(s.device ? s.device->deforming_count : 0);
     struct Staged
     {
         const gpu::Buffer& destination;
         VkDeviceSize offset;
-        std::span<const std::byte> bytes;
+        Pieces pieces;
     };
     const Staged staged[] = {
-        {next[buffer::cloths], 0, bytes_of(s.model.records)},
+        {next[buffer::cloths], 0, bytes_of(records)},
         {next[buffer::patches], 0, bytes_of(data.patches.patches)},
-        {next[buffer::mesh_vertices], 0, bytes_of(data.lists.vertices)},
-        {next[buffer::mesh_springs], 0, bytes_of(data.lists.springs)},
-        {next[buffer::mesh_corners], 0, bytes_of(data.lists.corners)},
-        {next[buffer::membrane_corners], 0, bytes_of(data.lists.membrane)},
-        {next[buffer::colliders], 0, bytes_of(s.model.colliders)},
+        {next[buffer::mesh_vertices], 0, bytes_of(mesh_vertices)},
+        {next[buffer::mesh_springs], 0, bytes_of(s.model, &MeshLists::springs)},
+        {next[buffer::mesh_corners], 0, bytes_of(s.model, &MeshLists::corners)},
+        {next[buffer::membrane_corners], 0, bytes_of(s.model, &MeshLists::membrane)},
+        {next[buffer::colliders], 0, bytes_of(collider_records)},
         {next[buffer::collider_motions], 0, bytes_of(motions)},
         {next[buffer::deforming_positions], kept_deforming * sizeof(glm::vec4),
-         bytes_of(s.model.deforming_positions, kept_deforming)},
-        {next[buffer::padded_leaves], 0, bytes_of(s.model.padded_leaves)},
-        {next[buffer::bvh_nodes], 0, bytes_of(s.model.nodes)},
-        {next[buffer::bvh_triangles], 0, bytes_of(s.model.triangles)},
-        {next[buffer::feature_sets], 0, bytes_of(data.features.sets)},
-        {next[buffer::feature_nodes], 0, bytes_of(data.features.nodes)},
-        {next[buffer::features], 0, bytes_of(data.features.features)},
-        {next[buffer::start], 0, bytes_of(s.model.start)},
-        {next[buffer::start_residuals], 0, bytes_of(s.model.residuals)},
+         bytes_of(added_deforming, [](const DeformingMesh& mesh) { return &mesh.positions; })},
+        {next[buffer::padded_leaves], 0, bytes_of(deforming, [](const DeformingMesh& mesh) { return &mesh.leaves; })},
+        {next[buffer::bvh_nodes], 0, bytes_of(colliders, &ColliderModel::hierarchy, &Bvh::nodes)},
+        {next[buffer::bvh_triangles], 0, bytes_of(colliders, &ColliderModel::hierarchy, &Bvh::triangles)},
+        {next[buffer::feature_sets], 0, bytes_of(data.feature_sets)},
+        {next[buffer::feature_nodes], 0, bytes_of(colliders, &ColliderModel::features, &ColliderFeatures::nodes)},
+        {next[buffer::features], 0, bytes_of(colliders, &ColliderModel::features, &ColliderFeatures::features)},
+        {next[buffer::start], 0, bytes_of(s.model.cloths, &ClothModel::start)},
+        {next[buffer::start_residuals], 0, bytes_of(s.model.cloths, &ClothModel::residuals)},
         {next[buffer::anchors], 0, bytes_of(anchors)},
         {next[buffer::attachments], 0, bytes_of(s.attachment_lists.attachments)},
         {next[buffer::tethers], 0, bytes_of(s.attachment_lists.tethers)},
         {next[buffer::limit_scales], kept_scales, bytes_of(limit_scales)},
-        {next[buffer::positions], kept_bytes, bytes_of(s.model.positions, kept)},
-        {next[buffer::residuals], kept_residual_bytes, bytes_of(s.model.residuals, kept)},
-        {next[buffer::velocities], kept_bytes, bytes_of(s.model.velocities, kept)},
+        {next[buffer::positions], kept_bytes, bytes_of(added, &ClothModel::positions)},
+        {next[buffer::residuals], kept_residual_bytes, bytes_of(added, &ClothModel::residuals)},
+        {next[buffer::velocities], kept_bytes, bytes_of(added, &ClothModel::velocities)},
         {next[buffer::normals], kept_bytes, bytes_of(up)},
         {next[buffer::recovery_votes_a], kept_votes, bytes_of(no_votes)},
         {next[buffer::recovery_votes_b], kept_votes, bytes_of(no_votes)},
     };
     for (const Staged& item : staged)
-        if (auto result = uploader.stage(item.destination, item.offset, item.bytes); !result)
+        if (auto result = uploader.stage(item.destination, item.offset, item.pieces); !result)
             return result.error();
     if (s.device)
     {
@@ -236,6 +322,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     upload.contents_->replaced = std::move(s.device);
     s.device = std::move(next);
     s.dirty = false;
+    forget_uploaded(s);
     s.edits.records.clear();
     s.edits.colliders.clear();
     record_uploaded_boxes(recorder, s);

@@ -1,0 +1,96 @@
+// ClothModel: one cloth as the solver remembers it, with arrays of its own in the layout that is uploaded.
+#pragma once
+
+#include "voile/descriptions.hpp"
+#include "voile/attachments.hpp"
+
+#include "model/mesh_lists.hpp"
+#include "model/mesh_topology.hpp"
+#include "model/range_checks.hpp"
+#include "shared/attachment_layout.h"
+#include "shared/cloth_layout.h"
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voile
+{
+
+// An axis-aligned box around places; empty at first.
+struct Extent
+{
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+
+    void join(const Extent& other)
+    {
+        min = glm::min(min, other.min);
+        max = glm::max(max, other.max);
+    }
+    [[nodiscard]] bool empty() const { return min.x > max.x; }
+};
+
+// Offsets in `record` (first_vertex, first_list) are those of the solver's buffers, in the order of the cloths.
+struct ClothModel
+{
+    std::string name;
+    ClothMaterial material;
+    Integrator integrator = Integrator::rk4;
+    std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it
+    std::shared_ptr<const MeshLists> lists;   // of a mesh, as they are uploaded; shared likewise
+    glm::vec2 spacing{0.f};                   // m, of a grid along a row and along a column
+    // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
+    // area (fabric) or share (material). 0: all are the material's.
+    double own_inverse_mass = 0;
+    glm::vec3 velocity{0.f}; // m/s, at the start
+    std::vector<Attachment> attachments; // pins and others, in the order given
+    std::optional<Tethers> tether_options;
+    std::vector<shared::TetherRecord> tethers;
+
+    shared::ClothRecord record{};
+    std::vector<glm::vec4> start;      // places; w: inverse of the area or share that the density multiplies
+    std::vector<glm::uvec2> residuals; // of the positions at the start (fine_position.glsl)
+    std::vector<glm::vec4> positions;  // at the start; w: inverse mass, 0 if pinned. Empty once they are uploaded
+    std::vector<glm::vec4> velocities; // at the start; likewise
+    Extent extent;                     // m, of the places at the start
+    float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
+};
+
+// What the validation of grids and meshes shares: transform, velocity, material, pinned vertices, inverse masses.
+struct ClothInput
+{
+    const std::string& name;
+    const glm::mat4& transform;
+    const glm::vec3& velocity;
+    const ClothMaterial& material;
+    Integrator integrator;
+    std::span<const uint32_t> pins;
+    std::span<const float> inverse_masses;
+};
+Result<void> validate(const ClothInput& cloth, uint64_t vertices);
+
+// Errors: the transform of the cloth takes one of them out of range.
+Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world);
+// A rotation in floats stretches by some 1e-7, which stiff springs feel. What is that near to a rigid transform is made
+// one exactly.
+glm::dmat4 without_rounding(const glm::mat4& transform);
+
+// Areal density of a fabric, kg/m^2, or the mass of a vertex, kg.
+double density(const ClothMaterial& material);
+
+// Whether a material bends by the isometric model.
+bool bends_isometrically(const ClothMaterial& material);
+
+// The record that follows from a material; places (first_vertex, first_list) and sizes of the record are kept.
+void apply_material(ClothModel& cloth);
+
+// Fills the start of a cloth whose record is complete: masses from the material unless they are given.
+void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> places);
+
+// Triangles of a cloth, a grid's cut as Solver::triangles says.
+std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth);
+
+} // namespace voile

@@ -1,0 +1,25 @@
+// The lists of a mesh's vertices as they are uploaded.
+#pragma once
+
+#include "shared/cloth_layout.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voile
+{
+
+// Of one mesh; where lists begin is counted from the mesh's first entry.
+struct MeshLists
+{
+    std::vector<shared::MeshVertex> vertices;
+    std::vector<shared::MeshSpring> springs;
+    std::vector<shared::MeshCorner> corners;
+    std::vector<shared::MembraneCorner> membrane; // one for each of these
+};
+
+// Those of a workgroup's vertices interleaved: their first entries side by side, then their second ones, each list as
+// long as the longest of the workgroup.
+MeshLists interleave(const MeshLists& lists, uint32_t workgroup_size);
+
+} // namespace voile
