@@ -83,7 +83,8 @@ uint32_t check_child(const voile::Bvh& bvh, uint32_t child, const glm::vec3& min
         const uint32_t count = ((child >> VOILE_BVH_COUNT_SHIFT) & VOILE_BVH_COUNT_MASK) + 1;
         for (uint32_t t = first; t < first + count; ++t)
         {
-            const auto& triangle = bvh.triangles.at(t);
+            REQUIRE(t < bvh.triangles.size());
+            const auto& triangle = bvh.triangles[t];
             ++seen.at(triangle.index);
             for (const glm::vec3& p : {triangle.a, triangle.b, triangle.c})
             {
@@ -93,7 +94,8 @@ uint32_t check_child(const voile::Bvh& bvh, uint32_t child, const glm::vec3& min
         }
         return 0;
     }
-    const auto& node = bvh.nodes.at(child);
+    REQUIRE(child < bvh.nodes.size());
+    const auto& node = bvh.nodes[child];
     for (const auto& [inner_min, inner_max] :
          {std::pair(node.left_min, node.left_max), std::pair(node.right_min, node.right_max)})
     {
@@ -118,8 +120,9 @@ void walk(const voile::Bvh& bvh, uint32_t child, std::vector<uint32_t>& order, u
         return;
     }
     order.push_back(child);
-    walk(bvh, bvh.nodes.at(child).left, order, triangles);
-    walk(bvh, bvh.nodes.at(child).right, order, triangles);
+    REQUIRE(child < bvh.nodes.size());
+    walk(bvh, bvh.nodes[child].left, order, triangles);
+    walk(bvh, bvh.nodes[child].right, order, triangles);
 }
 
 std::optional<voile::RayHit> brute_hit(const Soup& soup, const glm::dvec3& origin, const glm::dvec3& direction,

@@ -69,7 +69,11 @@ void add_joined(RecordHash& hash, const voile::Model& model, std::vector<T> voil
 // The lists of all meshes, either as the cloths have them or interleaved.
 voile::MeshLists joined_lists(const voile::Model& model, bool interleaved)
 {
-    voile::MeshLists all;
+    std::vector<voile::shared::MeshVertex> vertices;
+    std::vector<voile::shared::MeshSpring> springs;
+    std::vector<voile::shared::MeshCorner> corners;
+    std::vector<voile::shared::MembraneCorner> membrane;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (const voile::ClothModel& cloth : model.cloths)
     {
         if (!cloth.mesh)
@@ -77,15 +81,15 @@ voile::MeshLists joined_lists(const voile::Model& model, bool interleaved)
         const voile::MeshLists& lists = interleaved ? *cloth.lists : cloth.mesh->lists;
         for (voile::shared::MeshVertex vertex : lists.vertices)
         {
-            vertex.first_spring += static_cast<uint32_t>(all.springs.size());
-            vertex.first_corner += static_cast<uint32_t>(all.corners.size());
-            all.vertices.push_back(vertex);
+            vertex.first_spring += static_cast<uint32_t>(springs.size());
+            vertex.first_corner += static_cast<uint32_t>(corners.size());
+            vertices.push_back(vertex);
         }
-        all.springs.insert(all.springs.end(), lists.springs.begin(), lists.springs.end());
-        all.corners.insert(all.corners.end(), lists.corners.begin(), lists.corners.end());
-        all.membrane.insert(all.membrane.end(), lists.membrane.begin(), lists.membrane.end());
+        append(springs, lists.springs);
+        append(corners, lists.corners);
+        append(membrane, lists.membrane);
     }
-    return all;
+    return {std::move(vertices), std::move(springs), std::move(corners), std::move(membrane)};
 }
 
 uint64_t hash_model(const voile::Model& model)

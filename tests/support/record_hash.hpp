@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace tests
 {
@@ -23,11 +22,11 @@ public:
     }
 
     // The count first: lists that are cut elsewhere differ.
-    template <typename T>
-    void add_all(const std::vector<T>& values)
+    template <typename Array>
+    void add_all(const Array& values)
     {
         add(uint64_t{values.size()});
-        for (const T& value : values)
+        for (const auto& value : values)
             add(value);
     }
 

@@ -2,6 +2,7 @@
 // added. Units are SI. Positions in the world lie within 1e6 m along each axis; ranges.hpp lists all ranges.
 #pragma once
 
+#include "voile/cooked.hpp"
 #include "voile/ids.hpp"
 #include "voile/material.hpp"
 
@@ -113,6 +114,11 @@ struct MeshCloth
 
     // Bits. The cloth collides with colliders that share one.
     uint32_t layers = 1;
+    // In place of positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest
+    // is that of the transform that it was cooked with; this one may differ from it by a turn and a translation. With
+    // the same transform results equal those of the mesh itself to the bit. The material is of the kind that it was
+    // cooked with, and bends isometrically only if that did.
+    CookedCloth cooked{};
 };
 
 // What a mesh is like as a cloth.
@@ -212,6 +218,11 @@ struct MeshCollider
 
     // Bits. The collider collides with cloths that share one.
     uint32_t layers = 1;
+
+    // Replaces positions and triangles, which stay empty (voile/cooked.hpp). The transform may differ by a rotation and
+    // a translation from the one that the mesh was cooked with; a rotation costs as much as a moving collider. With the
+    // same transform results equal those of the mesh itself to the bit. A cooked collider cannot deform.
+    CookedCollider cooked{};
 };
 
 // Limits the memory of cached hierarchies, in bytes. The cache belongs to the process and serves all solvers. A

@@ -1,13 +1,12 @@
 // Hierarchies that were built before.
 #include "colliders/bvh_cache.hpp"
 
+#include "geometry/content_hash.hpp"
 #include "geometry/parallel.hpp"
 #include "voile/descriptions.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cstring>
 #include <iterator>
 
 namespace voile
@@ -15,32 +14,6 @@ namespace voile
 
 namespace
 {
-
-// Two independent hashes, 8 bytes at a time. They only have to tell meshes apart that nobody chose to look alike: what
-// is found is compared.
-struct Hasher
-{
-    uint64_t low = 0x243f6a8885a308d3u;
-    uint64_t high = 0x13198a2e03707344u;
-
-    void add(std::span<const std::byte> bytes)
-    {
-        for (; !bytes.empty(); bytes = bytes.subspan(std::min<size_t>(bytes.size(), sizeof(uint64_t))))
-        {
-            uint64_t word = 0;
-            std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof(word)));
-            add(word);
-        }
-    }
-
-    void add(uint64_t word)
-    {
-        low = (low ^ word) * 0x9e3779b97f4a7c15u;
-        low ^= low >> 32;
-        high = std::rotl(high + word, 29) * 0xbf58476d1ce4e5b9u;
-        high ^= high >> 31;
-    }
-};
 
 uint64_t size_in_bytes(const Bvh& bvh)
 {
@@ -56,10 +29,9 @@ bool same_bits(const glm::vec3& a, const glm::vec3& b)
 
 MeshKey make_mesh_key(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
 {
-    Hasher hasher;
-    hasher.add(std::as_bytes(positions));
-    hasher.add(std::as_bytes(triangles));
-    return {hasher.low, hasher.high, positions.size(), triangles.size()};
+    // Only meshes that nobody chose to look alike must be told apart: what is found is compared.
+    return {hash_bytes(std::as_bytes(triangles), hash_bytes(std::as_bytes(positions))), positions.size(),
+            triangles.size()};
 }
 
 bool built_from(const Bvh& bvh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/bvh.hpp"
+#include "geometry/content_hash.hpp"
 
 #include <cstddef>
 #include <list>
@@ -12,11 +13,10 @@
 namespace voile
 {
 
-// Of the contents of a mesh: two hashes of 64 bits, and its sizes.
+// Of the contents of a mesh: their hashes, and its sizes.
 struct MeshKey
 {
-    uint64_t low = 0;
-    uint64_t high = 0;
+    ContentHash contents;
     size_t positions = 0;
     size_t triangles = 0;
 
@@ -56,7 +56,7 @@ private:
     };
     struct Hash
     {
-        size_t operator()(const MeshKey& key) const { return static_cast<size_t>(key.low); }
+        size_t operator()(const MeshKey& key) const { return static_cast<size_t>(key.contents.low); }
     };
     std::shared_ptr<const Bvh> find(const MeshKey& key);
     void insert(const MeshKey& key, const std::shared_ptr<const Bvh>& bvh);

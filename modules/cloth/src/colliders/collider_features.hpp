@@ -3,6 +3,7 @@
 
 #include "model/model.hpp"
 
+#include "geometry/shared_array.hpp"
 #include "shared/bvh_layout.h"
 #include "shared/feature_layout.h"
 
@@ -37,7 +38,7 @@ struct ColliderFeatures
     FeatureScale scale;
     shared::FeatureSet set{};
     std::vector<shared::Feature> features;
-    std::vector<shared::BvhNode> nodes;
+    SharedArray<shared::BvhNode> nodes;
 };
 
 // Of a mesh, where it bends by more than the thickness allows within the length of an edge: its edges, if they are

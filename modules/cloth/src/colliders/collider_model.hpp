@@ -65,7 +65,11 @@ struct ColliderModels
     Result<ColliderId> add(const BoxCollider& collider);
 
 private:
+    Result<ColliderId> add_cooked(const MeshCollider& collider);
+    [[nodiscard]] Result<void> check_triangles(const std::string& name, size_t count, bool deforms) const;
+    [[nodiscard]] Result<void> check_deforming(const std::string& name, const MeshInput& mesh) const;
     ColliderId append(ColliderModel collider);
+    Result<ColliderId> append_rigid(const MeshCollider& description, ColliderModel collider);
     ColliderId append_deforming(shared::ColliderRecord record, const MeshInput& mesh, const glm::mat4& transform);
     [[nodiscard]] uint64_t bytes_with_deforming(const MeshInput& mesh) const;
 };

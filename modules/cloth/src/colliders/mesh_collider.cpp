@@ -2,9 +2,11 @@
 #include "colliders/collider_model.hpp"
 
 #include "colliders/bvh_cache.hpp"
+#include "colliders/cooked_collider.hpp"
 #include "colliders/mesh_input.hpp"
 #include "colliders/refit.hpp"
 #include "geometry/padded_tree.hpp"
+#include "geometry/same_shape.hpp"
 
 #include "shared/contact_layout.h"
 
@@ -21,6 +23,49 @@ float extent_of(const shared::ColliderRecord& mesh)
 {
     const glm::vec3 extent = glm::max(glm::abs(mesh.box_min), glm::abs(mesh.box_max));
     return std::max({extent.x, extent.y, extent.z});
+}
+
+shared::ColliderRecord mesh_record(const MeshCollider& collider, bool closed)
+{
+    shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
+    if (closed)
+        record.flags |= VOILE_COLLIDER_CLOSED;
+    if (collider.sidedness == Sidedness::one_sided || (collider.sidedness == Sidedness::automatic && closed))
+        record.flags |= VOILE_COLLIDER_ONE_SIDED;
+    return record;
+}
+
+Result<void> validate_cooked(const MeshCollider& collider)
+{
+    const auto bad = [&](const std::string& reason) { return invalid("collider", collider.name, reason); };
+    if (!collider.positions.empty() || !collider.triangles.empty())
+        return bad("it is cooked, so its positions and triangles must be empty");
+    if (collider.deforms)
+        return bad("it is cooked and cannot deform");
+    if (auto affine = check_affine(subject("collider", collider.name), collider.transform); !affine)
+        return affine;
+    if (!same_shape(collider.cooked.state()->transform, collider.transform))
+        return bad("its transform changes the shape that it was cooked in: it may turn and move it");
+    return check_friction(collider.name, collider.friction);
+}
+
+// Errors: a corner of the box around a cooked mesh that is out of range where it is placed.
+Result<void> check_box(const MeshCollider& description, const ColliderModel& collider)
+{
+    const shared::BvhNode& root = collider.hierarchy->nodes.front();
+    const glm::vec3 min = glm::min(root.left_min, root.right_min);
+    const glm::vec3 max = glm::max(root.left_max, root.right_max);
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const glm::bvec3 upper((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+        const glm::dvec3 place = collider.origin + glm::dvec3(glm::mix(min, max, upper));
+        const glm::vec3 world(glm::dmat4(collider.placement) * glm::dvec4(place, 1));
+        if (auto range =
+                check(subject("collider", description.name), "a corner of its box", world, k_most_coordinate, " m");
+            !range)
+            return range;
+    }
+    return {};
 }
 
 } // namespace
@@ -70,44 +115,39 @@ uint64_t ColliderModels::bytes_with_deforming(const MeshInput& mesh) const
 // A word of contact's lists tells a triangle, or a slot of a padded tree, of which a mesh has less than two a triangle.
 constexpr size_t k_most_triangles = size_t{1} << VOILE_CANDIDATE_TRIANGLE_BITS;
 
-Result<ColliderId> ColliderModels::add(const MeshCollider& collider)
+// Errors: more triangles than the buffers hold, or than contact's lists can tell apart.
+Result<void> ColliderModels::check_triangles(const std::string& name, size_t count, bool deforms) const
 {
-    if (auto sides = check_enumerator(subject("collider", collider.name), "sides", static_cast<int>(collider.sidedness),
-                                      {"automatic", "one", "two"});
-        !sides)
-        return sides.error();
-    const auto mesh = prepare_mesh(collider);
-    if (!mesh)
-        return mesh.error();
-    const std::string contents = std::to_string(mesh.value().triangles.size()) + " triangles";
-    const uint64_t bytes = collider.deforms ? bytes_with_deforming(mesh.value())
-                                            : (triangles + mesh.value().triangles.size()) * sizeof(shared::BvhTriangle);
-    // Before the hierarchy is built, which takes long.
-    if (auto room = check_room(limits, "collider", collider.name, contents, bytes); !room)
-        return room.error();
-    const uint64_t groups = (mesh.value().positions.size() + limits.workgroup_size - 1) / limits.workgroup_size;
-    if (collider.deforms)
-        if (auto dispatch = check_dispatch(limits, "collider", collider.name, "its vertices need", groups); !dispatch)
-            return dispatch.error();
-    const size_t listed = collider.deforms ? padded_leaves + 2 * mesh.value().triangles.size()
-                                           : triangles + mesh.value().triangles.size();
+    const std::string contents = std::to_string(count) + " triangles";
+    const uint64_t bytes = deforms ? 0 : (triangles + count) * sizeof(shared::BvhTriangle);
+    if (auto room = check_room(limits, "collider", name, contents, bytes); !room)
+        return room;
+    const size_t listed = deforms ? padded_leaves + 2 * count : triangles + count;
     if (listed > k_most_triangles)
-        return invalid("collider", collider.name,
+        return invalid("collider", name,
                        contents + ", and the colliders of a solver can have " + std::to_string(k_most_triangles) +
                            " together");
-    shared::ColliderRecord record = make_collider_record(VOILE_COLLIDER_MESH, collider.layers, collider.friction);
-    if (mesh.value().closed)
-        record.flags |= VOILE_COLLIDER_CLOSED;
-    if (collider.sidedness == Sidedness::one_sided ||
-        (collider.sidedness == Sidedness::automatic && mesh.value().closed))
-        record.flags |= VOILE_COLLIDER_ONE_SIDED;
-    if (collider.deforms)
-        return append_deforming(record, mesh.value(), collider.transform);
-    auto hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles);
-    const Bvh& bvh = *hierarchy;
+    return {};
+}
+
+Result<void> ColliderModels::check_deforming(const std::string& name, const MeshInput& mesh) const
+{
+    const std::string contents = std::to_string(mesh.triangles.size()) + " triangles";
+    if (auto room = check_room(limits, "collider", name, contents, bytes_with_deforming(mesh)); !room)
+        return room;
+    const uint64_t groups = (mesh.positions.size() + limits.workgroup_size - 1) / limits.workgroup_size;
+    return check_dispatch(limits, "collider", name, "its vertices need", groups);
+}
+
+Result<ColliderId> ColliderModels::append_rigid(const MeshCollider& description, ColliderModel collider)
+{
+    const Bvh& bvh = *collider.hierarchy;
     const uint64_t node_bytes = (nodes + bvh.nodes.size()) * sizeof(shared::BvhNode);
-    if (auto room = check_room(limits, "collider", collider.name, contents, node_bytes); !room)
+    if (auto room = check_room(limits, "collider", description.name,
+                               std::to_string(bvh.triangles.size()) + " triangles", node_bytes);
+        !room)
         return room.error();
+    shared::ColliderRecord& record = collider.record;
     record.first_node = static_cast<uint32_t>(nodes);
     record.first_triangle = static_cast<uint32_t>(triangles);
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());
@@ -118,7 +158,66 @@ Result<ColliderId> ColliderModels::add(const MeshCollider& collider)
     record.extent = extent_of(record);
     nodes += bvh.nodes.size();
     triangles += bvh.triangles.size();
-    return append({.record = record, .origin = mesh.value().origin, .hierarchy = std::move(hierarchy)});
+    return append(std::move(collider));
+}
+
+Result<ColliderId> ColliderModels::add_cooked(const MeshCollider& description)
+{
+    const CookedCollider::State& cooked = *description.cooked.state();
+    if (auto valid = validate_cooked(description); !valid)
+        return valid.error();
+    if (auto room = check_triangles(description.name, cooked.hierarchy->triangles.size(), false); !room)
+        return room.error();
+    ColliderModel collider{
+        .record = mesh_record(description, cooked.closed), .origin = cooked.origin, .hierarchy = cooked.hierarchy};
+    const glm::dmat4 now(description.transform);
+    const glm::dmat4 then(cooked.transform);
+    if (glm::mat3(description.transform) == glm::mat3(cooked.transform))
+        collider.origin += glm::dvec3(now[3] - then[3]);
+    else
+        collider.placement = now * glm::inverse(then);
+    if (auto range = check_box(description, collider); !range)
+        return range.error();
+    return append_rigid(description, std::move(collider));
+}
+
+Result<ColliderId> ColliderModels::add(const MeshCollider& collider)
+{
+    if (auto sides = check_enumerator(subject("collider", collider.name), "sides", static_cast<int>(collider.sidedness),
+                                      {"automatic", "one", "two"});
+        !sides)
+        return sides.error();
+    if (collider.cooked)
+        return add_cooked(collider);
+    const auto mesh = prepare_mesh(collider);
+    if (!mesh)
+        return mesh.error();
+    if (collider.deforms)
+        if (auto room = check_deforming(collider.name, mesh.value()); !room)
+            return room.error();
+    // Before the hierarchy is built, which takes long.
+    if (auto room = check_triangles(collider.name, mesh.value().triangles.size(), collider.deforms); !room)
+        return room.error();
+    const shared::ColliderRecord record = mesh_record(collider, mesh.value().closed);
+    if (collider.deforms)
+        return append_deforming(record, mesh.value(), collider.transform);
+    return append_rigid(collider, {.record = record,
+                                   .origin = mesh.value().origin,
+                                   .hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles)});
+}
+
+Result<CookedCollider> cook(const MeshCollider& collider)
+{
+    if (collider.deforms)
+        return invalid("collider", collider.name, "a mesh that deforms cannot be cooked");
+    if (collider.cooked)
+        return collider.cooked;
+    const auto mesh = prepare_mesh(collider);
+    if (!mesh)
+        return mesh.error();
+    return CookedCollider(std::make_shared<const CookedCollider::State>(
+        CookedCollider::State{collider.transform, mesh.value().origin, mesh.value().closed,
+                              bvh_cache().get(mesh.value().positions, mesh.value().triangles)}));
 }
 
 } // namespace voile

@@ -9,6 +9,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace voile
 {
@@ -54,13 +55,13 @@ public:
 
     Bvh build()
     {
-        bvh_.triangles.resize(triangles_.size());
+        sorted_.resize(triangles_.size());
         Subtree root;
         root.range = make_primitives();
         waiting_.push_back(&root);
         run_together(thread_count(threads_, triangles_.size() / subtree_size_ + 1), [this] { work(); });
         assemble(root);
-        return std::move(bvh_);
+        return {std::move(nodes_), std::move(sorted_), depth_};
     }
 
 private:
@@ -190,7 +191,7 @@ private:
         {
             const uint32_t index = range.primitives[i].triangle;
             const glm::uvec3& t = triangles_[index];
-            bvh_.triangles[first + i] = {positions_[t.x], index, positions_[t.y], 0, positions_[t.z], 0};
+            sorted_[first + i] = {positions_[t.x], index, positions_[t.y], 0, positions_[t.z], 0};
         }
         return VOILE_BVH_LEAF_BIT | static_cast<uint32_t>(range.primitives.size() - 1) << VOILE_BVH_COUNT_SHIFT |
                static_cast<uint32_t>(first);
@@ -211,7 +212,7 @@ private:
         uint32_t nodes = 0;
         std::vector<const Subtree*> built;
         place(root, nodes, built);
-        bvh_.nodes.resize(nodes);
+        nodes_.resize(nodes);
         join(root);
         parallel_for(
             built.size(), 1, [&](size_t first, size_t) { copy(*built[first]); }, threads_);
@@ -231,7 +232,7 @@ private:
             return;
         }
         next += static_cast<uint32_t>(subtree.nodes.size());
-        bvh_.depth = std::max(bvh_.depth, subtree.deepest);
+        depth_ = std::max(depth_, subtree.deepest);
         built.push_back(&subtree);
     }
 
@@ -242,8 +243,8 @@ private:
             return;
         const Subtree& left = *subtree.left;
         const Subtree& right = *subtree.right;
-        bvh_.nodes[subtree.link] = make_node(left.range.box, left.link, right.range.box, right.link);
-        bvh_.depth = std::max(bvh_.depth, subtree.depth);
+        nodes_[subtree.link] = make_node(left.range.box, left.link, right.range.box, right.link);
+        depth_ = std::max(depth_, subtree.depth);
         join(left);
         join(right);
     }
@@ -254,7 +255,7 @@ private:
         { return (child & VOILE_BVH_LEAF_BIT) != 0 ? child : child + subtree.link; };
         for (size_t i = 0; i < subtree.nodes.size(); ++i)
         {
-            shared::BvhNode& node = bvh_.nodes[subtree.link + i] = subtree.nodes[i];
+            shared::BvhNode& node = nodes_[subtree.link + i] = subtree.nodes[i];
             node.left = absolute(node.left);
             node.right = absolute(node.right);
         }
@@ -267,7 +268,9 @@ private:
     uint32_t threads_; // at most; 0: one a core
     std::unique_ptr<Primitive[]> primitives_;
     std::unique_ptr<Primitive[]> scratch_;
-    Bvh bvh_;
+    std::vector<shared::BvhNode> nodes_;
+    std::vector<shared::BvhTriangle> sorted_;
+    uint32_t depth_ = 0;
 
     std::mutex mutex_; // of the following
     std::condition_variable changed_;

@@ -1,12 +1,12 @@
 // Bounding volume hierarchies over triangle meshes: building, in the layout that the GPU traverses.
 #pragma once
 
+#include "geometry/shared_array.hpp"
 #include "shared/bvh_layout.h"
 
 #include <glm/glm.hpp>
 
 #include <span>
-#include <vector>
 
 namespace voile
 {
@@ -20,8 +20,8 @@ struct BvhOptions
 
 struct Bvh
 {
-    std::vector<shared::BvhNode> nodes;         // depth first; node 0 is the root
-    std::vector<shared::BvhTriangle> triangles; // in the order of the leaves
+    SharedArray<shared::BvhNode> nodes;         // depth first; node 0 is the root
+    SharedArray<shared::BvhTriangle> triangles; // in the order of the leaves
     uint32_t depth = 0;                         // of inner nodes on the longest path, <= VOILE_BVH_MAX_DEPTH
 };
 

@@ -410,7 +410,7 @@ void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::
 std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth)
 {
     if (cloth.mesh)
-        return cloth.mesh->triangles;
+        return {cloth.mesh->triangles.begin(), cloth.mesh->triangles.end()};
     const shared::ClothRecord& record = cloth.record;
     std::vector<glm::uvec3> result;
     result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));

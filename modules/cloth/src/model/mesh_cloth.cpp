@@ -1,6 +1,9 @@
 // Meshes as cloth: validation, their places and topology.
 #include "model/model.hpp"
 
+#include "geometry/same_shape.hpp"
+#include "model/cooked_cloth.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,13 +33,13 @@ Result<void> validate_shape(const MeshCloth& cloth)
     return {};
 }
 
-std::vector<glm::dvec3> places(const MeshCloth& cloth)
+std::vector<glm::dvec3> places(std::span<const glm::vec3> positions, const glm::mat4& transform)
 {
-    const glm::dmat4 transform = without_rounding(cloth.transform);
+    const glm::dmat4 exact = without_rounding(transform);
     std::vector<glm::dvec3> result;
-    result.reserve(cloth.positions.size());
-    for (const glm::vec3& p : cloth.positions)
-        result.emplace_back(transform * glm::dvec4(p, 1));
+    result.reserve(positions.size());
+    for (const glm::vec3& p : positions)
+        result.emplace_back(exact * glm::dvec4(p, 1));
     return result;
 }
 
@@ -71,41 +74,95 @@ Projection project(const MeshCloth& cloth)
     return result;
 }
 
-std::shared_ptr<const MeshTopology> make_topology(const MeshCloth& cloth, std::span<const glm::dvec3> world)
+Result<std::shared_ptr<const MeshTopology>> make_topology(const MeshCloth& cloth, std::span<const glm::dvec3> world)
 {
     const Projection projection = project(cloth);
-    return std::make_shared<const MeshTopology>(
+    auto mesh = std::make_shared<const MeshTopology>(
         make_mesh_topology(world, cloth.triangles, {cloth.texture_coordinates, projection.coordinates, projection.view},
                            bends_isometrically(cloth.material), std::holds_alternative<Material>(cloth.material)));
+    if (mesh->lists.springs.empty())
+        return invalid("cloth", cloth.name,
+                       "none of its " + std::to_string(cloth.triangles.size()) + " triangles has an area");
+    return std::shared_ptr<const MeshTopology>(std::move(mesh));
+}
+
+Result<void> validate_cooked(const MeshCloth& cloth)
+{
+    const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
+    const CookedCloth::State& cooked = *cloth.cooked.state();
+    if (!cloth.positions.empty() || !cloth.triangles.empty() || !cloth.texture_coordinates.empty())
+        return bad("it is cooked, so its positions, triangles and texture coordinates must be empty");
+    if (cooked.mesh->masses_alike != std::holds_alternative<Material>(cloth.material))
+        return bad(cooked.mesh->masses_alike ? "it was cooked with a Material and cannot have a Fabric"
+                                             : "it was cooked with a Fabric and cannot have a Material");
+    if (bends_isometrically(cloth.material) && !cooked.mesh->isometric)
+        return bad("isometric bending of a mesh must be there when it is cooked");
+    if (auto affine = check_affine(subject("cloth", cloth.name), cloth.transform); !affine)
+        return affine;
+    if (!same_shape(cooked.transform, cloth.transform))
+        return bad("its transform changes the shape that it was cooked in: it may turn and move it");
+    return {};
+}
+
+ClothInput input_of(const MeshCloth& cloth)
+{
+    return {cloth.name,       cloth.transform, cloth.velocity,      cloth.material,
+            cloth.integrator, cloth.pins,      cloth.inverse_masses};
+}
+
+// The mesh with its topology: what was cooked, or what is made now.
+struct Shape
+{
+    std::vector<glm::dvec3> world;
+    std::shared_ptr<const MeshTopology> mesh;
+};
+
+Result<Shape> make_shape(const MeshCloth& cloth)
+{
+    const CookedCloth::State* cooked = cloth.cooked.state().get();
+    if (auto valid = cooked ? validate_cooked(cloth) : validate_shape(cloth); !valid)
+        return valid.error();
+    const std::span<const glm::vec3> positions = cooked ? std::span(cooked->positions) : cloth.positions;
+    if (auto valid = validate(input_of(cloth), positions.size()); !valid)
+        return valid.error();
+    Shape shape{places(positions, cloth.transform), cooked ? cooked->mesh : nullptr};
+    if (auto range = check_places(cloth.name, shape.world); !range)
+        return range.error();
+    if (cooked)
+        return shape;
+    auto mesh = make_topology(cloth, shape.world);
+    if (!mesh)
+        return mesh.error();
+    shape.mesh = std::move(mesh.value());
+    return shape;
 }
 
 } // namespace
 
+Result<CookedCloth> cook(const MeshCloth& cloth)
+{
+    auto shape = make_shape(cloth);
+    if (!shape)
+        return shape.error();
+    if (cloth.cooked)
+        return cloth.cooked;
+    return CookedCloth(std::make_shared<const CookedCloth::State>(CookedCloth::State{
+        cloth.transform, std::vector(cloth.positions.begin(), cloth.positions.end()), std::move(shape.value().mesh)}));
+}
+
 Result<ClothId> Model::add(const MeshCloth& description)
 {
-    if (auto valid = validate_shape(description); !valid)
-        return valid.error();
-    const ClothInput input{description.name,          description.transform,  description.velocity,
-                           description.material,      description.integrator, description.pins,
-                           description.inverse_masses};
-    const size_t count = description.positions.size();
-    if (auto valid = validate(input, count); !valid)
-        return valid.error();
-    const std::vector<glm::dvec3> world = places(description);
-    if (auto range = check_places(description.name, world); !range)
-        return range.error();
-
+    auto shape = make_shape(description);
+    if (!shape)
+        return shape.error();
     ClothModel cloth;
     cloth.name = description.name;
     cloth.material = description.material;
     cloth.integrator = description.integrator;
-    cloth.mesh = make_topology(description, world);
-    if (cloth.mesh->lists.springs.empty())
-        return invalid("cloth", description.name,
-                       "none of its " + std::to_string(description.triangles.size()) + " triangles has an area");
+    cloth.mesh = std::move(shape.value().mesh);
     cloth.lists = uploaded_lists(cloth.mesh);
     cloth.record.layers = description.layers;
-    return append(std::move(cloth), input, world);
+    return append(std::move(cloth), input_of(description), shape.value().world);
 }
 
 std::shared_ptr<const MeshLists> Model::uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh) const

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace voile
 {
@@ -14,7 +16,7 @@ namespace
 template <typename Entry>
 void interleave_block(std::span<const shared::MeshVertex> vertices, uint32_t stride,
                       uint32_t shared::MeshVertex::*first, uint32_t shared::MeshVertex::*count,
-                      std::span<const Entry> source, std::vector<Entry>& entries)
+                      const SharedArray<Entry>& source, std::vector<Entry>& entries)
 {
     uint32_t longest = 0;
     for (const shared::MeshVertex& vertex : vertices)
@@ -30,27 +32,29 @@ void interleave_block(std::span<const shared::MeshVertex> vertices, uint32_t str
 
 MeshLists interleave(const MeshLists& lists, uint32_t workgroup_size)
 {
-    MeshLists result;
-    result.vertices = lists.vertices;
-    const std::span<shared::MeshVertex> vertices = result.vertices;
+    std::vector<shared::MeshVertex> all(lists.vertices.begin(), lists.vertices.end());
+    std::vector<shared::MeshSpring> springs;
+    std::vector<shared::MeshCorner> corners;
+    std::vector<shared::MembraneCorner> membrane;
+    const std::span<shared::MeshVertex> vertices = all;
     for (size_t first = 0; first < vertices.size(); first += workgroup_size)
     {
         const auto block = vertices.subspan(first, std::min<size_t>(workgroup_size, vertices.size() - first));
-        const auto first_spring = static_cast<uint32_t>(result.springs.size());
-        const auto first_corner = static_cast<uint32_t>(result.corners.size());
+        const auto first_spring = static_cast<uint32_t>(springs.size());
+        const auto first_corner = static_cast<uint32_t>(corners.size());
         interleave_block<shared::MeshSpring>(block, workgroup_size, &shared::MeshVertex::first_spring,
-                                             &shared::MeshVertex::springs, lists.springs, result.springs);
+                                             &shared::MeshVertex::springs, lists.springs, springs);
         interleave_block<shared::MeshCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
-                                             &shared::MeshVertex::corners, lists.corners, result.corners);
+                                             &shared::MeshVertex::corners, lists.corners, corners);
         interleave_block<shared::MembraneCorner>(block, workgroup_size, &shared::MeshVertex::first_corner,
-                                                 &shared::MeshVertex::corners, lists.membrane, result.membrane);
+                                                 &shared::MeshVertex::corners, lists.membrane, membrane);
         for (uint32_t lane = 0; lane < block.size(); ++lane)
         {
             block[lane].first_spring = first_spring + lane;
             block[lane].first_corner = first_corner + lane;
         }
     }
-    return result;
+    return {std::move(all), std::move(springs), std::move(corners), std::move(membrane)};
 }
 
 } // namespace voile

@@ -1,10 +1,10 @@
 // The lists of a mesh's vertices as they are uploaded.
 #pragma once
 
+#include "geometry/shared_array.hpp"
 #include "shared/cloth_layout.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace voile
 {
@@ -12,10 +12,10 @@ namespace voile
 // Of one mesh; where lists begin is counted from the mesh's first entry.
 struct MeshLists
 {
-    std::vector<shared::MeshVertex> vertices;
-    std::vector<shared::MeshSpring> springs;
-    std::vector<shared::MeshCorner> corners;
-    std::vector<shared::MembraneCorner> membrane; // one for each of these
+    SharedArray<shared::MeshVertex> vertices;
+    SharedArray<shared::MeshSpring> springs;
+    SharedArray<shared::MeshCorner> corners;
+    SharedArray<shared::MembraneCorner> membrane; // one for each of these
 };
 
 // Those of a workgroup's vertices interleaved: their first entries side by side, then their second ones, each list as

@@ -95,8 +95,28 @@ void add_entries(const PairSums& pair, uint32_t other, float rest_length, shared
                   pair.edge > 0 ? 0 : static_cast<float>(pair.bending)};
 }
 
+using Vertices = std::vector<shared::MeshVertex>;
+
+// Counts lists to where they begin. Returns that of each vertex, to be counted on while lists are filled; the last one
+// is the length of all.
+std::vector<uint32_t> set_first(Vertices& vertices, uint32_t shared::MeshVertex::*first,
+                                uint32_t shared::MeshVertex::*count)
+{
+    std::vector<uint32_t> next;
+    next.reserve(vertices.size() + 1);
+    uint32_t all = 0;
+    for (shared::MeshVertex& vertex : vertices)
+    {
+        next.push_back(vertex.*first = all);
+        all += vertex.*count;
+    }
+    next.push_back(all);
+    return next;
+}
+
 // A vertex has its lower neighbors first.
-void fill_springs(MeshTopology& mesh, std::span<const glm::dvec3> positions, const MeshPairs& pairs)
+std::vector<shared::MeshSpring> fill_springs(Vertices& vertices, std::span<const glm::dvec3> positions,
+                                             const MeshPairs& pairs)
 {
     const auto visit = [&](auto&& each)
     {
@@ -107,51 +127,72 @@ void fill_springs(MeshTopology& mesh, std::span<const glm::dvec3> positions, con
     visit(
         [&](uint32_t a, uint32_t b, const PairSums& pair)
         {
-            mesh.lists.vertices[a].springs += entries_of(pair);
-            mesh.lists.vertices[b].springs += entries_of(pair);
+            vertices[a].springs += entries_of(pair);
+            vertices[b].springs += entries_of(pair);
         });
-    std::vector<uint32_t> next(positions.size());
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < positions.size(); ++i)
-    {
-        mesh.lists.vertices[i].first_spring = next[i] = count;
-        count += mesh.lists.vertices[i].springs;
-    }
-    mesh.lists.springs.resize(count);
+    std::vector<uint32_t> next = set_first(vertices, &shared::MeshVertex::first_spring, &shared::MeshVertex::springs);
+    std::vector<shared::MeshSpring> springs(next.back());
     const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair, float length)
     {
-        add_entries(pair, other, length, &mesh.lists.springs[next[vertex]]);
+        add_entries(pair, other, length, &springs[next[vertex]]);
         next[vertex] += entries_of(pair);
     };
     const auto length_of = [&](uint32_t a, uint32_t b)
     { return static_cast<float>(glm::distance(positions[a], positions[b])); };
     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(b, a, pair, length_of(a, b)); });
     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(a, b, pair, length_of(a, b)); });
+    return springs;
 }
 
-void fill_corners(MeshTopology& mesh, std::span<const glm::uvec3> triangles)
+struct Corners
+{
+    std::vector<shared::MeshCorner> corners;
+    std::vector<shared::MembraneCorner> membrane; // one for each; zeros where there is none
+};
+
+Corners fill_corners(Vertices& vertices, std::span<const glm::uvec3> triangles,
+                     std::span<const MembraneTriangle> membrane)
 {
     for (const glm::uvec3& t : triangles)
         for (int corner = 0; corner < 3; ++corner)
-            ++mesh.lists.vertices[t[corner]].corners;
-    std::vector<uint32_t> next(mesh.lists.vertices.size());
-    uint32_t count = 0;
-    for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
-    {
-        mesh.lists.vertices[i].first_corner = next[i] = count;
-        count += mesh.lists.vertices[i].corners;
-    }
-    mesh.lists.corners.resize(count);
-    mesh.lists.membrane.resize(count);
+            ++vertices[t[corner]].corners;
+    std::vector<uint32_t> next = set_first(vertices, &shared::MeshVertex::first_corner, &shared::MeshVertex::corners);
+    Corners result{std::vector<shared::MeshCorner>(next.back()), std::vector<shared::MembraneCorner>(next.back())};
     for (size_t i = 0; i < triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
         {
             const glm::uvec3& t = triangles[i];
             const uint32_t entry = next[t[corner]]++;
-            mesh.lists.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
-            if (!mesh.membrane.empty())
-                mesh.lists.membrane[entry] = make_membrane_corner(mesh.membrane[i], t[corner]);
+            result.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+            if (!membrane.empty())
+                result.membrane[entry] = make_membrane_corner(membrane[i], t[corner]);
         }
+    return result;
+}
+
+std::vector<double> areas_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
+{
+    std::vector<double> areas(positions.size());
+    for (const glm::uvec3& t : triangles)
+    {
+        const double third = triangle_area(positions, t) / 3;
+        for (int corner = 0; corner < 3; ++corner)
+            areas[t[corner]] += third;
+    }
+    return areas;
+}
+
+uint32_t count_coincident(std::span<const glm::dvec3> positions, std::span<const double> areas)
+{
+    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be one place to float
+    offsets.reserve(positions.size());
+    for (const glm::dvec3& x : positions)
+        offsets.emplace_back(x - positions.front());
+    const std::vector<uint32_t> welded = weld(offsets);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < welded.size(); ++i)
+        count += welded[i] != i && areas[i] > 0 ? 1 : 0;
+    return count;
 }
 
 // Bounds for every shape that the mesh can take (see grid_rates). A spring shares each of its ends with others: it may
@@ -218,36 +259,28 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
     mesh.report.components = count_components(positions.size(), solid);
     mesh.report.shortest_edge = std::numeric_limits<float>::max();
-    mesh.lists.vertices.resize(positions.size());
-    mesh.areas.resize(positions.size());
-    for (const glm::uvec3& t : solid)
-    {
-        const double third = triangle_area(positions, t) / 3;
-        for (int corner = 0; corner < 3; ++corner)
-            mesh.areas[t[corner]] += third;
-    }
+    mesh.areas = areas_of(positions, solid);
     for (const double area : mesh.areas)
     {
         mesh.report.isolated_vertices += area > 0 ? 0 : 1;
         mesh.mean_area += area;
     }
     mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
-    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be one place to float
-    offsets.reserve(positions.size());
-    for (const glm::dvec3& x : positions)
-        offsets.emplace_back(x - positions.front());
-    const std::vector<uint32_t> welded = weld(offsets);
-    for (uint32_t i = 0; i < welded.size(); ++i)
-        mesh.report.coincident_vertices += welded[i] != i && mesh.areas[i] > 0 ? 1 : 0;
+    mesh.report.coincident_vertices = count_coincident(positions, mesh.areas);
 
     MeshElements elements = elements_of(positions, solid, masses_alike ? nullptr : &fabric, mesh.report);
     mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
-    fill_springs(mesh, positions, make_pairs(elements, positions.size(), solid.size(), isometric));
+    Vertices vertices(positions.size());
+    mesh.lists.springs =
+        fill_springs(vertices, positions, make_pairs(elements, positions.size(), solid.size(), isometric));
+    Corners corners = fill_corners(vertices, solid, elements.triangles);
+    mesh.lists.corners = std::move(corners.corners);
+    mesh.lists.membrane = std::move(corners.membrane);
+    mesh.lists.vertices = std::move(vertices);
     mesh.membrane = std::move(elements.triangles);
-    fill_corners(mesh, solid);
-    mesh.triangles.assign(triangles.begin(), triangles.end());
+    mesh.triangles = std::vector(triangles.begin(), triangles.end());
     const std::span<const glm::vec2> coordinates = fabric.texture.empty() ? fabric.projected : fabric.texture;
-    mesh.texture_coordinates.assign(coordinates.begin(), coordinates.end());
+    mesh.texture_coordinates = std::vector(coordinates.begin(), coordinates.end());
     find_bounds(mesh);
     return mesh;
 }

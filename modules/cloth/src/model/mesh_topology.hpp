@@ -8,7 +8,6 @@
 #include "shared/cloth_layout.h"
 
 #include <span>
-#include <vector>
 
 namespace voile
 {
@@ -19,10 +18,10 @@ namespace voile
 struct MeshTopology
 {
     MeshLists lists;
-    std::vector<MembraneTriangle> membrane;     // of a fabric
-    std::vector<double> areas;                  // m^2, a third of the triangles around each vertex; 0: isolated
-    std::vector<glm::uvec3> triangles;          // as they were given
-    std::vector<glm::vec2> texture_coordinates; // m of fabric, as they were given or projected
+    SharedArray<MembraneTriangle> membrane;     // of a fabric
+    SharedArray<double> areas;                  // m^2, a third of the triangles around each vertex; 0: isolated
+    SharedArray<glm::uvec3> triangles;          // as they were given
+    SharedArray<glm::vec2> texture_coordinates; // m of fabric, as they were given or projected
     MeshReport report;
     bool isometric = false;    // it has the coefficients of isometric bending
     bool masses_alike = false; // it has springs along its edges in place of a membrane

@@ -24,6 +24,19 @@ void collect(const shared::BvhNode* nodes, uint32_t node, uint32_t levels, std::
     visit(parent.right, parent.right_min, parent.right_max);
 }
 
+// Around a box whose space is placed in the world.
+BoundingBox placed(const BoundingBox& box, const glm::mat4& placement)
+{
+    if (placement == glm::mat4(1))
+        return box;
+    const glm::vec3 middle(placement * glm::vec4(0.5f * (box.min + box.max), 1));
+    const glm::vec3 half = 0.5f * (box.max - box.min);
+    glm::vec3 reach(0);
+    for (int axis = 0; axis < 3; ++axis)
+        reach += glm::abs(glm::vec3(placement[axis])) * half[axis];
+    return {middle - reach, middle + reach};
+}
+
 } // namespace
 
 std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t level) const
@@ -40,7 +53,7 @@ std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t l
     else
         collect(model.hierarchy->nodes.data(), 0, level, boxes);
     for (BoundingBox& box : boxes)
-        box = {box.min + record.origin, box.max + record.origin};
+        box = placed({box.min + record.origin, box.max + record.origin}, model.placement);
     return boxes;
 }
 

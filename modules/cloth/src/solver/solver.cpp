@@ -138,12 +138,13 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 {
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_a_vertex = 256;
-    const uint64_t bytes = (state_->model.mesh_vertices + mesh.positions.size()) * k_bytes_a_vertex;
+    const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
+    const uint64_t bytes = (state_->model.mesh_vertices + vertices) * k_bytes_a_vertex;
     if (auto room = check_room(state_->model.limits, "cloth", mesh.name,
-                               std::to_string(mesh.positions.size()) + " vertices", bytes);
+                               std::to_string(vertices) + " vertices", bytes);
         !room)
         return room.error();
-    const uint64_t patches = count_mesh_patches(mesh.positions.size(), state_->model.limits.workgroup_size);
+    const uint64_t patches = count_mesh_patches(vertices, state_->model.limits.workgroup_size);
     if (auto dispatch = state_->check_patches(mesh.name, patches); !dispatch)
         return dispatch.error();
     auto result = state_->model.add(mesh);
@@ -241,7 +242,7 @@ std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
         return {};
     const ClothModel& model = state_->model.cloths[cloth.index];
     if (model.mesh)
-        return model.mesh->texture_coordinates;
+        return {model.mesh->texture_coordinates.begin(), model.mesh->texture_coordinates.end()};
     const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
     std::vector<glm::vec2> result;
     result.reserve(record.vertices);

@@ -161,7 +161,7 @@ void count_features(const ColliderModels& models, UploadData& data)
 
 // An array of the lists of each mesh, in a piece per cloth.
 template <typename T>
-Pieces bytes_of(const Model& model, std::vector<T> MeshLists::*member)
+Pieces bytes_of(const Model& model, SharedArray<T> MeshLists::*member)
 {
     return bytes_of(std::span<const ClothModel>(model.cloths),
                     [&](const ClothModel& cloth) { return cloth.lists ? &((*cloth.lists).*member) : nullptr; });
@@ -175,9 +175,9 @@ Pieces bytes_of(std::span<const ClothModel> cloths, std::vector<T> ClothModel::*
 }
 
 // An array of each hierarchy, or of the features of each collider.
-template <typename Owner, typename T>
+template <typename Owner, typename Array>
 Pieces bytes_of(const ColliderModels& models, std::shared_ptr<const Owner> ColliderModel::*owner,
-                std::vector<T> Owner::*member)
+                Array Owner::*member)
 {
     return bytes_of(std::span<const ColliderModel>(models.colliders), [&](const ColliderModel& collider)
                     { return collider.*owner ? &((*(collider.*owner)).*member) : nullptr; });

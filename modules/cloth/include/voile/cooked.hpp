@@ -1,0 +1,81 @@
+// Cooked data: what a mesh costs to add, computed once, kept in a file, shared by all who use the mesh.
+//
+//   auto asset = cook(MeshCloth{.positions = ..., .triangles = ..., .material = wool()}); // slow, once
+//   write(asset.value().bytes());                                                     // a file of the host's
+//   ...
+//   auto asset = CookedCloth::load(bytes, owner);                                       // checked, not copied
+//   solver.add_cloth({.transform = here, .material = wool(), .cooked = asset.value()});  // as often as needed
+//
+// Bytes are for the version of the module that wrote them and for little-endian machines; load refuses others, and data
+// that is damaged: cook the mesh again. They hold no paths, names or pointers. Loading trusts nothing: whatever the
+// bytes are, it returns an error or data that is safe to use. It does not prove that the data is what cook makes of a
+// mesh; a file that somebody made up can hold a cloth with springs of any kind.
+#pragma once
+
+#include "voile/gpu/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace voile
+{
+
+struct MeshCloth;
+struct MeshCollider;
+
+// A cloth mesh with its springs, folds and membrane. Copies share what they hold, which never changes; any thread may
+// use them. A default-constructed one holds nothing.
+class CookedCloth
+{
+public:
+    CookedCloth() = default;
+    explicit operator bool() const { return state_ != nullptr; }
+
+    // For a file; load takes them back. Empty if it holds nothing.
+    [[nodiscard]] std::vector<std::byte> bytes() const;
+    // With an `owner`, which keeps the bytes alive and unchanged, nothing is copied if they begin at a multiple of 16.
+    // Errors: data of another kind, version or byte order, data that is incomplete, damaged or out of range.
+    static gpu::Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {});
+
+    [[nodiscard]] uint32_t vertices() const;
+    [[nodiscard]] uint32_t triangles() const;
+
+    struct State; // of the implementation
+    explicit CookedCloth(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+    [[nodiscard]] const std::shared_ptr<const State>& state() const { return state_; }
+
+private:
+    std::shared_ptr<const State> state_;
+};
+
+// A mesh collider that keeps its shape, with its hierarchy. Otherwise as CookedCloth.
+class CookedCollider
+{
+public:
+    CookedCollider() = default;
+    explicit operator bool() const { return state_ != nullptr; }
+
+    [[nodiscard]] std::vector<std::byte> bytes() const;
+    static gpu::Result<CookedCollider> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {});
+
+    [[nodiscard]] uint32_t triangles() const; // those with an area
+
+    struct State; // of the implementation
+    explicit CookedCollider(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+    [[nodiscard]] const std::shared_ptr<const State>& state() const { return state_; }
+
+private:
+    std::shared_ptr<const State> state_;
+};
+
+// From the positions, triangles, texture coordinates and transform of the description, and from what its material says
+// of the springs: Fabric or Material, isometric bending or not. Errors: those of Solver::add_cloth.
+gpu::Result<CookedCloth> cook(const MeshCloth& cloth);
+
+// From the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.
+gpu::Result<CookedCollider> cook(const MeshCollider& collider);
+
+} // namespace voile
