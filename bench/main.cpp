@@ -55,6 +55,7 @@ struct Chosen
     std::vector<const bench::RefitCase*> refits;
     std::vector<const bench::DrapeCase*> drapes;
     std::vector<const bench::AddCase*> adds;
+    bool costs = false;
 };
 
 // All named cases. Without names all, but the drape scene only on a GPU: a CPU device would take hours.
@@ -71,6 +72,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
             chosen.drapes.push_back(drape);
         else if (const bench::AddCase* add = bench::find_add_case(name))
             chosen.adds.push_back(add);
+        else if (name == bench::k_cost_case)
+            chosen.costs = true;
         else
             throw voile::engine::StartupError("--case " + name + ": no such case; --list shows them");
     }
@@ -85,6 +88,7 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
             chosen.drapes.push_back(&item);
     for (const bench::AddCase& item : bench::add_cases())
         chosen.adds.push_back(&item);
+    chosen.costs = true;
     return chosen;
 }
 
@@ -98,6 +102,7 @@ void list_cases()
         std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
     for (const bench::AddCase& item : bench::add_cases())
         std::printf("%-28s adding a mesh collider: %s\n", item.name, item.purpose);
+    std::printf("%-28s adding cloth meshes, cooked data, and a cloth beside a large collider\n", bench::k_cost_case);
 }
 
 void list_devices()
@@ -155,6 +160,8 @@ void run(const Options& options)
         bench::print_add_header();
     for (const bench::AddCase* item : chosen.adds)
         bench::print_add_row(*item, bench::measure_add(device, *item));
+    if (chosen.costs)
+        bench::print_costs(bench::measure_costs(queue));
 }
 
 // CLI11's messages span several lines.

@@ -122,6 +122,16 @@ void print_add_row(const AddCase& item, const AddMeasurement& m)
     std::fflush(stdout);
 }
 
+void print_costs(std::span<const HostCost> costs)
+{
+    std::printf("\nWhat adding takes of the host, milliseconds, medians: by the clock, and of the processor.\n\n"
+                "%-38s %9s %9s %9s\n",
+                "what", "size", "clock", "processor");
+    for (const HostCost& cost : costs)
+        std::printf("%-38s %9zu %9.1f %9.1f\n", cost.what, cost.size, cost.clock, cost.processor);
+    std::fflush(stdout);
+}
+
 voile::gpu::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;

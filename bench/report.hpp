@@ -26,6 +26,8 @@ void print_refit_row(const RefitCase& item, const RefitMeasurement& measurement,
 void print_add_header();
 void print_add_row(const AddCase& item, const AddMeasurement& measurement);
 
+void print_costs(std::span<const HostCost> costs);
+
 // The fraction of the copy bandwidth that a case reaches.
 double bandwidth_fraction(const Measurement& measurement, const DeviceProbe& probe);
 

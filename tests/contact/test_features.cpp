@@ -190,3 +190,30 @@ TEST_CASE("feature threads are a power of two of at most the workgroup size")
                                             ", must be 0 or a power of two up to workgroup_size");
     }
 }
+
+TEST_CASE("features of a mesh are found again only where cloths are thinner or coarser than all before")
+{
+    const voile::engine::Mesh mesh = prism(0.1, 12);
+    voile::Model model;
+    voile::ColliderModels colliders;
+    REQUIRE(colliders.add(tests::collider(mesh)));
+    const auto add = [&](uint32_t side, float thickness)
+    {
+        voile::GridCloth sheet = tests::flat_sheet(side, 1, 1);
+        tests::fabric_of(sheet).thickness = thickness;
+        REQUIRE(model.add(sheet));
+        voile::update_features(colliders, model);
+        return colliders.colliders[0].features;
+    };
+    const auto first = add(21, k_thickness);
+    CHECK_FALSE(first->features.empty());
+    CHECK(add(21, k_thickness) == first);
+    CHECK(add(41, 2 * k_thickness) == first);
+    const auto thinner = add(21, 0.5f * k_thickness);
+    CHECK(thinner != first);
+    CHECK(add(11, k_thickness) != thinner);
+
+    REQUIRE(colliders.add(tests::collider(mesh)));
+    voile::update_features(colliders, model);
+    CHECK(colliders.colliders[1].features == colliders.colliders[0].features);
+}

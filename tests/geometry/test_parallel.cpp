@@ -53,3 +53,45 @@ TEST_CASE("an exception of any thread is rethrown after all have ended")
     CHECK_THROWS_WITH(voile::run_together(4, work), "second");
     CHECK(calls == 4);
 }
+
+namespace
+{
+
+// A host's job system of one thread that starts with the last task.
+void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    *static_cast<uint32_t*>(user) += count;
+    for (uint32_t i = count; i-- > 0;)
+        task(data, i);
+}
+
+} // namespace
+
+TEST_CASE("the host's jobs do the work, in any order, as long as the scope lasts")
+{
+    uint32_t tasks = 0;
+    constexpr size_t k_count = 1000;
+    std::vector<int> done(k_count);
+    const auto body = [&](size_t first, size_t last)
+    {
+        for (size_t i = first; i < last; ++i)
+            ++done[i];
+    };
+    {
+        const voile::JobScope scope({.run = run_backwards, .user = &tasks, .workers = 5});
+        CHECK(voile::thread_count(0, 100) == 5);
+        voile::parallel_for(k_count, 10, body);
+        CHECK(tasks == 5);
+        CHECK(done == std::vector<int>(k_count, 1));
+        CHECK_THROWS_WITH(voile::run_together(3, [] { throw std::runtime_error("a task"); }), "a task");
+        CHECK(tasks == 8);
+        {
+            const voile::JobScope inner{voile::Jobs{}};
+            voile::parallel_for(k_count, 10, body, 2);
+        }
+        CHECK(tasks == 8);
+    }
+    voile::parallel_for(k_count, 10, body, 2);
+    CHECK(tasks == 8);
+    CHECK(done == std::vector<int>(k_count, 3));
+}

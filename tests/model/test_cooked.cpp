@@ -8,12 +8,15 @@
 #include "support/bvh_checks.hpp"
 #include "support/odd_meshes.hpp"
 
+#include "voile/engine/assets/shapes.hpp"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cstring>
-#include <limits>
+#include <thread>
 
 namespace
 {
@@ -280,6 +283,53 @@ TEST_CASE("a cooked collider equals its mesh to the bit, also by way of bytes, a
     CHECK(error({.transform = moved, .cooked = loaded}).find("a corner of its box") != std::string::npos);
     CHECK(error({.positions = mesh.positions, .transform = transform, .cooked = loaded}).find("must be empty") !=
           std::string::npos);
+}
+
+namespace
+{
+
+// Job systems of a host: one after the other from the last one on, and a thread for each of four at a time.
+void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    ++*static_cast<int*>(user);
+    for (uint32_t i = count; i-- > 0;)
+        task(data, i);
+}
+
+void run_on_pool(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    ++*static_cast<int*>(user);
+    std::atomic<uint32_t> next = 0;
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < 4; ++i)
+        pool.emplace_back(
+            [&]
+            {
+                for (uint32_t index = next++; index < count; index = next++)
+                    task(data, index);
+            });
+}
+
+} // namespace
+
+TEST_CASE("cooked bytes do not depend on whose threads cook")
+{
+    const voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 1, 100);
+    const voile::MeshCollider collider{.positions = ball.positions, .triangles = ball.triangles};
+    voile::set_hierarchy_cache_limit(0);
+    const Bytes expected = take(voile::cook(collider)).bytes();
+    for (const auto run : {run_backwards, run_on_pool})
+    {
+        int calls = 0;
+        const voile::Jobs jobs{.run = run, .user = &calls, .workers = 7};
+        const voile::CookedCollider cooked = take(voile::cook(collider, jobs));
+        CHECK(calls > 0);
+        CHECK(cooked.bytes() == expected);
+        calls = 0;
+        CHECK(take(voile::CookedCollider::load(expected, {}, jobs)).bytes() == expected);
+        CHECK(calls > 0);
+    }
+    voile::set_hierarchy_cache_limit(voile::k_default_hierarchy_cache_limit);
 }
 
 TEST_CASE("damaged cooked data is refused, every byte of it")

@@ -12,6 +12,8 @@
 // mesh; a file that somebody made up can hold a cloth with springs of any kind.
 #pragma once
 
+#include "voile/jobs.hpp"
+
 #include "voile/gpu/result.hpp"
 
 #include <cstddef>
@@ -38,7 +40,8 @@ public:
     [[nodiscard]] std::vector<std::byte> bytes() const;
     // With an `owner`, which keeps the bytes alive and unchanged, nothing is copied if they begin at a multiple of 16.
     // Errors: data of another kind, version or byte order, data that is incomplete, damaged or out of range.
-    static gpu::Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {});
+    static gpu::Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
+                                         const Jobs& jobs = {});
 
     [[nodiscard]] uint32_t vertices() const;
     [[nodiscard]] uint32_t triangles() const;
@@ -59,7 +62,8 @@ public:
     explicit operator bool() const { return state_ != nullptr; }
 
     [[nodiscard]] std::vector<std::byte> bytes() const;
-    static gpu::Result<CookedCollider> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {});
+    static gpu::Result<CookedCollider> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
+                                            const Jobs& jobs = {});
 
     [[nodiscard]] uint32_t triangles() const; // those with an area
 
@@ -73,9 +77,9 @@ private:
 
 // From the positions, triangles, texture coordinates and transform of the description, and from what its material says
 // of the springs: Fabric or Material, isometric bending or not. Errors: those of Solver::add_cloth.
-gpu::Result<CookedCloth> cook(const MeshCloth& cloth);
+gpu::Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs = {});
 
 // From the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.
-gpu::Result<CookedCollider> cook(const MeshCollider& collider);
+gpu::Result<CookedCollider> cook(const MeshCollider& collider, const Jobs& jobs = {});
 
 } // namespace voile

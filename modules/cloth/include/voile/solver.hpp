@@ -24,12 +24,14 @@
 // threads make them. Const functions of one solver may run at the same time as each other. Different solvers may be
 // used by different threads at the same time, also if they share a device, an allocator and a pipeline cache (VMA's
 // allocator and Vulkan's cache lock themselves unless the host made them externally synchronized). A command buffer,
-// and the pool that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit is for
-// any thread.
+// and the pool that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit, cook
+// and CookedCloth::load are for any thread. Only add_cloth, add_collider and record_upload share work out, to
+// SolverOptions::jobs or to threads that end with the call; record never does.
 #pragma once
 
 #include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
+#include "voile/jobs.hpp"
 #include "voile/statistics.hpp"
 
 #include "voile/gpu/context.hpp"
@@ -95,6 +97,7 @@ struct SolverOptions
                           // without, straight to the nearest surface, and out of meshes not at all
     std::optional<bool> lifetime_checks{}; // see above. None: on where the module was compiled without NDEBUG
     Tuning tuning{};
+    Jobs jobs{}; // the host's job system, for add_cloth, add_collider and record_upload (voile/jobs.hpp)
 };
 
 // One call of record. Everything must be finite and in the range given; vectors, each component (voile/ranges.hpp).

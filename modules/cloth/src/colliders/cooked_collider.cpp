@@ -133,8 +133,10 @@ std::vector<std::byte> CookedCollider::bytes() const
     return writer.finish();
 }
 
-Result<CookedCollider> CookedCollider::load(std::span<const std::byte> given, std::shared_ptr<const void> owner)
+Result<CookedCollider> CookedCollider::load(std::span<const std::byte> given, std::shared_ptr<const void> owner,
+                                            const Jobs& jobs)
 {
+    const JobScope scope(jobs);
     const CookedBytes kept = keep_cooked(given, std::move(owner));
     auto reader = CookedReader::open(kept.bytes, CookedKind::collider);
     if (!reader)

@@ -6,6 +6,7 @@
 #include "colliders/mesh_input.hpp"
 #include "colliders/refit.hpp"
 #include "geometry/padded_tree.hpp"
+#include "geometry/parallel.hpp"
 #include "geometry/same_shape.hpp"
 
 #include "shared/contact_layout.h"
@@ -206,8 +207,9 @@ Result<ColliderId> ColliderModels::add(const MeshCollider& collider)
                                    .hierarchy = bvh_cache().get(mesh.value().positions, mesh.value().triangles)});
 }
 
-Result<CookedCollider> cook(const MeshCollider& collider)
+Result<CookedCollider> cook(const MeshCollider& collider, const Jobs& jobs)
 {
+    const JobScope scope(jobs);
     if (collider.deforms)
         return invalid("collider", collider.name, "a mesh that deforms cannot be cooked");
     if (collider.cooked)

@@ -7,14 +7,46 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace voile
 {
 
+namespace
+{
+
+thread_local Jobs t_jobs; // of the innermost JobScope
+
+void run_on_threads(uint32_t threads, const std::function<void()>& work)
+{
+    std::vector<std::jthread> others;
+    try
+    {
+        others.reserve(threads);
+        while (others.size() + 1 < threads)
+            others.emplace_back(work);
+    }
+    catch (const std::system_error&)
+    {
+        // The system gives no more threads; those that there are do the work.
+    }
+    work();
+} // joins
+
+} // namespace
+
+JobScope::JobScope(const Jobs& jobs) : before_(std::exchange(t_jobs, jobs)) {}
+
+JobScope::~JobScope()
+{
+    t_jobs = before_;
+}
+
 uint32_t thread_count(uint32_t wanted, size_t parts)
 {
-    const size_t threads = wanted > 0 ? wanted : std::thread::hardware_concurrency(); // 0 where that is not known
+    const size_t all = t_jobs.run && t_jobs.workers > 0 ? t_jobs.workers : std::thread::hardware_concurrency();
+    const size_t threads = wanted > 0 ? wanted : all; // 0 where that is not known
     return static_cast<uint32_t>(std::max<size_t>(std::min(threads, parts), 1));
 }
 
@@ -22,7 +54,7 @@ void run_together(uint32_t threads, const std::function<void()>& work)
 {
     std::mutex mutex;
     std::exception_ptr failure;
-    const auto guarded = [&]
+    std::function<void()> guarded = [&]
     {
         try
         {
@@ -35,20 +67,14 @@ void run_together(uint32_t threads, const std::function<void()>& work)
                 failure = std::current_exception();
         }
     };
-    {
-        std::vector<std::jthread> others;
-        try
-        {
-            others.reserve(threads);
-            while (others.size() + 1 < threads)
-                others.emplace_back(guarded);
-        }
-        catch (const std::system_error&)
-        {
-            // The system gives no more threads; those that there are do the work.
-        }
+    if (threads <= 1)
         guarded();
-    } // joins
+    else if (t_jobs.run)
+        t_jobs.run(
+            t_jobs.user, threads, [](void* data, uint32_t) { (*static_cast<std::function<void()>*>(data))(); },
+            &guarded);
+    else
+        run_on_threads(threads, guarded);
     if (failure)
         std::rethrow_exception(failure);
 }

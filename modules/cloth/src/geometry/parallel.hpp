@@ -1,5 +1,8 @@
-// Work on all cores of the host, for what is too much for one: large meshes. Threads live as long as the call.
+// Work on all cores of the host, for what is too much for one: large meshes. By the host's job system, or by threads
+// that live as long as the call.
 #pragma once
+
+#include "voile/jobs.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,17 +11,30 @@
 namespace voile
 {
 
-// `wanted` threads, or one a core of the host if that is 0; at least 1, and no more than there are `parts` of work.
+// While one lives, what its thread shares out goes to these jobs. The innermost counts.
+class JobScope
+{
+public:
+    explicit JobScope(const Jobs& jobs);
+    ~JobScope();
+    JobScope(const JobScope&) = delete;
+    JobScope& operator=(const JobScope&) = delete;
+
+private:
+    Jobs before_;
+};
+
+// `wanted` threads, or as many as there are workers or cores if that is 0; at least 1, and no more than there are
+// `parts` of work.
 uint32_t thread_count(uint32_t wanted, size_t parts);
 
-// Calls work() on up to `threads` threads, the calling one among them, and returns when all calls have returned. There
-// are fewer where the system gives no more, so work() must share out what there is to do and not count on a second
-// call. The first exception of a call is thrown on once all have returned.
+// Calls work() on up to `threads` threads and returns when all calls have returned. There are fewer where the system
+// gives no more, and jobs may be run one after the other, so work() must share out what there is to do and not count on
+// a second call. The first exception of a call is thrown on once all have returned.
 void run_together(uint32_t threads, const std::function<void()>& work);
 
-// Calls body(first, last) for consecutive pieces of [0, count) in any order, on up to `threads` threads (0: one a
-// core). Where pieces begin depends on `piece`, their size, alone, so that results need not depend on the number of
-// threads.
+// Calls body(first, last) for consecutive pieces of [0, count) in any order, on up to `threads` threads (0: all). Where
+// pieces begin depends on `piece`, their size, alone, so that results need not depend on the number of threads.
 void parallel_for(size_t count, size_t piece, const std::function<void(size_t, size_t)>& body, uint32_t threads = 0);
 
 } // namespace voile

@@ -174,13 +174,18 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
     const auto bending = static_cast<double>(f.bending_stiffness);
     const bool isometric = f.bending_model == BendingModel::isometric;
     const MembraneSprings membrane = make_membrane_springs(f, std::sqrt(mesh.mean_area));
-    const auto membrane_rate_of = [&](float Spring::*constant)
+    const auto constants_of = [&](float Spring::*constant) -> MembraneConstants
     {
-        return membrane_rate(mesh.membrane, mesh.areas, static_cast<double>(membrane.warp.*constant),
-                             static_cast<double>(membrane.weft.*constant),
-                             static_cast<double>(membrane.diagonal.*constant)) /
-               density;
+        return {static_cast<double>(membrane.warp.*constant), static_cast<double>(membrane.weft.*constant),
+                static_cast<double>(membrane.diagonal.*constant)};
     };
+    const MembraneConstants stiffness = constants_of(&Spring::stiffness);
+    std::vector<double> rates =
+        membrane_rates(mesh.membrane, mesh.areas,
+                       std::array{stiffness, constants_of(&Spring::damping), MembraneConstants{stiffness.warp, 0, 0},
+                                  MembraneConstants{0, stiffness.weft, 0}});
+    for (double& rate : rates)
+        rate /= density;
     // Bend springs: damping in proportion to stiffness, 2 ratio sqrt(k m / 2) for a spring that stretches.
     const double time = 2 * static_cast<double>(f.damping_ratio) * std::sqrt(density * mesh.mean_area / (2 * stretch));
     const double opposite_omega_squared = (isometric ? 0 : bending) * mesh.fabric.opposite / density;
@@ -196,15 +201,11 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
     const double bending_time =
         bending_omega_squared > 0 ? 2 * static_cast<double>(f.damping_ratio) / std::sqrt(bending_omega_squared) : 0;
     record.bending_time = static_cast<float>(bending_time);
-    const auto rate_of_threads = [&](double warp, double weft)
-    { return membrane_rate(mesh.membrane, mesh.areas, warp, weft, 0) / density; };
-    const double threads = std::max(rate_of_threads(static_cast<double>(membrane.warp.stiffness), 0),
-                                    rate_of_threads(0, static_cast<double>(membrane.weft.stiffness)));
-    const double omega_squared = membrane_rate_of(&Spring::stiffness) + opposite_omega_squared + bending_omega_squared;
+    const double threads = std::max(rates[2], rates[3]);
+    const double omega_squared = rates[0] + opposite_omega_squared + bending_omega_squared;
     record.omega_squared = static_cast<float>(with_verlet_margin(record, omega_squared, threads));
     record.flat_omega_squared = record.omega_squared;
-    record.decay = static_cast<float>(membrane_rate_of(&Spring::damping) + time * opposite_omega_squared +
-                                      bending_time * bending_omega_squared);
+    record.decay = static_cast<float>(rates[1] + time * opposite_omega_squared + bending_time * bending_omega_squared);
 }
 
 void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::ClothRecord& record)

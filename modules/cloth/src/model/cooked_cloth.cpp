@@ -134,8 +134,10 @@ std::vector<std::byte> CookedCloth::bytes() const
     return writer.finish();
 }
 
-Result<CookedCloth> CookedCloth::load(std::span<const std::byte> given, std::shared_ptr<const void> owner)
+Result<CookedCloth> CookedCloth::load(std::span<const std::byte> given, std::shared_ptr<const void> owner,
+                                      const Jobs& jobs)
 {
+    const JobScope scope(jobs);
     const CookedBytes kept = keep_cooked(given, std::move(owner));
     auto reader = CookedReader::open(kept.bytes, CookedKind::cloth);
     if (!reader)

@@ -105,32 +105,43 @@ MembraneSprings make_membrane_springs(const Fabric& fabric, double spacing)
 // sum of stiffness * d d^T. A triangle shares its corners with others: it may count on as much of a vertex's mass as it
 // has of the stiffness there. Then the fastest mode of the whole is at most that of the fastest triangle alone (the
 // element eigenvalue theorem, Irons and Treharne 1971).
-double membrane_rate(std::span<const MembraneTriangle> triangles, std::span<const double> areas, double warp,
-                     double weft, double diagonal)
+std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, std::span<const double> areas,
+                                   std::span<const MembraneConstants> constants)
 {
-    const glm::dvec2 m(warp + diagonal, weft + diagonal);
-    if (m.x + m.y <= 0)
-        return 0;
-    const auto stiffness = [&](const MembraneTriangle& t, const glm::dvec2& g)
+    std::vector<glm::dvec2> along; // per kind of constants, the sum of those along warp and along weft
+    for (const MembraneConstants& c : constants)
+        along.emplace_back(c.warp + c.diagonal, c.weft + c.diagonal);
+    const auto stiffness = [](const glm::dvec2& m, const MembraneTriangle& t, const glm::dvec2& g)
     { return t.weight * (m.x * g.x * g.x + m.y * g.y * g.y); };
-    std::vector<double> sums(areas.size());
+    const size_t kinds = constants.size();
+    std::vector<double> sums(areas.size() * kinds);
     for (const MembraneTriangle& t : triangles)
     {
         const auto g = gradients(t);
         for (size_t i = 0; i < 3; ++i)
-            sums[t.corner[i]] += stiffness(t, g[i]);
+            for (size_t kind = 0; kind < kinds; ++kind)
+                sums[t.corner[i] * kinds + kind] += stiffness(along[kind], t, g[i]);
     }
-    double largest = 0;
+    std::vector<double> largest(kinds);
     for (const MembraneTriangle& t : triangles)
     {
         const auto g = gradients(t);
-        glm::dmat2 mobility(0); // sum of g g^T over mass
-        for (size_t i = 0; i < 3; ++i)
-            if (const double own = stiffness(t, g[i]); own > 0)
-                mobility += glm::outerProduct(g[i], g[i]) * (sums[t.corner[i]] / (own * areas[t.corner[i]]));
-        largest =
-            std::max(largest, t.weight * largest_eigenvalue(m.x * mobility[0].x, std::sqrt(m.x * m.y) * mobility[0].y,
-                                                            m.y * mobility[1].y));
+        for (size_t kind = 0; kind < kinds; ++kind)
+        {
+            const glm::dvec2& m = along[kind];
+            glm::dmat2 mobility(0); // sum of g g^T over mass
+            for (size_t i = 0; i < 3; ++i)
+                if (const double own = stiffness(m, t, g[i]); own > 0)
+                    mobility +=
+                        glm::outerProduct(g[i], g[i]) * (sums[t.corner[i] * kinds + kind] / (own * areas[t.corner[i]]));
+            const double xx = m.x * mobility[0].x;
+            const double yy = m.y * mobility[1].y;
+            constexpr double k_rounding = 1 + 1e-9;
+            if (t.weight * (xx + yy) * k_rounding < largest[kind]) // no eigenvalue is above the trace
+                continue;
+            largest[kind] =
+                std::max(largest[kind], t.weight * largest_eigenvalue(xx, std::sqrt(m.x * m.y) * mobility[0].y, yy));
+        }
     }
     return largest;
 }

@@ -55,9 +55,18 @@ struct MembraneSprings
 // depends on it.
 MembraneSprings make_membrane_springs(const Fabric& fabric, double spacing);
 
-// A bound for the squared frequency of the fastest mode, in any shape, of triangles with the given stiffness (N/m) and
-// of vertices with 1 kg/m^2 of their areas: 1/s^2. Given damping (N s/m), one for the fastest decay: 1/s.
-double membrane_rate(std::span<const MembraneTriangle> triangles, std::span<const double> areas, double warp,
-                     double weft, double diagonal);
+// Stiffness (N/m) or damping (N s/m) of a membrane's springs.
+struct MembraneConstants
+{
+    double warp = 0;
+    double weft = 0;
+    double diagonal = 0;
+};
+
+// Bounds for the squared frequency of the fastest mode, in any shape, of triangles with the given stiffness and of
+// vertices with 1 kg/m^2 of their areas: 1/s^2. Given damping, for the fastest decay: 1/s. One per entry of
+// `constants`.
+std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, std::span<const double> areas,
+                                   std::span<const MembraneConstants> constants);
 
 } // namespace voile

@@ -1,6 +1,7 @@
 // Meshes as cloth: validation, their places and topology.
 #include "model/model.hpp"
 
+#include "geometry/parallel.hpp"
 #include "geometry/same_shape.hpp"
 #include "model/cooked_cloth.hpp"
 
@@ -139,8 +140,9 @@ Result<Shape> make_shape(const MeshCloth& cloth)
 
 } // namespace
 
-Result<CookedCloth> cook(const MeshCloth& cloth)
+Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs)
 {
+    const JobScope scope(jobs);
     auto shape = make_shape(cloth);
     if (!shape)
         return shape.error();

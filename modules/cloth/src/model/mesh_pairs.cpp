@@ -121,17 +121,19 @@ public:
 
     void add(std::span<const TriangleHinge> hinges)
     {
-        find_slots(hinges);
+        find_pairs(hinges);
         for (size_t h = 0; h < hinges.size(); ++h)
             for (size_t g = 0; g < hinges.size(); ++g)
                 add(hinges[h], local_[h], hinges[g], local_[g]);
+        for (size_t i = 0; i < slots_.size(); ++i)
+            pairs_.sums[slots_[i]].bending = sums_[i];
     }
 
 private:
     using Corners = std::array<uint32_t, 4>; // of a hinge, as indices into vertices_
 
-    // The vertices of all hinges, and where their pairs stand: each is looked for once per triangle.
-    void find_slots(std::span<const TriangleHinge> hinges)
+    // The vertices of all hinges, and the pairs of these: each is looked for once per triangle.
+    void find_pairs(std::span<const TriangleHinge> hinges)
     {
         vertices_.clear();
         local_.clear();
@@ -147,13 +149,19 @@ private:
                     vertices_.push_back(vertex);
             }
         }
-        slots_.assign(vertices_.size() * vertices_.size(), k_none);
+        slots_.clear();
+        sums_.clear();
+        numbers_.resize(vertices_.size() * vertices_.size());
         for (size_t i = 0; i < vertices_.size(); ++i)
             for (size_t j = i + 1; j < vertices_.size(); ++j)
-                slot(i, j) = slot(j, i) = find(pairs_, vertices_[i], vertices_[j]);
+            {
+                number(i, j) = number(j, i) = static_cast<uint32_t>(slots_.size());
+                slots_.push_back(find(pairs_, vertices_[i], vertices_[j]));
+                sums_.push_back(pairs_.sums[slots_.back()].bending);
+            }
     }
 
-    uint32_t& slot(size_t i, size_t j) { return slots_[i * vertices_.size() + j]; }
+    uint32_t& number(size_t i, size_t j) { return numbers_[i * vertices_.size() + j]; }
 
     void add(const TriangleHinge& own, const Corners& own_corners, const TriangleHinge& other,
              const Corners& other_corners)
@@ -161,16 +169,20 @@ private:
         const double cosine = glm::dot(own.hinge->normal[own.side], other.hinge->normal[other.side]);
         const double scale = cosine * cosine / (4 * own.hinge->areas[own.side]);
         for (size_t i = 0; i < 4; ++i)
+        {
+            const double row = 0.5 * scale * own.hinge->factor[i];
             for (size_t j = 0; j < 4; ++j)
                 if (own_corners[i] != other_corners[j]) // each pair comes twice, once either way round
-                    pairs_.sums[slot(own_corners[i], other_corners[j])].bending +=
-                        0.5 * scale * own.hinge->factor[i] * other.hinge->factor[j];
+                    sums_[number(own_corners[i], other_corners[j])] += row * other.hinge->factor[j];
+        }
     }
 
     MeshPairs& pairs_;
     std::vector<uint32_t> vertices_; // of the hinges of a triangle
     std::vector<Corners> local_;     // of these, one per hinge
-    std::vector<uint32_t> slots_;    // of the pairs of vertices_
+    std::vector<uint32_t> numbers_;  // of the pairs of vertices_
+    std::vector<uint32_t> slots_;    // where each pair stands
+    std::vector<double> sums_;       // its sum so far
 };
 
 } // namespace

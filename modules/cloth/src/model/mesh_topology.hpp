@@ -27,7 +27,7 @@ struct MeshTopology
     bool masses_alike = false; // it has springs along its edges in place of a membrane
 
     // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike; the
-    // membrane's follows from the fabric (membrane_rate).
+    // membrane's follows from the fabric (membrane_rates).
     struct Bounds
     {
         double edge = 0;     // alike: 1 (times k / m)

@@ -1,4 +1,5 @@
 // Solver: creation, additions, upload and queries. Recording is in record.cpp.
+#include "geometry/parallel.hpp"
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
@@ -136,6 +137,7 @@ Result<ClothId> Solver::add_cloth(const GridCloth& grid)
 
 Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 {
+    const JobScope scope(state_->options.jobs);
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_a_vertex = 256;
     const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
@@ -155,6 +157,7 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 
 Result<ColliderId> Solver::add_collider(const Collider& collider)
 {
+    const JobScope scope(state_->options.jobs);
     auto result = std::visit([&](const auto& shape) { return state_->collider_models.add(shape); }, collider);
     if (result)
     {

@@ -1,4 +1,5 @@
 // Upload: new buffers for everything that was added, and the copies that fill them.
+#include "geometry/parallel.hpp"
 #include "solver/solver_state.hpp"
 
 #include <algorithm>
@@ -200,6 +201,7 @@ void forget_uploaded(Solver::State& solver)
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 {
     State& s = *state_;
+    const JobScope scope(s.options.jobs);
     s.attachment_lists = make_attachment_lists(s.model);
     UploadData data;
     data.patches = make_patches(s.model, s.options.tuning.workgroup_size);
