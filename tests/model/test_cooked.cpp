@@ -158,7 +158,7 @@ TEST_CASE("a cooked cloth equals its mesh to the bit, also by way of bytes")
             voile::MeshCloth cloth = mesh.cloth();
             cloth.transform = glm::rotate(glm::mat4(1.5f), 0.7f, glm::vec3(0, 1, 0));
             cloth.transform[3] = glm::vec4(3, 1, -2, 1);
-            cloth.held = {1, 2};
+            cloth.pins = {1, 2};
             if (fabric)
                 cloth.material = isometric_fabric();
             const voile::CookedCloth cooked = take(voile::cook(cloth));

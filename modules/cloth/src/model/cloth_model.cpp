@@ -1,16 +1,12 @@
-// What grids and meshes have in common: validation, the record that follows from a material, the state at the start.
+// What grids and meshes have in common: validation, and the record that follows from a material.
 #include "model/cloth_model.hpp"
-
-#include "geometry/rounding.hpp"
 
 #include "model/stability.hpp"
 
 #include "shared/grid_springs.h"
-#include "shared/residual.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -31,17 +27,6 @@ struct Rates
     double flat_omega_squared = 0; // 1/s^2, of the flat cloth
     double decay = 0;              // 1/s, in any shape
 };
-
-// Of a vertex on a line of `count`, whatever the line across it is.
-double border_scale(const shared::ClothRecord& record, int index, uint32_t count)
-{
-    return index == 0 || index + 1 == static_cast<int>(count) ? static_cast<double>(record.border_share) : 1;
-}
-
-double vertex_scale(const shared::ClothRecord& record, int row, int column)
-{
-    return border_scale(record, row, record.rows) * border_scale(record, column, record.columns);
-}
 
 // A wave's factor from one vertex to the next, per line and over none, one and two of them.
 using Phase = std::array<std::complex<double>, 3>;
@@ -298,47 +283,6 @@ void apply_material(ClothModel& cloth)
     }
 }
 
-namespace
-{
-
-// What a float position leaves of a place, as fine_position.glsl packs it.
-glm::uvec2 residual_of(const glm::dvec3& place)
-{
-    const glm::vec3 x = rounded(place);
-    const uint32_t unit = shared::residual_unit(x);
-    const glm::dvec3 units = (place - glm::dvec3(x)) / double{std::bit_cast<float>(unit)};
-    const glm::dvec3 fraction = glm::min(glm::round(units), 32767.0) + 32768.0;
-    return shared::pack_fraction(glm::uvec3(fraction), unit);
-}
-
-// What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
-// for masses given outright.
-double mass_measure(const ClothModel& cloth, uint32_t vertex)
-{
-    const shared::ClothRecord& record = cloth.record;
-    const bool fabric = std::holds_alternative<Fabric>(cloth.material);
-    if (cloth.mesh)
-        return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
-    const double share =
-        vertex_scale(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
-    return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
-}
-
-// m, at the start.
-float longest_edge(const ClothModel& cloth)
-{
-    if (!cloth.mesh)
-        return glm::length(cloth.spacing); // the diagonal of a cell, whose triangles have it as a side
-    float longest = 0;
-    for (const glm::uvec3& t : cloth.mesh->triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            longest = std::max(
-                longest, glm::distance(glm::vec3(cloth.start[t[corner]]), glm::vec3(cloth.start[t[(corner + 1) % 3]])));
-    return longest;
-}
-
-} // namespace
-
 Result<void> validate(const ClothInput& cloth, uint64_t vertices)
 {
     const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
@@ -364,66 +308,6 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
             return bad("inverse mass " + std::to_string(i) + " is " + text(cloth.inverse_masses[i]) +
                        " 1/kg, must be 0 to " + text(k_most_inverse_mass));
     return {};
-}
-
-void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> places)
-{
-    cloth.start.reserve(places.size());
-    cloth.residuals.reserve(places.size());
-    for (uint32_t i = 0; i < places.size(); ++i)
-    {
-        const double measure = mass_measure(cloth, i);
-        double inverse = measure > 0 ? 1 / measure : 0;
-        if (!input.inverse_masses.empty())
-        {
-            inverse = measure > 0 ? static_cast<double>(input.inverse_masses[i]) : 0;
-            cloth.own_inverse_mass = std::max(cloth.own_inverse_mass, inverse * measure);
-        }
-        cloth.start.emplace_back(glm::vec3(places[i]), static_cast<float>(inverse));
-        cloth.residuals.push_back(residual_of(places[i]));
-    }
-    if (cloth.own_inverse_mass > 0)
-        apply_material(cloth);
-    cloth.velocity = input.velocity;
-    cloth.positions.reserve(places.size());
-    cloth.velocities.reserve(places.size());
-    for (const glm::vec4& start : cloth.start)
-    {
-        const float inverse_mass = start.w * cloth.record.inverse_density;
-        cloth.positions.emplace_back(glm::vec3(start), inverse_mass);
-        cloth.velocities.emplace_back(inverse_mass > 0 ? input.velocity : glm::vec3(0), 0);
-        const glm::dvec3 place(start);
-        cloth.extent.join({place, place});
-    }
-    cloth.longest_edge = longest_edge(cloth);
-    std::vector<bool> pinned(places.size());
-    for (const uint32_t vertex : input.pins)
-    {
-        if (pinned[vertex])
-            continue;
-        pinned[vertex] = true;
-        cloth.positions[vertex].w = 0;
-        cloth.velocities[vertex] = glm::vec4(0);
-        cloth.attachments.push_back(pin(vertex));
-    }
-}
-
-std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth)
-{
-    if (cloth.mesh)
-        return {cloth.mesh->triangles.begin(), cloth.mesh->triangles.end()};
-    const shared::ClothRecord& record = cloth.record;
-    std::vector<glm::uvec3> result;
-    result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
-    for (uint32_t row = 0; row + 1 < record.rows; ++row)
-        for (uint32_t column = 0; column + 1 < record.columns; ++column)
-        {
-            const uint32_t corner = row * record.columns + column;
-            const uint32_t below = corner + record.columns;
-            result.emplace_back(corner, below, corner + 1);
-            result.emplace_back(corner + 1, below, below + 1);
-        }
-    return result;
 }
 
 } // namespace voile

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <span>
 
 namespace voile
@@ -13,8 +12,6 @@ namespace voile
 
 namespace
 {
-
-constexpr uint32_t k_none = std::numeric_limits<uint32_t>::max();
 
 // A hinge as one of its triangles has it.
 struct TriangleHinge
