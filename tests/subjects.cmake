@@ -4,6 +4,7 @@ voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp eng
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp
+                                  colliders/test_cooked_collider.cpp
                LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES colliders/test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SOURCE_DIR}/shaders/cloth SHADERS ../../tests/colliders/visit_padded.comp)

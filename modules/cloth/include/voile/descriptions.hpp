@@ -220,8 +220,8 @@ struct MeshCollider
     uint32_t layers = 1;
 
     // Replaces positions and triangles, which stay empty (voile/cooked.hpp). The transform may differ by a rotation and
-    // a translation from the one that the mesh was cooked with; a rotation costs as much as a moving collider. With the
-    // same transform results equal those of the mesh itself to the bit. A cooked collider cannot deform.
+    // a translation from the one that the mesh was cooked with; a rotated one behaves and costs like a collider
+    // that was moved there. With the same transform results equal those of the mesh itself to the bit. A cooked collider cannot deform.
     CookedCollider cooked{};
 };
 
