@@ -112,7 +112,7 @@ voile::MeshCloth isometric_cloth(const voile::engine::Mesh& mesh)
 
 using Bytes = std::vector<std::byte>;
 
-void measure_cloth(const voile::gpu::Handles& handles, uint32_t side, std::vector<HostCost>& costs)
+void measure_cloth(const voile::Handles& handles, uint32_t side, std::vector<HostCost>& costs)
 {
     constexpr uint32_t k_repetitions = 7;
     const voile::engine::Mesh mesh = make_uneven_sheet(side);

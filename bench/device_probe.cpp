@@ -40,7 +40,7 @@ double copy_bandwidth(TimedQueue& queue)
         return voile::engine::take(voile::gpu::create_buffer(
             context, name, bytes,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-            voile::gpu::Memory::device));
+            voile::Memory::device));
     };
     const voile::gpu::Buffer source = buffer("copy source");
     const voile::gpu::Buffer destination = buffer("copy destination");
@@ -84,8 +84,8 @@ double empty_dispatch(TimedQueue& queue)
     const voile::gpu::Context& context = queue.context();
     const voile::gpu::Kernel kernel = voile::engine::take(
         voile::gpu::Kernel::create(context, {"bench empty", shaders::k_empty_comp, {{0, k_group}}}));
-    const voile::gpu::Buffer unused = voile::engine::take(voile::gpu::create_buffer(
-        context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::gpu::Memory::device));
+    const voile::gpu::Buffer unused = voile::engine::take(
+        voile::gpu::create_buffer(context, "unused", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 1));
     const VkDescriptorSet set = voile::engine::take(pool.bind(kernel, {{0, unused.handle()}}));
     const double microseconds =

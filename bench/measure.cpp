@@ -77,9 +77,9 @@ public:
         }
         constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
         positions_ = voile::engine::take(
-            voile::gpu::create_buffer(context_, "snapshot positions", bytes, k_usage, voile::gpu::Memory::device));
+            voile::gpu::create_buffer(context_, "snapshot positions", bytes, k_usage, voile::Memory::device));
         velocities_ = voile::engine::take(
-            voile::gpu::create_buffer(context_, "snapshot velocities", bytes, k_usage, voile::gpu::Memory::device));
+            voile::gpu::create_buffer(context_, "snapshot velocities", bytes, k_usage, voile::Memory::device));
         queue.run(
             [&](VkCommandBuffer cmd)
             {

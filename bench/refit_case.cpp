@@ -132,7 +132,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
     const voile::gpu::Buffer positions = batch.buffer("positions", sheet.positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const voile::gpu::Buffer boxes = voile::engine::take(voile::gpu::create_buffer(
         context, "boxes", (where.first_box + tree.boxes()) * sizeof(voile::shared::PaddedBox),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::gpu::Memory::device));
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::Memory::device));
     queue.run([&](VkCommandBuffer cmd) { batch.record(cmd); });
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 3));
     const VkDescriptorSet set =

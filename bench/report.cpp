@@ -132,24 +132,24 @@ void print_costs(std::span<const HostCost> costs)
     std::fflush(stdout);
 }
 
-voile::gpu::Result<CsvFile> CsvFile::open(const std::string& path)
+voile::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;
     if (std::ifstream existing(path); existing)
         std::getline(existing, first_line);
     if (!first_line.empty() && first_line != k_columns)
-        return voile::gpu::Error{path + ": its first line is not the header of this program's columns"};
+        return voile::Error{path + ": its first line is not the header of this program's columns"};
     std::ofstream file(path, std::ios::app);
     if (first_line.empty())
         file << k_columns << '\n';
     file.flush();
     if (!file)
-        return voile::gpu::Error{path + ": cannot be written"};
+        return voile::Error{path + ": cannot be written"};
     return CsvFile(path);
 }
 
-voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
-                                         const Case& item, const Measurement& m, uint32_t repetitions) const
+voile::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
+                                    const Measurement& m, uint32_t repetitions) const
 {
     std::ostringstream row;
     row.precision(6);
@@ -161,8 +161,8 @@ voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device
     return append(row.str());
 }
 
-voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
-                                         const DrapeCase& item, const DrapeMeasurement& m) const
+voile::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                    const DrapeCase& item, const DrapeMeasurement& m) const
 {
     const double microseconds = 1000. / m.substeps;
     std::ostringstream row;
@@ -174,8 +174,8 @@ voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device
     return append(row.str());
 }
 
-voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
-                                         const RefitCase& item, const RefitMeasurement& m, uint32_t repetitions) const
+voile::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
+                                    const RefitCase& item, const RefitMeasurement& m, uint32_t repetitions) const
 {
     std::ostringstream row;
     row.precision(6);
@@ -186,13 +186,13 @@ voile::gpu::Result<void> CsvFile::append(const voile::engine::DeviceInfo& device
     return append(row.str());
 }
 
-voile::gpu::Result<void> CsvFile::append(const std::string& row) const
+voile::Result<void> CsvFile::append(const std::string& row) const
 {
     std::ofstream file(path_, std::ios::app);
     file << row;
     file.flush();
     if (!file)
-        return voile::gpu::Error{path_ + ": cannot be written"};
+        return voile::Error{path_ + ": cannot be written"};
     return {};
 }
 

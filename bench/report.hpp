@@ -36,21 +36,20 @@ class CsvFile
 {
 public:
     // Writes the header if the file is new or empty. Errors: the file cannot be written or has other columns.
-    static voile::gpu::Result<CsvFile> open(const std::string& path);
+    static voile::Result<CsvFile> open(const std::string& path);
 
-    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
-                                    const Measurement& measurement, uint32_t repetitions) const;
+    voile::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const Case& item,
+                               const Measurement& measurement, uint32_t repetitions) const;
     // A row with the mean substep of a whole frame. Bytes and recording are not measured and stay empty.
-    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
-                                    const DrapeCase& item, const DrapeMeasurement& measurement) const;
+    voile::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const DrapeCase& item,
+                               const DrapeMeasurement& measurement) const;
     // A row with a refit instead of a substep. Recording is not measured and stays empty.
-    voile::gpu::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe,
-                                    const RefitCase& item, const RefitMeasurement& measurement,
-                                    uint32_t repetitions) const;
+    voile::Result<void> append(const voile::engine::DeviceInfo& device, const DeviceProbe& probe, const RefitCase& item,
+                               const RefitMeasurement& measurement, uint32_t repetitions) const;
 
 private:
     explicit CsvFile(std::string path) : path_(std::move(path)) {}
-    voile::gpu::Result<void> append(const std::string& row) const;
+    voile::Result<void> append(const std::string& row) const;
     std::string path_;
 };
 

@@ -1,11 +1,22 @@
-# All dependencies come from the system. The target is made here if a distribution ships sources without a CMake config.
-find_package(Vulkan 1.3.204 REQUIRED)
-find_package(glm REQUIRED)
+# Everything comes from the system, or from targets that the host has already. Where a distribution ships sources without
+# a CMake config, they are found here.
+if(NOT TARGET Vulkan::Headers)
+    find_package(VulkanHeaders CONFIG QUIET)
+endif()
+if(NOT TARGET Vulkan::Headers)
+    find_package(Vulkan 1.3.204 REQUIRED)
+endif()
+if(NOT TARGET glm::glm)
+    find_package(glm REQUIRED)
+endif()
 find_package(Threads REQUIRED)
-find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-find_package(VulkanMemoryAllocator CONFIG QUIET)
+# Compiled inside voile_gpu; no target of the package needs it.
+if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
+    find_package(VulkanMemoryAllocator CONFIG QUIET)
+endif()
 if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
     find_path(VMA_INCLUDE_DIR NAMES vk_mem_alloc.h PATH_SUFFIXES vma)
     if(NOT VMA_INCLUDE_DIR)
@@ -17,18 +28,13 @@ if(NOT TARGET GPUOpen::VulkanMemoryAllocator)
 endif()
 
 if(VOILE_BUILD_ENGINE)
-    # The engine loads Vulkan with volk: a static library if the distribution has one, else built from volk.c (Debian 12
-    # ships only the two sources). The module does not use volk: volk defines every function of Vulkan as a variable,
+    # The engine loads Vulkan with volk: a library if the distribution has one, else volk.c becomes part of the engine
+    # (Debian 12 ships only the two sources). The module does not use volk: volk defines every function of Vulkan as a variable,
     # and a program that links Vulkan would call those.
     find_package(volk CONFIG QUIET)
     if(NOT TARGET volk::volk)
         find_path(VOLK_INCLUDE_DIR NAMES volk.h PATH_SUFFIXES volk REQUIRED)
         find_file(VOLK_SOURCE NAMES volk.c PATHS ${VOLK_INCLUDE_DIR} NO_DEFAULT_PATH REQUIRED)
-        add_library(voile_volk STATIC ${VOLK_SOURCE})
-        target_include_directories(voile_volk SYSTEM PUBLIC ${VOLK_INCLUDE_DIR} ${Vulkan_INCLUDE_DIRS})
-        target_compile_definitions(voile_volk PUBLIC VK_NO_PROTOTYPES)
-        target_link_libraries(voile_volk PUBLIC ${CMAKE_DL_LIBS})
-        add_library(volk::volk ALIAS voile_volk)
     endif()
     find_package(glfw3 3.3 REQUIRED)
     find_package(tinyobjloader REQUIRED)
@@ -39,6 +45,6 @@ if(VOILE_BUILD_ENGINE)
     add_library(voile_stb INTERFACE)
     target_include_directories(voile_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 endif()
-if(VOILE_BUILD_TESTS)
+if(VOILE_BUILD_TESTS AND VOILE_BUILD_ENGINE)
     find_package(doctest REQUIRED)
 endif()

@@ -1,8 +1,13 @@
 # voile_options: the compiler options of every target of the project. Interface only. Users do not inherit them.
 add_library(voile_options INTERFACE)
-target_compile_options(voile_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+if(MSVC)
+    target_compile_options(voile_options INTERFACE /W4 /permissive- /utf-8 /Zc:__cplusplus)
+    target_compile_definitions(voile_options INTERFACE NOMINMAX)
+else()
+    target_compile_options(voile_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+endif()
 if(VOILE_WERROR)
-    target_compile_options(voile_options INTERFACE -Werror)
+    target_compile_options(voile_options INTERFACE $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
 endif()
 if(VOILE_SANITIZE)
     target_compile_options(voile_options INTERFACE -fsanitize=${VOILE_SANITIZE} -fno-omit-frame-pointer

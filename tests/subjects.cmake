@@ -56,19 +56,43 @@ if(VOILE_SANITIZE)
     set(consumer_linker_flags -fsanitize=${VOILE_SANITIZE})
 endif()
 set(consumer_prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
-add_test(NAME "consumer: clean" COMMAND ${CMAKE_COMMAND} -E rm -rf ${consumer_prefix})
-add_test(NAME "consumer: install" COMMAND ${CMAKE_COMMAND} --install ${CMAKE_BINARY_DIR} --prefix ${consumer_prefix})
+add_test(NAME "consumer: clean" COMMAND ${CMAKE_COMMAND} -E rm -rf ${consumer_prefix} ${consumer_prefix}_before)
+add_test(NAME "consumer: install"
+         COMMAND ${CMAKE_COMMAND} --install ${CMAKE_BINARY_DIR} --prefix ${consumer_prefix}_before)
+add_test(NAME "consumer: move" COMMAND ${CMAKE_COMMAND} -E rename ${consumer_prefix}_before ${consumer_prefix})
+add_test(NAME "consumer: the package names no folder and has its license"
+         COMMAND ${CMAKE_COMMAND} -DPREFIX=${consumer_prefix} -DSOURCE=${PROJECT_SOURCE_DIR} -DBUILD=${CMAKE_BINARY_DIR}
+                 -P ${CMAKE_CURRENT_SOURCE_DIR}/check_package.cmake)
 add_test(NAME "consumer: find_package"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer
                  ${CMAKE_CURRENT_BINARY_DIR}/consumer --build-generator ${CMAKE_GENERATOR}
                  --build-options -DCMAKE_PREFIX_PATH=${consumer_prefix} "-DCMAKE_EXE_LINKER_FLAGS=${consumer_linker_flags}"
+                                 -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties("consumer: clean" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: clean")
-set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
+set_tests_properties("consumer: move" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: install")
+set_tests_properties("consumer: the package names no folder and has its license" PROPERTIES FIXTURES_REQUIRED installed)
+set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 600)
+add_test(NAME "consumer: add_subdirectory"
+         COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer/subdirectory
+                 ${CMAKE_CURRENT_BINARY_DIR}/subdirectory_consumer --build-generator ${CMAKE_GENERATOR}
+                 --build-options -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+                 --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
+set_tests_properties("consumer: add_subdirectory" PROPERTIES TIMEOUT 900 PROCESSORS 2)
+
+# The sample of the guide, with validation and synchronization validation, which print what they find.
+add_test(NAME "foreign_engine: a sheet falls on a ball" COMMAND foreign_engine ${CMAKE_CURRENT_BINARY_DIR}/sheet.ply)
+set_tests_properties("foreign_engine: a sheet falls on a ball" PROPERTIES
+    TIMEOUT 300 PASS_REGULAR_EXPRESSION "vertices touch" FAIL_REGULAR_EXPRESSION "VUID|SYNC-|alidation Error"
+    ENVIRONMENT "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
+add_test(NAME "integration: the guide shows the program of foreign_engine"
+         COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_integration.cmake)
+add_test(NAME "recipes: vcpkg and Conan"
+         COMMAND ${CMAKE_COMMAND} -DVERSION=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_recipes.cmake)
 voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_edits SOURCES solver/test_edits.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_recovery SOURCES contact/test_recovery.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)

@@ -14,10 +14,10 @@ namespace
 
 bool save(const std::filesystem::path& path, const voile::engine::Mesh& mesh)
 {
-    const voile::gpu::Result<void> saved = voile::engine::save_obj(path, mesh);
+    const voile::Result<void> saved = voile::engine::save_obj(path, mesh);
     if (!saved)
         std::fprintf(stderr, "make_meshes: %s\n", saved.error().message.c_str());
-    return saved.ok();
+    return saved.has_value();
 }
 
 bool save_jelly(const std::filesystem::path& folder)

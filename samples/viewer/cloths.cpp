@@ -86,8 +86,8 @@ voile::Attachment make_attachment(const PinEntry& entry, uint32_t vertex)
 }
 
 // The attachments of all pins; where two pins name a vertex, the later one counts.
-voile::gpu::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                  const Vertices& vertices, AddedCloth& added)
+voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                             const Vertices& vertices, AddedCloth& added)
 {
     std::map<uint32_t, voile::Attachment> attached;
     for (const PinEntry& pin : entry.pins)
@@ -129,8 +129,8 @@ voile::gpu::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene,
     return {};
 }
 
-voile::gpu::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                            const GridEntry& form, const Options& options, Vertices& vertices)
+voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                       const GridEntry& form, const Options& options, Vertices& vertices)
 {
     voile::GridCloth grid;
     grid.name = entry.name;
@@ -170,8 +170,8 @@ void tell(const voile::MeshReport& report, const std::string& name)
         note("cloth " + in_quotes(name) + ": " + odd);
 }
 
-voile::gpu::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                            const std::filesystem::path& file, Vertices& vertices)
+voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                       const std::filesystem::path& file, Vertices& vertices)
 {
     voile::engine::MeshReport changes;
     auto loaded = voile::engine::load_mesh(file, &changes, voile::engine::MeshVertices::positions);
@@ -203,8 +203,8 @@ voile::gpu::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFi
 
 } // namespace
 
-voile::gpu::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                         const Options& options)
+voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                    const Options& options)
 {
     Vertices vertices;
     const auto* form = std::get_if<GridEntry>(&entry.form);

@@ -25,7 +25,7 @@ struct AddedCloth
 
 // Reads the mesh, if it has one, and adds the cloth with its pins and tethers. What is odd about a mesh goes to
 // standard error, in one line. Errors name the file and the place in it.
-voile::gpu::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                         const Options& options);
+voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
+                                    const Options& options);
 
 } // namespace viewer

@@ -67,7 +67,7 @@ BoxShape scaled(const BoxShape& box, float scale)
 }
 
 // The solver is told of both ends of a frame and takes the shorter way between them.
-voile::gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
+voile::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
 {
     const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
     if (spin.x + spin.y + spin.z < 180 * scene.step.rate)
@@ -75,7 +75,7 @@ voile::gpu::Result<void> check_spin(const SceneFile& scene, const ColliderEntry&
     return error_at(scene, {entry.place.line, entry.place.path + ".motion.spin"}, "is half a turn per frame or more");
 }
 
-voile::gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
+voile::Result<Solid> load_sequence(const ColliderEntry& entry)
 {
     auto loaded = MeshSequence::load(*entry.frames, std::get<MeshShape>(entry.shape).file);
     if (!loaded)
@@ -87,7 +87,7 @@ voile::gpu::Result<Solid> load_sequence(const ColliderEntry& entry)
                  .frames = frames};
 }
 
-voile::gpu::Result<Solid> load_shape(const ColliderEntry& entry)
+voile::Result<Solid> load_shape(const ColliderEntry& entry)
 {
     if (const auto* mesh = std::get_if<MeshShape>(&entry.shape))
     {
@@ -109,7 +109,7 @@ voile::gpu::Result<Solid> load_shape(const ColliderEntry& entry)
     return Solid{.name = "box", .shape = scaled(std::get<BoxShape>(entry.shape), scale), .transform = transform};
 }
 
-voile::gpu::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
+voile::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& entry)
 {
     if (auto spin = check_spin(scene, entry); !spin)
         return spin.error();
@@ -237,7 +237,7 @@ voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const
     return a ? voile::engine::Bounds{glm::min(a->min, b.min), glm::max(a->max, b.max)} : b;
 }
 
-voile::gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
+voile::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options)
 {
     std::vector<Solid> solids;
     for (const ColliderEntry& entry : scene.colliders)

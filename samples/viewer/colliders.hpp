@@ -38,7 +38,7 @@ struct Solid
 // evenly, centerd and set on the floor of the box that those filled, side by side where there are several. In a scene
 // without such a mesh the box lies below the cloths. They move, and meet cloth, as the first of the meshes did whose
 // place they take; they do not deform. Errors name the file.
-voile::gpu::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
+voile::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
 voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const voile::engine::Bounds& b);
 

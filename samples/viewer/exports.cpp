@@ -39,10 +39,10 @@ std::optional<size_t> first_not_finite(std::span<const glm::vec3> values)
     return std::nullopt;
 }
 
-voile::gpu::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
+voile::Result<void> check_surface(const fs::path& path, const ClothSurface& surface)
 {
     const auto error = [&](const std::string& reason)
-    { return voile::gpu::Error{voile::engine::path_text(path) + ": cloth " + in_quotes(surface.name) + " " + reason}; };
+    { return voile::Error{voile::engine::path_text(path) + ": cloth " + in_quotes(surface.name) + " " + reason}; };
     const size_t count = surface.positions.size();
     if (count > k_most_int32 || surface.triangles.size() > k_most_int32)
         return error("has too many vertices or triangles for the format");
@@ -70,7 +70,8 @@ public:
 
     void vector(std::string_view keyword, const glm::vec3& v)
     {
-        text_.assign(keyword);
+        text_.clear();
+        text_.append(keyword);
         for (const float value : {v.x, v.y, v.z})
             number(value);
         flush();
@@ -79,7 +80,7 @@ public:
     // OBJ counts from 1.
     void face(const glm::uvec3& triangle, bool with_normals)
     {
-        text_.assign("f");
+        text_.assign(1, 'f');
         for (const uint32_t index : {triangle.x, triangle.y, triangle.z})
         {
             number(index + 1);
@@ -159,11 +160,11 @@ std::vector<fs::path> export_paths(const fs::path& path, const std::vector<std::
     return result;
 }
 
-voile::gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& surface)
+voile::Result<void> save_surface_obj(const fs::path& path, const ClothSurface& surface)
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    voile::gpu::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
+    voile::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
     if (!created)
         return created.error();
     voile::engine::AtomicFile& file = created.value();
@@ -178,11 +179,11 @@ voile::gpu::Result<void> save_surface_obj(const fs::path& path, const ClothSurfa
     return file.commit();
 }
 
-voile::gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& surface)
+voile::Result<void> save_surface_ply(const fs::path& path, const ClothSurface& surface)
 {
     if (auto sound = check_surface(path, surface); !sound)
         return sound;
-    voile::gpu::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
+    voile::Result<voile::engine::AtomicFile> created = voile::engine::AtomicFile::create(path);
     if (!created)
         return created.error();
     voile::engine::AtomicFile& file = created.value();
@@ -205,12 +206,11 @@ voile::gpu::Result<void> save_surface_ply(const fs::path& path, const ClothSurfa
     return file.commit();
 }
 
-voile::gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path,
-                                                          const std::vector<ClothSurface>& surfaces)
+voile::Result<std::vector<fs::path>> export_surfaces(const fs::path& path, const std::vector<ClothSurface>& surfaces)
 {
     const std::string extension = lower_extension(path);
     if (extension != ".obj" && extension != ".ply")
-        return voile::gpu::Error{voile::engine::path_text(path) + ": does not end in .obj or .ply"};
+        return voile::Error{voile::engine::path_text(path) + ": does not end in .obj or .ply"};
     std::vector<std::string> names;
     names.reserve(surfaces.size());
     for (const ClothSurface& surface : surfaces)
@@ -219,12 +219,12 @@ voile::gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path,
     // All are checked before the first is written, so that bad data leaves no part of an export.
     for (size_t i = 0; i < surfaces.size(); ++i)
     {
-        if (const voile::gpu::Result<void> sound = check_surface(paths[i], surfaces[i]); !sound)
+        if (const voile::Result<void> sound = check_surface(paths[i], surfaces[i]); !sound)
             return sound.error();
     }
     for (size_t i = 0; i < surfaces.size(); ++i)
     {
-        const voile::gpu::Result<void> saved =
+        const voile::Result<void> saved =
             extension == ".obj" ? save_surface_obj(paths[i], surfaces[i]) : save_surface_ply(paths[i], surfaces[i]);
         if (!saved)
             return saved.error();
@@ -232,12 +232,12 @@ voile::gpu::Result<std::vector<fs::path>> export_surfaces(const fs::path& path,
     return paths;
 }
 
-voile::gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uint32_t point_count,
-                                                              float start_frame, float sample_rate)
+voile::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& path, uint32_t point_count, float start_frame,
+                                                         float sample_rate)
 {
     if (point_count > k_most_int32)
-        return voile::gpu::Error{voile::engine::path_text(path) + ": too many points for the format"};
-    voile::gpu::Result<voile::engine::AtomicFile> file = voile::engine::AtomicFile::create(path);
+        return voile::Error{voile::engine::path_text(path) + ": too many points for the format"};
+    voile::Result<voile::engine::AtomicFile> file = voile::engine::AtomicFile::create(path);
     if (!file)
         return file.error();
     std::string header("POINTCACHE2\0", 12);
@@ -250,12 +250,10 @@ voile::gpu::Result<PointCacheWriter> PointCacheWriter::create(const fs::path& pa
     return PointCacheWriter(std::move(file.value()), path, point_count);
 }
 
-voile::gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
+voile::Result<void> PointCacheWriter::append(std::span<const glm::vec3> positions)
 {
-    const auto error = [&](const std::string& reason) {
-        return voile::gpu::Error{voile::engine::path_text(path_) + ": sample " + std::to_string(samples_) + " " +
-                                 reason};
-    };
+    const auto error = [&](const std::string& reason)
+    { return voile::Error{voile::engine::path_text(path_) + ": sample " + std::to_string(samples_) + " " + reason}; };
     if (positions.size() != points_)
         return error("has " + std::to_string(positions.size()) + " points instead of " + std::to_string(points_));
     if (const auto vertex = first_not_finite(positions))
@@ -269,7 +267,7 @@ voile::gpu::Result<void> PointCacheWriter::append(std::span<const glm::vec3> pos
     return {};
 }
 
-voile::gpu::Result<void> PointCacheWriter::finish()
+voile::Result<void> PointCacheWriter::finish()
 {
     const auto count = static_cast<int32_t>(samples_);
     file_.seek(k_sample_count_offset);

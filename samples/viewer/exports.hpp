@@ -3,7 +3,7 @@
 #pragma once
 
 #include "voile/engine/assets/atomic_file.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -31,14 +31,14 @@ std::vector<std::filesystem::path> export_paths(const std::filesystem::path& pat
 
 // Text; numbers with as many digits as bring the same float back. Errors: a value that is not finite, an index out of
 // range, a wrong number of normals, and whatever the file system says.
-voile::gpu::Result<void> save_surface_obj(const std::filesystem::path& path, const ClothSurface& surface);
+voile::Result<void> save_surface_obj(const std::filesystem::path& path, const ClothSurface& surface);
 
 // Binary little endian: float x y z, with normals also float nx ny nz; faces as uchar count and int vertex_indices.
-voile::gpu::Result<void> save_surface_ply(const std::filesystem::path& path, const ClothSurface& surface);
+voile::Result<void> save_surface_ply(const std::filesystem::path& path, const ClothSurface& surface);
 
 // All cloths, as OBJ or PLY by the extension of `path`. Returns the files written; none is where a cloth is unsound.
-voile::gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std::filesystem::path& path,
-                                                                       const std::vector<ClothSurface>& surfaces);
+voile::Result<std::vector<std::filesystem::path>> export_surfaces(const std::filesystem::path& path,
+                                                                  const std::vector<ClothSurface>& surfaces);
 
 // PC2 point cache (as Blender's Mesh Cache modifier reads it), one sample a call. Little endian: "POINTCACHE2\0", int32
 // version 1, int32 points, float start frame, float sample rate (frames between samples), int32 samples; then the
@@ -46,14 +46,14 @@ voile::gpu::Result<std::vector<std::filesystem::path>> export_surfaces(const std
 class PointCacheWriter
 {
 public:
-    static voile::gpu::Result<PointCacheWriter> create(const std::filesystem::path& path, uint32_t point_count,
-                                                       float start_frame = 0.f, float sample_rate = 1.f);
+    static voile::Result<PointCacheWriter> create(const std::filesystem::path& path, uint32_t point_count,
+                                                  float start_frame = 0.f, float sample_rate = 1.f);
 
     // Errors: another number of points, a value that is not finite, a full disk.
-    voile::gpu::Result<void> append(std::span<const glm::vec3> positions);
+    voile::Result<void> append(std::span<const glm::vec3> positions);
 
     // Writes the number of samples and gives the file its name. Without it nothing is left behind.
-    voile::gpu::Result<void> finish();
+    voile::Result<void> finish();
 
     [[nodiscard]] uint32_t samples() const { return samples_; }
 

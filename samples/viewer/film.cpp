@@ -27,9 +27,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-voile::gpu::Error film_error(const fs::path& path, const std::string& reason)
+voile::Error film_error(const fs::path& path, const std::string& reason)
 {
-    return voile::gpu::Error{voile::engine::path_text(path) + ": no film: " + reason};
+    return voile::Error{voile::engine::path_text(path) + ": no film: " + reason};
 }
 
 std::vector<std::string> encoder_arguments(const FilmSettings& settings, const fs::path& file)
@@ -102,13 +102,13 @@ std::string first_line(std::FILE* file)
 
 } // namespace
 
-voile::gpu::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSettings& settings)
+voile::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSettings& settings)
 {
     if (settings.width == 0 || settings.height == 0)
         return film_error(path, "a picture without pixels");
     if (!std::isfinite(settings.rate) || settings.rate <= 0)
         return film_error(path, "the frame rate is not positive");
-    const voile::gpu::Result<fs::path> target = voile::engine::resolve_target(path);
+    const voile::Result<fs::path> target = voile::engine::resolve_target(path);
     if (!target)
         return target.error();
 
@@ -186,16 +186,15 @@ void FilmWriter::discard() noexcept
     temporary_.remove();
 }
 
-voile::gpu::Error FilmWriter::encoder_error()
+voile::Error FilmWriter::encoder_error()
 {
     const std::string said = messages_ != nullptr ? first_line(messages_) : "";
-    const voile::gpu::Error error =
-        film_error(path_, said.empty() ? "the encoder left early" : "the encoder says: " + said);
+    const voile::Error error = film_error(path_, said.empty() ? "the encoder left early" : "the encoder says: " + said);
     discard();
     return error;
 }
 
-voile::gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
+voile::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
 {
     if (socket_ < 0)
         return film_error(path_, "the film was ended already");
@@ -218,7 +217,7 @@ voile::gpu::Result<void> FilmWriter::add(std::span<const uint8_t> rgba)
     return {};
 }
 
-voile::gpu::Result<void> FilmWriter::finish()
+voile::Result<void> FilmWriter::finish()
 {
     if (socket_ < 0)
         return film_error(path_, "the film was ended already");
@@ -230,7 +229,7 @@ voile::gpu::Result<void> FilmWriter::finish()
     const int status = wait_for_encoder();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return encoder_error();
-    voile::gpu::Result<void> completed = temporary_.complete(target_);
+    voile::Result<void> completed = temporary_.complete(target_);
     discard();
     return completed;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voile/engine/assets/atomic_file.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <sys/types.h>
 
@@ -28,7 +28,7 @@ class FilmWriter
 {
 public:
     // Starts the encoder. Errors: no ffmpeg, a size or rate of zero, a folder that is not there.
-    static voile::gpu::Result<FilmWriter> create(const std::filesystem::path& path, const FilmSettings& settings);
+    static voile::Result<FilmWriter> create(const std::filesystem::path& path, const FilmSettings& settings);
 
     ~FilmWriter(); // without finish(), the encoder is stopped and nothing is left behind
     FilmWriter(FilmWriter&& other) noexcept;
@@ -38,14 +38,14 @@ public:
 
     // One frame: width * height * 4 bytes, rows from the top, sRGB; alpha is dropped. Blocks while the encoder is busy.
     // Errors: another number of bytes; what the encoder said when it left early.
-    voile::gpu::Result<void> add(std::span<const uint8_t> rgba);
+    voile::Result<void> add(std::span<const uint8_t> rgba);
 
     // Waits for the encoder and gives the film its name. An error without any frame.
-    voile::gpu::Result<void> finish();
+    voile::Result<void> finish();
 
 private:
     FilmWriter() = default;
-    voile::gpu::Error encoder_error();
+    voile::Error encoder_error();
     int wait_for_encoder();
     void discard() noexcept;
 

@@ -11,17 +11,17 @@ namespace viewer
 namespace
 {
 
-voile::gpu::Result<void> make_folder(const std::filesystem::path& folder)
+voile::Result<void> make_folder(const std::filesystem::path& folder)
 {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
     if (problem || !std::filesystem::is_directory(folder))
-        return voile::gpu::Error{"--out: " + voile::engine::path_text(folder) + ": cannot make the folder: " +
-                                 (problem ? problem.message() : "a file of that name is in the way")};
+        return voile::Error{"--out: " + voile::engine::path_text(folder) + ": cannot make the folder: " +
+                            (problem ? problem.message() : "a file of that name is in the way")};
     // Folders can be there and still not take files.
     const auto probe = voile::engine::AtomicFile::create(folder / "frame_0000.png");
     if (!probe)
-        return voile::gpu::Error{"--out: " + probe.error().message};
+        return voile::Error{"--out: " + probe.error().message};
     return {};
 }
 
@@ -35,8 +35,8 @@ std::filesystem::path picture_name(uint64_t frame)
 
 } // namespace
 
-voile::gpu::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, const Stage& stage,
-                                                      const SceneFile& scene, const Options& options)
+voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, const Stage& stage, const SceneFile& scene,
+                                                 const Options& options)
 {
     FrameOutputs outputs;
     outputs.app_ = &app;
@@ -67,8 +67,7 @@ voile::gpu::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, c
     return outputs;
 }
 
-voile::gpu::Result<void> FrameOutputs::create_caches(voile::engine::App& app, const Stage& stage,
-                                                     const Options& options)
+voile::Result<void> FrameOutputs::create_caches(voile::engine::App& app, const Stage& stage, const Options& options)
 {
     std::vector<std::string> names;
     for (const StageCloth& cloth : stage.cloths)
@@ -85,7 +84,7 @@ voile::gpu::Result<void> FrameOutputs::create_caches(voile::engine::App& app, co
     {
         auto buffer = voile::gpu::create_buffer(app.device().context(), "positions readback",
                                                 solver_->vertex_count() * sizeof(glm::vec4),
-                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, voile::gpu::Memory::readback);
+                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, voile::Memory::readback);
         if (!buffer)
             return buffer.error();
         positions_.push_back(std::move(buffer.value()));
@@ -114,7 +113,7 @@ void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& f
                  VK_ACCESS_2_HOST_READ_BIT_KHR);
 }
 
-voile::gpu::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& frame)
+voile::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& frame)
 {
     if (wants_picture(frame))
     {
@@ -144,7 +143,7 @@ voile::gpu::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& fra
     return {};
 }
 
-void Outcome::add(const voile::gpu::Result<void>& result, std::string what)
+void Outcome::add(const voile::Result<void>& result, std::string what)
 {
     if (result)
         written.push_back(std::move(what));

@@ -17,9 +17,9 @@ namespace viewer
 struct Outcome
 {
     std::vector<std::string> written;
-    std::optional<voile::gpu::Error> failure;
+    std::optional<voile::Error> failure;
 
-    void add(const voile::gpu::Result<void>& result, std::string what);
+    void add(const voile::Result<void>& result, std::string what);
 };
 
 // A path as `written` has it.
@@ -29,14 +29,14 @@ class FrameOutputs
 {
 public:
     // Makes the folder, starts the encoder. Errors name the file or folder that cannot be written.
-    static voile::gpu::Result<FrameOutputs> create(voile::engine::App& app, const Stage& stage, const SceneFile& scene,
-                                                   const Options& options);
+    static voile::Result<FrameOutputs> create(voile::engine::App& app, const Stage& stage, const SceneFile& scene,
+                                              const Options& options);
 
     // Records the copies that this frame's files need; after drawing, outside rendering.
     void record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) const;
 
     // Writes what belongs to a frame that the device has finished.
-    voile::gpu::Result<void> write(const voile::engine::FrameInfo& frame);
+    voile::Result<void> write(const voile::engine::FrameInfo& frame);
 
     // Completes the film and the caches; what fails does not keep the others from it.
     void finish(Outcome& outcome);
@@ -44,7 +44,7 @@ public:
 private:
     FrameOutputs() = default;
     [[nodiscard]] bool wants_picture(const voile::engine::FrameInfo& frame) const;
-    voile::gpu::Result<void> create_caches(voile::engine::App& app, const Stage& stage, const Options& options);
+    voile::Result<void> create_caches(voile::engine::App& app, const Stage& stage, const Options& options);
 
     voile::engine::App* app_ = nullptr;
     std::optional<std::filesystem::path> folder_;

@@ -32,7 +32,7 @@ std::string difference(const voile::engine::Mesh& faces, const voile::engine::Me
 
 } // namespace
 
-voile::gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
+voile::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
 {
     const auto files = frame_files(entry);
     if (!files)
@@ -45,7 +45,7 @@ voile::gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, 
     sequence.first_ = std::move(first.value());
     sequence.bounds_ = voile::engine::bounds(sequence.first_);
     voile::engine::Mesh first_faces;
-    const auto faces_of = [&](const std::filesystem::path& file) -> voile::gpu::Result<voile::engine::Mesh>
+    const auto faces_of = [&](const std::filesystem::path& file) -> voile::Result<voile::engine::Mesh>
     {
         auto faces = voile::engine::load_mesh(file, nullptr, voile::engine::MeshVertices::faces);
         if (!faces)
@@ -54,8 +54,8 @@ voile::gpu::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, 
             first_faces = faces.value();
         const std::string other = difference(faces.value(), first_faces);
         if (!other.empty())
-            return voile::gpu::Error{voile::engine::path_text(file) + ": " + other + " (" +
-                                     voile::engine::path_text(files.value().front().filename()) + ")"};
+            return voile::Error{voile::engine::path_text(file) + ": " + other + " (" +
+                                voile::engine::path_text(files.value().front().filename()) + ")"};
         return faces;
     };
     for (const std::filesystem::path& file : files.value())

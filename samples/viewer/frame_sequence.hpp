@@ -14,7 +14,7 @@ public:
     // Reads all files. A vertex is a position of the file, in its order. `mesh`, where it is not empty, is a file that
     // must have the same topology. Errors name the file: one that is missing or cannot be read, another number of
     // vertices or other triangles than the first has.
-    static voile::gpu::Result<MeshSequence> load(const FrameSequence& entry, const std::filesystem::path& mesh = {});
+    static voile::Result<MeshSequence> load(const FrameSequence& entry, const std::filesystem::path& mesh = {});
 
     // The first file's: the mesh at time 0. Triangles that have no area there are left out for good.
     [[nodiscard]] const voile::engine::Mesh& first() const { return first_; }

@@ -179,7 +179,7 @@ private:
         for (size_t i = 0; i + 1 < open_.size(); ++i)
         {
             if (open_[i].kind == JsonNode::Kind::array)
-                result += "[" + std::to_string(open_[i].items.size()) + "]";
+                result += '[' + std::to_string(open_[i].items.size()) + ']';
             else
                 result += (result.empty() ? "" : ".") + open_[i].keys.back();
         }
@@ -229,19 +229,19 @@ const char* describe(JsonNode::Kind kind)
     return "unknown";
 }
 
-voile::gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
+voile::Result<JsonNode> parse_json(std::string_view text, const std::string& file)
 {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return voile::gpu::Error{file + ": the file is empty"};
+        return voile::Error{file + ": the file is empty"};
     // The parser would take it for the end of the text.
     if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
-        return voile::gpu::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
+        return voile::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
     size_t consumed = 0;
     TreeBuilder builder(text, file, &consumed);
     const CountingIterator begin(text.data(), &consumed);
     const CountingIterator end(text.data() + text.size(), &consumed);
     if (!nlohmann::json::sax_parse(begin, end, &builder))
-        return voile::gpu::Error{builder.error.value_or(file + ": not valid JSON")};
+        return voile::Error{builder.error.value_or(file + ": not valid JSON")};
     return std::move(builder.root);
 }
 

@@ -1,7 +1,7 @@
 // A JSON document as a tree whose nodes know their line, so that what is wrong with a value can be said with its place.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <string>
@@ -42,6 +42,6 @@ const char* describe(JsonNode::Kind kind);
 // Parses strict JSON (no comments, no trailing commas). `file` only serves the messages. Errors, one line each: an
 // empty text, a syntax error (FILE:LINE:COLUMN: reason), a number that no double holds, a key that appears twice in an
 // object, more than 64 levels of nesting.
-voile::gpu::Result<JsonNode> parse_json(std::string_view text, const std::string& file);
+voile::Result<JsonNode> parse_json(std::string_view text, const std::string& file);
 
 } // namespace viewer

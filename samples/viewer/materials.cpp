@@ -79,8 +79,8 @@ std::string raw_names()
 
 } // namespace
 
-voile::gpu::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
-                                                             const std::optional<glm::vec2>& spacing)
+voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                        const std::optional<glm::vec2>& spacing)
 {
     const auto bad = [&](const std::string& reason) { return error_at(scene, entry.place, reason); };
     if (const std::string twice = given_twice(entry); !twice.empty())

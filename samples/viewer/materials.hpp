@@ -14,7 +14,7 @@ namespace viewer
 // behave alike at every resolution; raw values (vertex_mass, spring_stiffness ...) of a grid replace what they name in
 // the springs that follow from it. Errors name the place in the file: an unknown preset, values that do not go together
 // or are out of range.
-voile::gpu::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
-                                                             const std::optional<glm::vec2>& spacing);
+voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
+                                                        const std::optional<glm::vec2>& spacing);
 
 } // namespace viewer

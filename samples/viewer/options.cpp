@@ -5,6 +5,7 @@
 #include "samples/viewer/text.hpp"
 
 #include "voile/gpu/printable.hpp"
+#include "voile/version.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -13,10 +14,6 @@
 #include <exception>
 #include <memory>
 #include <string_view>
-
-#ifndef VOILE_VERSION
-#define VOILE_VERSION "unknown"
-#endif
 
 namespace viewer
 {
@@ -269,16 +266,16 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
     }
 }
 
-voile::gpu::Result<Options> convert_all(const Typed& typed, Options options)
+voile::Result<Options> convert_all(const Typed& typed, Options options)
 {
     Converter convert;
     if (typed.scenes.size() > 1)
-        return voile::gpu::Error{in_quotes(typed.scenes[1]) + ": one scene at most, and " + in_quotes(typed.scenes[0]) +
-                                 " was given before it"};
+        return voile::Error{in_quotes(typed.scenes[1]) + ": one scene at most, and " + in_quotes(typed.scenes[0]) +
+                            " was given before it"};
     if (!typed.scenes.empty())
         options.scene = typed.scenes.front();
     if (options.scene.empty())
-        return voile::gpu::Error{"the scene's name is empty"};
+        return voile::Error{"the scene's name is empty"};
     options.frames = convert.integer("--frames", typed.frames, 0, k_most_frames);
     convert_size(convert, typed.size, options);
     options.out = convert.path("--out", typed.out);
@@ -296,14 +293,14 @@ voile::gpu::Result<Options> convert_all(const Typed& typed, Options options)
     convert_debug(convert, typed.debug, options.debug);
     check_together(convert, typed, options);
     if (convert.error)
-        return voile::gpu::Error{*convert.error};
+        return voile::Error{*convert.error};
     if (auto result = check_outputs(options); !result)
         return result.error();
     return options;
 }
 
 // CLI11's own words run over several lines and do not always name the value.
-voile::gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
+voile::Error word_parse_error(const CLI::App& app, const CLI::ParseError& problem)
 {
     const std::string text = problem.what();
     if (dynamic_cast<const CLI::ExtrasError*>(&problem) != nullptr)
@@ -316,24 +313,24 @@ voile::gpu::Error word_parse_error(const CLI::App& app, const CLI::ParseError& p
             for (const std::string& name : option->get_lnames())
                 known.push_back("--" + name);
         }
-        return voile::gpu::Error{voile::gpu::printable(word) + ": unknown option" + suggestion(word, known)};
+        return voile::Error{voile::gpu::printable(word) + ": unknown option" + suggestion(word, known)};
     }
     const bool mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr;
     if (mismatch && text.find("disallowed flag override") != std::string::npos)
-        return voile::gpu::Error{"--" + voile::gpu::printable(text.substr(0, text.find(' '))) + ": takes no value"};
+        return voile::Error{"--" + voile::gpu::printable(text.substr(0, text.find(' '))) + ": takes no value"};
     const std::string option = text.substr(0, text.find(':'));
     if (mismatch && option.starts_with("--"))
-        return voile::gpu::Error{voile::gpu::printable(option) + ": a value is missing"};
-    return voile::gpu::Error{voile::gpu::printable(text, k_longest_reason)};
+        return voile::Error{voile::gpu::printable(option) + ": a value is missing"};
+    return voile::Error{voile::gpu::printable(text, k_longest_reason)};
 }
 
-voile::gpu::Result<Options> parse(int argument_count, const char* const* arguments)
+voile::Result<Options> parse(int argument_count, const char* const* arguments)
 {
     CLI::App app(k_description, "viewer");
     app.footer(k_footer);
     app.formatter(std::make_shared<Formatter>());
     app.get_formatter()->column_width(34);
-    app.set_version_flag("--version", "viewer " VOILE_VERSION, "Prints the version and leaves");
+    app.set_version_flag("--version", "viewer " VOILE_VERSION_STRING, "Prints the version and leaves");
     app.set_help_flag("-h,--help", "Prints this help and leaves");
     app.option_defaults()->take_all(); // repetition is ours to refuse
     Typed typed;
@@ -370,16 +367,16 @@ voile::gpu::Result<Options> parse(int argument_count, const char* const* argumen
 
 } // namespace
 
-voile::gpu::Result<uint32_t> headless_frames(const Options& options)
+voile::Result<uint32_t> headless_frames(const Options& options)
 {
     const uint32_t frames = options.frames.value_or(k_headless_frames);
     if (options.capture && *options.capture >= frames)
-        return voile::gpu::Error{"--capture: \"" + std::to_string(*options.capture) + "\" is beyond the last of " +
-                                 std::to_string(frames) + " frames, counted from 0"};
+        return voile::Error{"--capture: \"" + std::to_string(*options.capture) + "\" is beyond the last of " +
+                            std::to_string(frames) + " frames, counted from 0"};
     return frames;
 }
 
-voile::gpu::Result<Options> parse_options(int argument_count, const char* const* arguments)
+voile::Result<Options> parse_options(int argument_count, const char* const* arguments)
 {
     try
     {
@@ -387,7 +384,7 @@ voile::gpu::Result<Options> parse_options(int argument_count, const char* const*
     }
     catch (const std::exception& problem) // CLI11 throws while options are declared, too
     {
-        return voile::gpu::Error{voile::gpu::printable(problem.what(), k_longest_reason)};
+        return voile::Error{voile::gpu::printable(problem.what(), k_longest_reason)};
     }
 }
 

@@ -1,7 +1,7 @@
 // The viewer's command line.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,7 @@ enum class ExportFormat
 // What is drawn over the picture.
 struct DebugOptions
 {
-    std::optional<uint32_t> boxes; // a level of the hierarchies of mesh colliders, 0..48
+    std::optional<uint32_t> boxes{}; // a level of the hierarchies of mesh colliders, 0..48
     bool contacts = false;
     bool normals = false;
 
@@ -35,33 +35,33 @@ struct Options
 {
     std::string scene = "reference"; // a path or a name: see find_scene
     bool headless = false;
-    std::optional<uint32_t> frames; // absent: 300 without a window, no end with one
-    uint32_t width = 1280;          // pixels, 1..16384
+    std::optional<uint32_t> frames{}; // absent: 300 without a window, no end with one
+    uint32_t width = 1280;            // pixels, 1..16384
     uint32_t height = 720;
-    std::optional<std::filesystem::path> out; // folder of the PNG frames
-    uint32_t every = 1;                       // PNG frames are written for 0, every, 2 every, ...
-    std::optional<std::filesystem::path> video;
-    std::optional<std::filesystem::path> stats;
-    std::optional<std::filesystem::path> export_file;
+    std::optional<std::filesystem::path> out{}; // folder of the PNG frames
+    uint32_t every = 1;                         // PNG frames are written for 0, every, 2 every, ...
+    std::optional<std::filesystem::path> video{};
+    std::optional<std::filesystem::path> stats{};
+    std::optional<std::filesystem::path> export_file{};
     ExportFormat export_format = ExportFormat::obj; // of export_file
-    std::optional<uint32_t> cloth_resolution;       // 2..8192
-    std::vector<std::filesystem::path> colliders;   // files that exist, .obj or .ply
-    std::optional<std::string> device;              // an index or (a part of) a name
+    std::optional<uint32_t> cloth_resolution{};     // 2..8192
+    std::vector<std::filesystem::path> colliders{}; // files that exist, .obj or .ply
+    std::optional<std::string> device{};            // an index or (a part of) a name
     bool list_devices = false;
     bool validate = false;
-    std::optional<uint32_t> capture; // frame, from 0
+    std::optional<uint32_t> capture{}; // frame, from 0
     bool verify = false;
-    DebugOptions debug;
+    DebugOptions debug{};
 
     // Not empty: print this on standard output and leave with exit code 0 (--help, --version).
-    std::string message;
+    std::string message{};
 };
 
 // Errors are one line that names the option, the value and the reason, without the program's name.
-voile::gpu::Result<Options> parse_options(int argument_count, const char* const* arguments);
+voile::Result<Options> parse_options(int argument_count, const char* const* arguments);
 
 // The number of frames of a run without a window. An error if --capture asks for one beyond it, which parse_options
 // can only see where --frames or --headless was given.
-voile::gpu::Result<uint32_t> headless_frames(const Options& options);
+voile::Result<uint32_t> headless_frames(const Options& options);
 
 } // namespace viewer

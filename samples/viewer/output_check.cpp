@@ -26,7 +26,7 @@ bool is_same_file(const fs::path& one, const fs::path& other)
            (!fs::exists(path, problem) || fs::is_regular_file(path, problem));
 }
 
-voile::gpu::Result<void> check(const Options& options, std::vector<UsedFile> used)
+voile::Result<void> check(const Options& options, std::vector<UsedFile> used)
 {
     const std::pair<const char*, const std::optional<fs::path>&> outputs[] = {
         {"--video", options.video}, {"--stats", options.stats}, {"--export", options.export_file}};
@@ -36,8 +36,7 @@ voile::gpu::Result<void> check(const Options& options, std::vector<UsedFile> use
             continue;
         for (const UsedFile& file : used)
             if (is_same_file(*path, file.path))
-                return voile::gpu::Error{std::string(name) + ": " + path_in_quotes(*path) + " is " + file.what +
-                                         ", too"};
+                return voile::Error{std::string(name) + ": " + path_in_quotes(*path) + " is " + file.what + ", too"};
         used.push_back({name + std::string("'s file"), *path});
     }
     return {};
@@ -45,7 +44,7 @@ voile::gpu::Result<void> check(const Options& options, std::vector<UsedFile> use
 
 } // namespace
 
-voile::gpu::Result<void> check_outputs(const Options& options)
+voile::Result<void> check_outputs(const Options& options)
 {
     std::vector<UsedFile> used{{"the scene's file", options.scene}};
     for (const fs::path& collider : options.colliders)
@@ -53,7 +52,7 @@ voile::gpu::Result<void> check_outputs(const Options& options)
     return check(options, std::move(used));
 }
 
-voile::gpu::Result<void> check_outputs(const Options& options, const SceneFile& scene)
+voile::Result<void> check_outputs(const Options& options, const SceneFile& scene)
 {
     std::vector<UsedFile> used{{"the scene's file", scene.path}};
     for (const ClothEntry& cloth : scene.cloths)

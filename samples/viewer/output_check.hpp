@@ -3,15 +3,15 @@
 
 #include "samples/viewer/options.hpp"
 #include "samples/viewer/scene_file.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 namespace viewer
 {
 
 // Errors: --video, --stats or --export names a file that --collider, the scene or another of them has, by whatever
 // path. Devices and pipes may be given more than once. `scene`: a path, or a name.
-voile::gpu::Result<void> check_outputs(const Options& options);
+voile::Result<void> check_outputs(const Options& options);
 // Likewise for the meshes that the scene names.
-voile::gpu::Result<void> check_outputs(const Options& options, const SceneFile& scene);
+voile::Result<void> check_outputs(const Options& options, const SceneFile& scene);
 
 } // namespace viewer

@@ -108,7 +108,7 @@ void Progress::finish()
 void Progress::draw_bar(uint32_t done, double seconds)
 {
     const uint32_t cells = share(done, frames_, k_bar_cells);
-    std::string line = "[" + std::string(cells, '#') + std::string(k_bar_cells - cells, '.') + "] " +
+    std::string line = '[' + std::string(cells, '#') + std::string(k_bar_cells - cells, '.') + "] " +
                        std::to_string(share(done, frames_, 100)) + " %, " + std::to_string(done) + "/" +
                        std::to_string(frames_);
     if (done > 0 && seconds > 0)

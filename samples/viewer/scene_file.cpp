@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t k_largest_file = uint64_t{16} << 20; // bytes; a scene is text that somebody wrote
 
-voile::gpu::Result<std::string> read_text(const fs::path& path)
+voile::Result<std::string> read_text(const fs::path& path)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(path, problem).type();
     if (type == fs::file_type::not_found)
-        return voile::gpu::Error{voile::engine::path_text(path) + ": the file does not exist"};
+        return voile::Error{voile::engine::path_text(path) + ": the file does not exist"};
     if (type == fs::file_type::directory)
-        return voile::gpu::Error{voile::engine::path_text(path) + ": this is a folder, not a scene file"};
+        return voile::Error{voile::engine::path_text(path) + ": this is a folder, not a scene file"};
     return voile::engine::read_file(path, k_largest_file);
 }
 
@@ -98,7 +98,7 @@ glm::mat4 rotation(const glm::vec3& degrees)
     return glm::rotate(result, glm::radians(degrees.x), glm::vec3(1.f, 0.f, 0.f));
 }
 
-voile::gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
+voile::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(file, problem).type();
@@ -110,7 +110,7 @@ voile::gpu::Result<void> check_file(const SceneFile& scene, const Place& entry, 
     return error_at(scene, {entry.line, entry.path + ".mesh"}, voile::engine::path_text(file) + reason);
 }
 
-voile::gpu::Result<void> check_files(const SceneFile& scene)
+voile::Result<void> check_files(const SceneFile& scene)
 {
     for (const ClothEntry& cloth : scene.cloths)
     {
@@ -190,9 +190,9 @@ std::set<uint32_t> frame_numbers(const fs::path& pattern)
 
 } // namespace
 
-voile::gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
+voile::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path)
 {
-    const voile::gpu::Result<JsonNode> tree = parse_json(text, voile::engine::path_text(path));
+    const voile::Result<JsonNode> tree = parse_json(text, voile::engine::path_text(path));
     if (!tree)
         return tree.error();
     SceneReader reader(voile::engine::path_text(path));
@@ -223,47 +223,46 @@ voile::gpu::Result<SceneFile> parse_scene(std::string_view text, const fs::path&
     return scene;
 }
 
-voile::gpu::Result<SceneFile> load_scene(const fs::path& path)
+voile::Result<SceneFile> load_scene(const fs::path& path)
 {
-    const voile::gpu::Result<std::string> text = read_text(path);
+    const voile::Result<std::string> text = read_text(path);
     if (!text)
         return text.error();
-    voile::gpu::Result<SceneFile> scene = parse_scene(text.value(), path);
+    voile::Result<SceneFile> scene = parse_scene(text.value(), path);
     if (!scene)
         return scene;
-    if (const voile::gpu::Result<void> files = check_files(scene.value()); !files)
+    if (const voile::Result<void> files = check_files(scene.value()); !files)
         return files.error();
     return scene;
 }
 
-voile::gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
+voile::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
 {
-    return voile::gpu::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " +
-                             place.path + ": " + reason};
+    return voile::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " + place.path +
+                        ": " + reason};
 }
 
-voile::gpu::Error step_error(const SceneFile& scene, const std::string& reason)
+voile::Error step_error(const SceneFile& scene, const std::string& reason)
 {
     for (const StepKey& key : scene.step_keys)
         if (reason.starts_with("step: " + key.member + " "))
             return error_at(scene, key.place, reason);
-    return voile::gpu::Error{voile::engine::path_text(scene.path) + ": " + reason};
+    return voile::Error{voile::engine::path_text(scene.path) + ": " + reason};
 }
 
-voile::gpu::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
+voile::Result<std::vector<fs::path>> frame_files(const FrameSequence& sequence)
 {
     if (frame_path(sequence.pattern, 0) == frame_path(sequence.pattern, 1))
-        return voile::gpu::Error{voile::engine::path_text(sequence.pattern) +
-                                 ": has no %d or %04d for the frame's number"};
+        return voile::Error{voile::engine::path_text(sequence.pattern) + ": has no %d or %04d for the frame's number"};
     const std::set<uint32_t> numbers = frame_numbers(sequence.pattern);
     if (!numbers.contains(0) && !numbers.contains(1))
-        return voile::gpu::Error{voile::engine::path_text(sequence.pattern) + ": there is no frame 0 and no frame 1"};
+        return voile::Error{voile::engine::path_text(sequence.pattern) + ": there is no frame 0 and no frame 1"};
     std::vector<fs::path> files;
     for (uint32_t number = numbers.contains(0) ? 0 : 1; number <= *numbers.rbegin(); ++number)
     {
         files.push_back(frame_path(sequence.pattern, number));
         if (!numbers.contains(number))
-            return voile::gpu::Error{
+            return voile::Error{
                 voile::engine::path_text(files.back()) + " is missing, but " +
                 voile::engine::path_text(frame_path(sequence.pattern, *numbers.upper_bound(number)).filename()) +
                 " is there"};

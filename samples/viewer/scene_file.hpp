@@ -5,7 +5,7 @@
 
 #include "voile/descriptions.hpp"
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -233,19 +233,19 @@ struct SceneFile
 
 // Parses a scene's text. `path` serves the messages and is what relative paths are relative to; nothing is read.
 // Errors name the file, the line, the place as cloths[0].grid.size, and the reason, in one line.
-voile::gpu::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
+voile::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
 
 // Reads and parses a scene, and checks that the files it names are there.
-voile::gpu::Result<SceneFile> load_scene(const std::filesystem::path& path);
+voile::Result<SceneFile> load_scene(const std::filesystem::path& path);
 
 // "FILE:LINE: PATH: REASON"
-voile::gpu::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
+voile::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
-voile::gpu::Error step_error(const SceneFile& scene, const std::string& reason);
+voile::Error step_error(const SceneFile& scene, const std::string& reason);
 
 // The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the last. An error if there
 // are none, if one between them is missing, or if the pattern has no place for a number.
-voile::gpu::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
+voile::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);
 // Where a point of the placed state is after `seconds`; at 0 the identity.
@@ -256,7 +256,7 @@ glm::mat4 matrix(const MotionEntry& motion, double seconds);
 std::vector<std::filesystem::path> scene_folders();
 
 // A scene by path, else by name in the folders. The error lists the names that there are.
-voile::gpu::Result<std::filesystem::path>
-find_scene(const std::string& name, const std::vector<std::filesystem::path>& folders = scene_folders());
+voile::Result<std::filesystem::path> find_scene(const std::string& name,
+                                                const std::vector<std::filesystem::path>& folders = scene_folders());
 
 } // namespace viewer

@@ -62,7 +62,7 @@ std::vector<fs::path> scene_folders()
     return folders;
 }
 
-voile::gpu::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::path>& folders)
+voile::Result<fs::path> find_scene(const std::string& name, const std::vector<fs::path>& folders)
 {
     std::error_code problem;
     // A folder may happen to have a scene's name: it does not hide the scene.
@@ -81,15 +81,15 @@ voile::gpu::Result<fs::path> find_scene(const std::string& name, const std::vect
         }
     }
     if (fs::is_directory(name, problem))
-        return voile::gpu::Error{voile::engine::path_text(name) + ": this is a folder, not a scene file"};
+        return voile::Error{voile::engine::path_text(name) + ": this is a folder, not a scene file"};
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
     const std::string list = known_scenes(folders);
     const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
     if (!fs::exists(name, problem) && problem)
-        return voile::gpu::Error{voile::engine::path_text(name) + ": " + problem.message()};
+        return voile::Error{voile::engine::path_text(name) + ": " + problem.message()};
     if (looks_like_path)
-        return voile::gpu::Error{voile::engine::path_text(name) + ": the file does not exist; " + known};
-    return voile::gpu::Error{"scene " + in_quotes(name) + " is unknown; " + known};
+        return voile::Error{voile::engine::path_text(name) + ": the file does not exist; " + known};
+    return voile::Error{"scene " + in_quotes(name) + " is unknown; " + known};
 }
 
 } // namespace viewer

@@ -51,7 +51,7 @@ public:
     explicit SceneReader(std::string file) : file_(std::move(file)) {} // its name in messages
 
     [[nodiscard]] bool failed() const { return error_.has_value(); }
-    [[nodiscard]] voile::gpu::Error error() const { return voile::gpu::Error{error_.value_or("")}; }
+    [[nodiscard]] voile::Error error() const { return voile::Error{error_.value_or("")}; }
 
     void fail(uint32_t line, const std::string& message);
     // FILE:LINE: PATH REASON

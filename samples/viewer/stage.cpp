@@ -78,7 +78,7 @@ voile::Collider collider_of(const Solid& solid)
                                .deforms = solid.frames != nullptr};
 }
 
-voile::gpu::Result<voile::ColliderId> add_to_solver(voile::Solver& solver, const SceneFile& scene, const Solid& solid)
+voile::Result<voile::ColliderId> add_to_solver(voile::Solver& solver, const SceneFile& scene, const Solid& solid)
 {
     voile::Collider collider = collider_of(solid);
     std::visit(
@@ -171,8 +171,8 @@ void frame_scene(voile::engine::Scene& scene, const SceneFile& file, const voile
 
 } // namespace
 
-voile::gpu::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
-                                    const Options& options)
+voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
+                               const Options& options)
 {
     Stage stage;
     auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());

@@ -28,7 +28,7 @@ struct Stage
 };
 
 // Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the place in it.
-voile::gpu::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
-                                    const Options& options);
+voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
+                               const Options& options);
 
 } // namespace viewer

@@ -147,7 +147,7 @@ std::string statistics_text(const Statistics& statistics)
     return text + (statistics.per_frame.empty() ? "]\n}\n" : "\n ]\n}\n");
 }
 
-voile::gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
+voile::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics)
 {
     return voile::engine::write_file(path, statistics_text(statistics));
 }

@@ -1,7 +1,7 @@
 // The statistics of a run, as a JSON file that scripts read. Keys and units are those of the README.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -102,6 +102,6 @@ std::string hash_text(uint64_t hash); // 16 lower-case hexadecimal digits
 std::string statistics_text(const Statistics& statistics);
 
 // Errors name the file and the system's reason. The file appears under its name only when it is complete.
-voile::gpu::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics);
+voile::Result<void> save_statistics(const std::filesystem::path& path, const Statistics& statistics);
 
 } // namespace viewer

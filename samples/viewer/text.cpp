@@ -50,12 +50,12 @@ std::string printed(double value, int digits)
 
 std::string in_quotes(std::string_view text)
 {
-    return "\"" + voile::gpu::printable(text) + "\"";
+    return '"' + voile::gpu::printable(text) + '"';
 }
 
 std::string path_in_quotes(const std::filesystem::path& path)
 {
-    return "\"" + voile::engine::path_text(path) + "\"";
+    return '"' + voile::engine::path_text(path) + '"';
 }
 
 void note(const std::string& text)

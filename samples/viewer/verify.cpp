@@ -69,7 +69,7 @@ Depth side_depth(const Distance& distance, const Distance& at_start)
     };
 }
 
-voile::gpu::Result<Distance> mesh_distance(const Solid& solid, const std::vector<glm::vec3>& positions)
+voile::Result<Distance> mesh_distance(const Solid& solid, const std::vector<glm::vec3>& positions)
 {
     auto created = voile::MeshDistance::create({.name = solid.name,
                                                 .positions = positions,
@@ -81,7 +81,7 @@ voile::gpu::Result<Distance> mesh_distance(const Solid& solid, const std::vector
 }
 
 // `deformed`: where its vertices have come to; null if they stay.
-voile::gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* deformed)
+voile::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::vec3>* deformed)
 {
     const auto first = mesh_distance(solid, std::get<voile::engine::Mesh>(solid.shape).positions);
     if (!first)
@@ -98,7 +98,7 @@ voile::gpu::Result<Depth> mesh_depth(const Solid& solid, const std::vector<glm::
     return winding_depth(distance, start, solid.sides == MeshSides::two);
 }
 
-voile::gpu::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)
+voile::Result<Depth> depth_of(const Solid& solid, const std::vector<glm::vec3>* deformed)
 {
     if (std::holds_alternative<voile::engine::Mesh>(solid.shape))
         return mesh_depth(solid, deformed);
@@ -114,7 +114,7 @@ struct Obstacle
     uint32_t layers = 1;
 };
 
-voile::gpu::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::vector<Solid>& solids)
+voile::Result<std::vector<Obstacle>> obstacles_of(const Stage& stage, const std::vector<Solid>& solids)
 {
     std::vector<Obstacle> obstacles;
     for (size_t i = 0; i < solids.size(); ++i)
@@ -140,8 +140,8 @@ double deepest_of(const std::vector<Obstacle>& obstacles, const StageCloth& clot
 
 } // namespace
 
-voile::gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
-                                        const std::vector<FinalCloth>& state)
+voile::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
+                                   const std::vector<FinalCloth>& state)
 {
     const auto obstacles = obstacles_of(stage, solids);
     if (!obstacles)

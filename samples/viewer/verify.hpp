@@ -18,7 +18,7 @@ struct Verification
 // What is inside a solid is what voile::Statistics says, and where that has no inside, where a vertex started decides:
 // of a closed mesh with two sides, the other side of it is solid; of an open mesh whose triangles all face one way (a
 // ground), the other side, or with one side the back; past its border that says nothing.
-voile::gpu::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
-                                        const std::vector<FinalCloth>& state);
+voile::Result<Verification> verify(const Stage& stage, const std::vector<Solid>& solids,
+                                   const std::vector<FinalCloth>& state);
 
 } // namespace viewer

@@ -156,7 +156,7 @@ TEST_CASE("vertices in a GPU buffer deform a collider like vertices from the hos
         harness.upload();
         voile::gpu::Buffer buffer = voile::engine::take(
             voile::gpu::create_buffer(harness.context(), "skinned", 16 + ball.positions.size() * sizeof(Vertex),
-                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::gpu::Memory::upload));
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::Memory::upload));
         for (int frame = 1; frame <= 20; ++frame)
         {
             const auto grown = transformed(

@@ -190,7 +190,7 @@ voile::engine::Mesh hollow_ball()
 // The loader's functions, but for a device that binds at most one MiB.
 VKAPI_ATTR void VKAPI_CALL properties_of_small_buffers(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
 {
-    const voile::gpu::Handles& handles = tests::device().context().handles;
+    const voile::Handles& handles = tests::device().context().handles;
     const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
         handles.get_instance_proc_addr(handles.instance, "vkGetPhysicalDeviceProperties"));
     get(device, properties);
@@ -208,7 +208,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL find_function(VkInstance instance, cons
 
 TEST_CASE("a collider larger than the device's buffers is refused, and the others keep working")
 {
-    voile::gpu::Handles handles = tests::device().context().handles;
+    voile::Handles handles = tests::device().context().handles;
     handles.get_instance_proc_addr = find_function;
     voile::Solver solver = voile::engine::take(voile::Solver::create(handles, {}));
     const voile::engine::Mesh small = voile::engine::make_sphere({0, 0, 0}, 1, 16);

@@ -155,7 +155,7 @@ public:
         const size_t words = size_t{count} * push.room;
         const voile::gpu::Buffer answers = voile::engine::take(voile::gpu::create_buffer(
             context(), "answers", words * sizeof(uint32_t),
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::gpu::Memory::device));
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::Memory::device));
         const voile::gpu::Kernel kernel = voile::engine::take(voile::gpu::Kernel::create(
             context(), {"visit padded", tests::shaders::k_visit_padded_comp, {{0, k_group}}}));
         voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));

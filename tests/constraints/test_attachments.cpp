@@ -335,5 +335,5 @@ TEST_CASE("vertices are attached to a collider's surface")
     for (const voile::Attachment& attachment : attachments)
         CHECK(static_cast<double>(glm::distance(glm::vec3(x[attachment.vertex]), glm::vec3(0, 0.2f, 0))) ==
               tests::close_to(0.3, 6e-7));
-    CHECK_FALSE(harness.solver.attachments_on_surface(id, ball, 0).ok());
+    CHECK_FALSE(harness.solver.attachments_on_surface(id, ball, 0).has_value());
 }

@@ -1,7 +1,7 @@
 // A program that links Vulkan, as most do, with the installed module: a sheet falls for a tenth of a second.
 #include "linked_host.hpp"
 
-#include <voile/solver.hpp>
+#include <voile/cloth.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -12,7 +12,6 @@ int main()
     auto made = voile::Solver::create({.instance = host.instance,
                                        .physical_device = host.physical_device,
                                        .device = host.device,
-                                       .allocator = host.allocator,
                                        .get_instance_proc_addr = &vkGetInstanceProcAddr},
                                       {});
     if (!made)

@@ -4,8 +4,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <vk_mem_alloc.h>
-
 class HostDevice
 {
 public:
@@ -20,7 +18,6 @@ public:
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    VmaAllocator allocator = VK_NULL_HANDLE;
 
 private:
     VkQueue queue_ = VK_NULL_HANDLE;

@@ -1,7 +1,4 @@
-// The host's device, and its VulkanMemoryAllocator, which calls the linked functions too.
-#define VMA_STATIC_VULKAN_FUNCTIONS 1
-#define VMA_DYNAMIC_VULKAN_FUNCTIONS 0
-#define VMA_IMPLEMENTATION
+// The host's device.
 #include "linked_host.hpp"
 
 #include <cstdio>
@@ -60,13 +57,6 @@ HostDevice::HostDevice()
     check(vkCreateDevice(physical_device, &device_info, nullptr, &device), "device");
     vkGetDeviceQueue(device, queue_info.queueFamilyIndex, 0, &queue_);
 
-    VmaAllocatorCreateInfo allocator_info{};
-    allocator_info.instance = instance;
-    allocator_info.physicalDevice = physical_device;
-    allocator_info.device = device;
-    allocator_info.vulkanApiVersion = VK_API_VERSION_1_3;
-    check(vmaCreateAllocator(&allocator_info, &allocator), "allocator");
-
     VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_info.queueFamilyIndex = queue_info.queueFamilyIndex;
     check(vkCreateCommandPool(device, &pool_info, nullptr, &pool_), "command pool");
@@ -75,7 +65,6 @@ HostDevice::HostDevice()
 HostDevice::~HostDevice()
 {
     vkDestroyCommandPool(device, pool_, nullptr);
-    vmaDestroyAllocator(allocator);
     vkDestroyDevice(device, nullptr);
     vkDestroyInstance(instance, nullptr);
 }

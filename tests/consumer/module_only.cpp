@@ -1,5 +1,5 @@
 // A program with the installed module alone: what it needs, and how it refuses null handles.
-#include <voile/solver.hpp>
+#include <voile/cloth.hpp>
 
 #include <cstdio>
 

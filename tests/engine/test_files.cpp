@@ -74,7 +74,7 @@ TEST_CASE("text from a file becomes one printable line")
     CHECK(voile::gpu::printable("abc", 3) == "abc");
     CHECK(voile::gpu::printable("abcd", 3) == "abc...");
     CHECK(voile::gpu::printable("a\xe2\x82\xac", 3) == "a..."); // not inside a character
-    CHECK(voile::engine::quoted_word("\x1b" + std::string(100, 'w')) == "'?" + std::string(39, 'w') + "...'");
+    CHECK(voile::engine::quoted_word('\x1b' + std::string(100, 'w')) == "'?" + std::string(39, 'w') + "...'");
     CHECK(voile::engine::path_text("dir/a\nb.obj") == "dir/a?b.obj");
     const std::string path = voile::engine::path_text(std::string(5000, 'd') + "/b.obj");
     CHECK(path.starts_with("...d"));

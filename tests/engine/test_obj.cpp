@@ -89,7 +89,7 @@ TEST_CASE("a polygon may have more corners than fit in a byte")
     {
         const double angle = -2. * 3.14159265358979 * i / k_corners;
         text += "v " + std::to_string(std::cos(angle)) + " 0 " + std::to_string(std::sin(angle)) + "\n";
-        face += " " + std::to_string(i + 1);
+        face += ' ' + std::to_string(i + 1);
     }
     const Loaded loaded = load(text + face + "\n");
     CHECK(loaded.mesh.triangles.size() == k_corners - 2);
@@ -384,7 +384,7 @@ TEST_CASE("saving replaces the file and leaves nothing else")
     const TestFolder folder;
     const std::string path = folder.write("a.obj", "old").string();
     REQUIRE(voile::engine::save_obj(path, voile::engine::make_ground(1.f)));
-    CHECK(voile::engine::load_obj(path).ok());
+    CHECK(voile::engine::load_obj(path).has_value());
     std::filesystem::remove(path);
     CHECK(folder.is_empty());
 }

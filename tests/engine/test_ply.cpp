@@ -370,13 +370,13 @@ TEST_CASE("the extension selects the format of a mesh")
     for (const std::string name : {"a.obj", "A.OBJ", "b.c.Obj"})
     {
         voile::engine::MeshReport report;
-        CHECK(voile::engine::load_mesh(folder.write(name, obj), &report).ok());
+        CHECK(voile::engine::load_mesh(folder.write(name, obj), &report).has_value());
         CHECK(report.polygons_triangulated == 1);
     }
     for (const std::string name : {"a.ply", "A.PLY"})
     {
         voile::engine::MeshReport report;
-        CHECK(voile::engine::load_mesh(folder.write(name, ply), &report).ok());
+        CHECK(voile::engine::load_mesh(folder.write(name, ply), &report).has_value());
         CHECK(report.duplicate_triangles == 1);
     }
     for (const std::string name : {"a.stl", "obj", "a.obj.gz", ".ply"})

@@ -142,7 +142,7 @@ TEST_CASE("a mesh that cannot be a cloth is refused by name, and the solver is u
         [](voile::MeshCloth& m) { m.material = voile::Fabric{.areal_density = 0}; });
 
     ClothHarness harness;
-    REQUIRE(harness.solver.add_cloth(good.cloth()).ok());
+    REQUIRE(harness.solver.add_cloth(good.cloth()).has_value());
     for (Case& c : cases)
     {
         c.mesh.name = "shirt";

@@ -85,7 +85,7 @@ void use(const voile::CookedCloth& cooked)
             cloth.material = voile::Material();
         if (!model.add(cloth))
             continue;
-        model.cloths[0].holds.push_back({.vertex = 0});
+        model.cloths[0].attachments.push_back({.vertex = 0});
         (void)voile::make_tethers(model, 0, {});
         (void)voile::make_patches(model, 32);
     }

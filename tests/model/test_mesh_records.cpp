@@ -199,7 +199,7 @@ TEST_CASE("what is uploaded of several cloths is what it was, to the bit")
         cloth.material = material(fabric = !fabric, number % 3 == 0);
         cloth.integrator = number % 4 < 2 ? voile::Integrator::rk4 : voile::Integrator::verlet;
         cloth.velocity = glm::vec3(0.5f, 0, 1);
-        cloth.held = {1, 3, 1};
+        cloth.pins = {1, 3, 1};
         cloth.transform[3] = glm::vec4(1.3f * static_cast<float>(number), 0.1f, 1e4f, 1);
         if (number % 5 == 1)
             cloth.inverse_masses.assign(mesh.positions.size(), 700.f);

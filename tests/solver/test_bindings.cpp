@@ -64,8 +64,8 @@ TEST_CASE_FIXTURE(Bindings, "a wrong or missing name in a set is an error that n
 
 TEST_CASE_FIXTURE(Bindings, "a set of a pool has one buffer for each binding of its kernel")
 {
-    const voile::gpu::Buffer any = voile::engine::take(voile::gpu::create_buffer(
-        context(), "any", 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::gpu::Memory::device));
+    const voile::gpu::Buffer any = voile::engine::take(
+        voile::gpu::create_buffer(context(), "any", 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
     voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 2));
     const auto bound = [&](std::initializer_list<uint32_t> numbers)
     {

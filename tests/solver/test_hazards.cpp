@@ -63,8 +63,8 @@ public:
 private:
     [[nodiscard]] voile::gpu::Buffer buffer(const char* name) const
     {
-        return voile::engine::take(voile::gpu::create_buffer(context(), name, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                                             voile::gpu::Memory::device));
+        return voile::engine::take(
+            voile::gpu::create_buffer(context(), name, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
     }
 
     voile::Kernels kernels_;
@@ -215,10 +215,8 @@ TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in it
     constexpr uint32_t k_triangles = 100;
     constexpr VkDeviceSize k_bytes = 256 * sizeof(voile::shared::PaddedBox);
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const auto buffer = [&](const char* name)
-    {
-        return voile::engine::take(
-            voile::gpu::create_buffer(context(), name, k_bytes, k_usage, voile::gpu::Memory::device));
+    const auto buffer = [&](const char* name) {
+        return voile::engine::take(voile::gpu::create_buffer(context(), name, k_bytes, k_usage, voile::Memory::device));
     };
     const voile::gpu::Buffer leaves = buffer("leaves");
     const voile::gpu::Buffer positions = buffer("positions");

@@ -84,7 +84,7 @@ struct End
 // Runs a skipped test case of this program in a separate process.
 End run_case(const std::string& name)
 {
-    const std::string command = "'" + tests::program("test_lifetime").string() + "' --no-skip -tc='" + name + "' 2>&1";
+    const std::string command = '\'' + tests::program("test_lifetime").string() + "' --no-skip -tc='" + name + "' 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
     End end;

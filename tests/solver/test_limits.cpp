@@ -66,7 +66,7 @@ PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)
 
 TEST_CASE("each solver loads its functions from its own handles, independent of earlier solvers")
 {
-    voile::gpu::Handles handles = tests::device().context().handles;
+    voile::Handles handles = tests::device().context().handles;
     the_loaders = handles.get_instance_proc_addr;
     REQUIRE(voile::Solver::create(handles, {}));
     handles.get_instance_proc_addr = counting;
@@ -116,9 +116,9 @@ TEST_CASE("every workgroup size works without a validation message or is refused
         const auto solver = voile::Solver::create(tests::device().context().handles, options);
         CHECK(reason(solver) == reason(voile::check_limits(limits, options)));
         if (size <= 128)
-            CHECK(solver.ok());
+            CHECK(solver.has_value());
         if (uint64_t{48} * size > limits.maxComputeSharedMemorySize || size > limits.maxComputeWorkGroupInvocations)
-            CHECK_FALSE(solver.ok());
+            CHECK_FALSE(solver.has_value());
     }
 }
 

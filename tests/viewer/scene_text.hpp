@@ -10,7 +10,7 @@ namespace scene_text
 
 inline const std::string k_grid = R"("grid": {"vertices": [4, 3], "size": [1, 2]})";
 
-inline voile::gpu::Result<viewer::SceneFile> parse(const std::string& text)
+inline voile::Result<viewer::SceneFile> parse(const std::string& text)
 {
     return viewer::parse_scene(text, "dir/s.json");
 }

@@ -169,7 +169,7 @@ TEST_CASE("an encoder that exits early is an error with its message, not the end
                                "echo 'and so on' >&2; exit 1";
     auto film = viewer::FilmWriter::create(path, {512, 512, 60, stand_in(folder, script)});
     REQUIRE(film);
-    voile::gpu::Result<void> added;
+    voile::Result<void> added;
     for (int i = 0; i < 100 && added; ++i)
         added = film.value().add(frame(512, 512, 0));
     REQUIRE_FALSE(added);

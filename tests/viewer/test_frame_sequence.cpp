@@ -97,7 +97,7 @@ TEST_CASE("a folder may hold PLY files and files of other kinds")
 {
     const TestFolder folder;
     for (int i = 0; i < 12; ++i)
-        folder.write("p" + std::to_string(i) + ".ply",
+        folder.write('p' + std::to_string(i) + ".ply",
                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 " +
                          std::to_string(i) + " 1\n3 0 2 1\n");

@@ -19,14 +19,14 @@ namespace
 
 namespace fs = std::filesystem;
 
-voile::gpu::Result<viewer::Options> parse(std::vector<const char*> arguments)
+voile::Result<viewer::Options> parse(std::vector<const char*> arguments)
 {
     arguments.insert(arguments.begin(), "viewer");
     return viewer::parse_options(static_cast<int>(arguments.size()), arguments.data());
 }
 
 // Words between spaces.
-voile::gpu::Result<viewer::Options> parse_line(const std::string& line)
+voile::Result<viewer::Options> parse_line(const std::string& line)
 {
     std::istringstream stream(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};

@@ -411,8 +411,8 @@ TEST_CASE("messages about a scene show no raw bytes of it")
     check(collider_message("{\"mesh\": \"a.obj\", \"sides\": \"" + odd + "\"}"));
     const auto unnamed = viewer::parse_scene("{", "dir/\x1b[2J" + std::string(4000, 'd') + "/s.json");
     check(unnamed.error().message);
-    check(viewer::find_scene("\x1b" + std::string(300000, 's'), {}).error().message);
-    check(viewer::find_scene("\x1b" + std::string(300000, 's') + ".json", {}).error().message);
+    check(viewer::find_scene('\x1b' + std::string(300000, 's'), {}).error().message);
+    check(viewer::find_scene('\x1b' + std::string(300000, 's') + ".json", {}).error().message);
     CHECK(cloth_message("\"name\": \"" + std::string(100, 'n') + "\"") == "accepted");
     CHECK(cloth_message("\"name\": \"" + std::string(101, 'n') + "\"") ==
           "dir/s.json:1: cloths[0].name is \"" + std::string(80, 'n') + "...\"; a name has at most 100 bytes");

@@ -108,7 +108,7 @@ TEST_CASE("names from files and the command line are printed safely")
     };
     folder.write(odd + ".obj", "v 0 0 0\n");
     folder.write(odd + ".json", "{\"cloths\": [{\"mesh\": \"\\u001b]0;title\\u0007\\n.obj\"}]}");
-    check(run_viewer("'" + (folder / (odd + ".json")).string() + "' --headless"));
+    check(run_viewer('\'' + (folder / (odd + ".json")).string() + "' --headless"));
     check(run_viewer("reference --headless --collider '" + (folder / (odd + ".obj")).string() + "'"));
     check(run_viewer("reference --headless --frames 1 --device '" + odd + std::string(100000, 'd') + "'"));
     check(run_viewer("'" + odd + std::string(100000, 's') + "' --headless"));

@@ -18,9 +18,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-gpu::Error file_error(const fs::path& path, const std::string& reason)
+Error file_error(const fs::path& path, const std::string& reason)
 {
-    return gpu::Error{path_text(path) + ": cannot be written: " + reason};
+    return Error{path_text(path) + ": cannot be written: " + reason};
 }
 
 } // namespace
@@ -30,7 +30,7 @@ TemporaryFile::TemporaryFile(const fs::path& target)
     // Two writers of one target must not share a temporary file, whether they are threads or processes.
     static std::atomic<unsigned> counter{0};
     const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-    path_ = target.parent_path() / ("." + target.filename().string() + "." + unique + ".part");
+    path_ = target.parent_path() / ('.' + target.filename().string() + '.' + unique + ".part");
     cleanup_ = std::make_unique<Cleanup>([name = path_.string()] { (void)::unlink(name.c_str()); });
 }
 
@@ -55,7 +55,7 @@ void TemporaryFile::remove() noexcept
     cleanup_.reset();
 }
 
-gpu::Result<void> TemporaryFile::complete(const fs::path& target)
+Result<void> TemporaryFile::complete(const fs::path& target)
 {
     std::error_code problem;
     fs::rename(path_, target, problem);
@@ -66,7 +66,7 @@ gpu::Result<void> TemporaryFile::complete(const fs::path& target)
     return {};
 }
 
-gpu::Result<fs::path> resolve_target(const fs::path& path)
+Result<fs::path> resolve_target(const fs::path& path)
 {
     std::error_code problem;
     if (path.filename().empty() || fs::is_directory(path, problem))
@@ -84,9 +84,9 @@ gpu::Result<fs::path> resolve_target(const fs::path& path)
     return target;
 }
 
-gpu::Result<AtomicFile> AtomicFile::create(const fs::path& path)
+Result<AtomicFile> AtomicFile::create(const fs::path& path)
 {
-    const gpu::Result<fs::path> target = resolve_target(path);
+    const Result<fs::path> target = resolve_target(path);
     if (!target)
         return target.error();
     AtomicFile result;
@@ -155,7 +155,7 @@ void AtomicFile::seek(long offset)
         failure_ = errno != 0 ? errno : EIO;
 }
 
-gpu::Result<void> AtomicFile::commit()
+Result<void> AtomicFile::commit()
 {
     if (file_ == nullptr)
         return file_error(path_, "it is written already");
@@ -171,7 +171,7 @@ gpu::Result<void> AtomicFile::commit()
     }
     if (temporary_.path().empty())
         return {};
-    gpu::Result<void> completed = temporary_.complete(target_);
+    Result<void> completed = temporary_.complete(target_);
     discard();
     return completed;
 }

@@ -58,10 +58,9 @@ std::string find_obstacle(int file, uint64_t most_bytes, struct stat& status)
 
 } // namespace
 
-gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes)
+Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes)
 {
-    const auto error = [&](const std::string& reason)
-    { return gpu::Error{path_text(path) + ": cannot read: " + reason}; };
+    const auto error = [&](const std::string& reason) { return Error{path_text(path) + ": cannot read: " + reason}; };
     const Descriptor file(path);
     struct stat status = {};
     if (const std::string obstacle = find_obstacle(file.number(), most_bytes, status); !obstacle.empty())
@@ -88,9 +87,9 @@ gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t m
     return bytes;
 }
 
-gpu::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes)
+Result<void> write_file(const std::filesystem::path& path, std::string_view bytes)
 {
-    gpu::Result<AtomicFile> file = AtomicFile::create(path);
+    Result<AtomicFile> file = AtomicFile::create(path);
     if (!file)
         return file.error();
     file.value().write(bytes);

@@ -62,16 +62,16 @@ std::string encode_png(const Picture& picture)
 
 } // namespace
 
-gpu::Result<Picture> load_png(const std::filesystem::path& path)
+Result<Picture> load_png(const std::filesystem::path& path)
 {
-    const gpu::Result<std::string> file = read_file(path);
+    const Result<std::string> file = read_file(path);
     if (!file)
         return file.error();
     const std::string& bytes = file.value();
     if (bytes.empty())
-        return gpu::Error{path_text(path) + ": file is empty"};
+        return Error{path_text(path) + ": file is empty"};
     if (bytes.size() > size_t{std::numeric_limits<int>::max()})
-        return gpu::Error{path_text(path) + ": file is larger than 2 GiB"};
+        return Error{path_text(path) + ": file is larger than 2 GiB"};
     int width = 0;
     int height = 0;
     int channels = 0;
@@ -80,24 +80,24 @@ gpu::Result<Picture> load_png(const std::filesystem::path& path)
                               &height, &channels, 4),
         stbi_image_free);
     if (!pixels)
-        return gpu::Error{path_text(path) + ": not a readable PNG: " + stbi_failure_reason()};
+        return Error{path_text(path) + ": not a readable PNG: " + stbi_failure_reason()};
     Picture picture{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
     picture.rgba.assign(pixels.get(), pixels.get() + 4 * size_t{picture.width} * picture.height);
     return picture;
 }
 
-gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& picture)
+Result<void> save_png(const std::filesystem::path& path, const Picture& picture)
 {
     const std::string size = std::to_string(picture.width) + " x " + std::to_string(picture.height);
     constexpr uint32_t k_longest_side = 16384; // stb counts bytes in int
     if (picture.width == 0 || picture.height == 0 || picture.width > k_longest_side || picture.height > k_longest_side)
-        return gpu::Error{path_text(path) + ": a picture of " + size + " pixels cannot be written"};
+        return Error{path_text(path) + ": a picture of " + size + " pixels cannot be written"};
     if (picture.rgba.size() != 4 * size_t{picture.width} * picture.height)
-        return gpu::Error{path_text(path) + ": a picture of " + size + " pixels has " +
-                          std::to_string(picture.rgba.size()) + " bytes, needs 4 per pixel"};
+        return Error{path_text(path) + ": a picture of " + size + " pixels has " + std::to_string(picture.rgba.size()) +
+                     " bytes, needs 4 per pixel"};
     const std::string bytes = encode_png(picture);
     if (bytes.empty())
-        return gpu::Error{path_text(path) + ": a picture of " + size + " pixels could not be compressed"};
+        return Error{path_text(path) + ": a picture of " + size + " pixels could not be compressed"};
     return write_file(path, bytes);
 }
 

@@ -10,7 +10,7 @@
 namespace voile::engine
 {
 
-gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
+Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     std::string extension = path.extension().string();
     for (char& c : extension)
@@ -19,7 +19,7 @@ gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* repor
         return load_obj(path, report, vertices);
     if (extension == ".ply")
         return load_ply(path, report, vertices);
-    return gpu::Error{path_text(path) + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
+    return Error{path_text(path) + ": not a mesh format that can be read, the name does not end in .obj or .ply"};
 }
 
 } // namespace voile::engine

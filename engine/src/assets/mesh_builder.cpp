@@ -220,7 +220,7 @@ Mesh assemble_faces(Polygons polygons)
 
 } // namespace
 
-gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report, MeshVertices vertices)
+Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report, MeshVertices vertices)
 {
     if (vertices == MeshVertices::faces)
         return assemble_faces(std::move(polygons));
@@ -229,7 +229,7 @@ gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshRep
     const size_t count = triangles.size();
     clean(polygons, triangles, changes);
     if (triangles.empty())
-        return gpu::Error{name + ": no triangles left, all " + std::to_string(count) + " are degenerate"};
+        return Error{name + ": no triangles left, all " + std::to_string(count) + " are degenerate"};
     if (vertices == MeshVertices::positions)
     {
         for (Triangle& t : triangles)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Polygons
 // one. Makes one vertex per combination of position, texture coordinate and normal in use, in the order of the
 // positions, or one per position. MeshVertices::faces only triangulates. `report` may be null. Error: "NAME: REASON" if
 // no triangle is left.
-gpu::Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report,
-                             MeshVertices vertices = MeshVertices::corners);
+Result<Mesh> build_mesh(Polygons polygons, const std::string& name, MeshReport* report,
+                        MeshVertices vertices = MeshVertices::corners);
 
 } // namespace voile::engine

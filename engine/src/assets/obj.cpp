@@ -19,7 +19,7 @@ namespace voile::engine
 namespace
 {
 
-gpu::Result<Polygons> parse(CheckedObj checked, const std::string& name)
+Result<Polygons> parse(CheckedObj checked, const std::string& name)
 {
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
@@ -31,7 +31,7 @@ gpu::Result<Polygons> parse(CheckedObj checked, const std::string& name)
     const bool read =
         tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, nullptr, false, false);
     if (!read || shapes.size() != 1)
-        return gpu::Error{name + ": cannot be parsed: " + gpu::printable(error)};
+        return Error{name + ": cannot be parsed: " + gpu::printable(error)};
 
     Polygons polygons;
     const std::vector<float>& v = attributes.vertices;
@@ -59,22 +59,22 @@ void append_number(std::string& text, Number number)
 
 } // namespace
 
-gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
+Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     const std::string name = path_text(path);
-    const gpu::Result<std::string> text = read_file(path);
+    const Result<std::string> text = read_file(path);
     if (!text)
         return text.error();
-    gpu::Result<CheckedObj> checked = check_obj(text.value(), name);
+    Result<CheckedObj> checked = check_obj(text.value(), name);
     if (!checked)
         return checked.error();
-    gpu::Result<Polygons> polygons = parse(std::move(checked.value()), name);
+    Result<Polygons> polygons = parse(std::move(checked.value()), name);
     if (!polygons)
         return polygons.error();
     return build_mesh(std::move(polygons.value()), name, report, vertices);
 }
 
-gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
+Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
 {
     std::string text;
     text.reserve(64 * (mesh.positions.size() + mesh.triangles.size()));
@@ -84,7 +84,7 @@ gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
         for (int axis = 0; axis < 3; ++axis)
         {
             if (!std::isfinite(mesh.positions[i][axis]))
-                return gpu::Error{path_text(path) + ": position " + std::to_string(i) + " is not finite"};
+                return Error{path_text(path) + ": position " + std::to_string(i) + " is not finite"};
             append_number(text, mesh.positions[i][axis]);
         }
         text += "\n";
@@ -96,8 +96,8 @@ gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh)
         {
             const uint32_t index = mesh.triangles[i][corner];
             if (index >= mesh.positions.size())
-                return gpu::Error{path_text(path) + ": triangle " + std::to_string(i) + " refers to position " +
-                                  std::to_string(index) + " of " + std::to_string(mesh.positions.size())};
+                return Error{path_text(path) + ": triangle " + std::to_string(i) + " refers to position " +
+                             std::to_string(index) + " of " + std::to_string(mesh.positions.size())};
             append_number(text, index + 1);
         }
         text += "\n";

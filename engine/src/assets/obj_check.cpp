@@ -31,7 +31,7 @@ class Checker
 public:
     explicit Checker(const std::string& name) : name_(name) {}
 
-    gpu::Result<CheckedObj> run(std::string_view text);
+    Result<CheckedObj> run(std::string_view text);
 
 private:
     // A reference to an element that no line has defined yet. It is checked at the end.
@@ -200,14 +200,14 @@ void Checker::check_forward_references()
                                         std::to_string(counts_[reference.list]));
 }
 
-gpu::Result<CheckedObj> Checker::run(std::string_view text)
+Result<CheckedObj> Checker::run(std::string_view text)
 {
     if (constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(k_byte_order_mark))
         text.remove_prefix(k_byte_order_mark.size());
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return gpu::Error{name_ + ": file is empty"};
+        return Error{name_ + ": file is empty"};
     if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
-        return gpu::Error{name_ + ": not a text file, byte " + std::to_string(zero) + " is zero"};
+        return Error{name_ + ": not a text file, byte " + std::to_string(zero) + " is zero"};
     while (!text.empty() && error_.empty())
     {
         read_statement(text);
@@ -215,17 +215,17 @@ gpu::Result<CheckedObj> Checker::run(std::string_view text)
     }
     check_forward_references();
     if (!error_.empty())
-        return gpu::Error{error_};
+        return Error{error_};
     if (counts_[positions] == 0)
-        return gpu::Error{name_ + ": no vertices"};
+        return Error{name_ + ": no vertices"};
     if (checked_.face_sizes.empty())
-        return gpu::Error{name_ + ": no faces"};
+        return Error{name_ + ": no faces"};
     return std::move(checked_);
 }
 
 } // namespace
 
-gpu::Result<CheckedObj> check_obj(std::string_view text, const std::string& name)
+Result<CheckedObj> check_obj(std::string_view text, const std::string& name)
 {
     return Checker(name).run(text);
 }

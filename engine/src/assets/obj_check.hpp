@@ -2,7 +2,7 @@
 // into zero and accepts any index. The check finds each such line and names it.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <string>
@@ -21,6 +21,6 @@ struct CheckedObj
 };
 
 // Errors: "NAME:LINE: REASON" for the first faulty line, "NAME: REASON" for the file as a whole.
-gpu::Result<CheckedObj> check_obj(std::string_view text, const std::string& name);
+Result<CheckedObj> check_obj(std::string_view text, const std::string& name);
 
 } // namespace voile::engine

@@ -33,7 +33,7 @@ public:
     {
     }
 
-    gpu::Result<Polygons> run();
+    Result<Polygons> run();
 
 private:
     void read_entry(const PlyElement& element);
@@ -64,7 +64,7 @@ private:
 
 std::string BodyReader::location() const
 {
-    return name_ + (header_.is_ascii() ? ":" + std::to_string(line_) + ": " : ": ");
+    return name_ + (header_.is_ascii() ? ':' + std::to_string(line_) + ": " : ": ");
 }
 
 std::string BodyReader::entry() const
@@ -217,7 +217,7 @@ void BodyReader::read_entry(const PlyElement& element)
         end_line();
 }
 
-gpu::Result<Polygons> BodyReader::run()
+Result<Polygons> BodyReader::run()
 {
     for (const PlyElement& element : header_.elements)
     {
@@ -228,27 +228,27 @@ gpu::Result<Polygons> BodyReader::run()
             read_entry(element);
     }
     if (!error_.empty())
-        return gpu::Error{error_};
+        return Error{error_};
     const size_t rest = body_.find_first_not_of(k_blank_lines);
     if (rest == std::string_view::npos)
         return std::move(polygons_);
     line_ += 1 + static_cast<uint32_t>(std::count(body_.begin(), body_.begin() + static_cast<ptrdiff_t>(rest), '\n'));
-    return gpu::Error{location() + "data follows the last " + gpu::printable(header_.elements.back().name)};
+    return Error{location() + "data follows the last " + gpu::printable(header_.elements.back().name)};
 }
 
 } // namespace
 
-gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
+Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report, MeshVertices vertices)
 {
     const std::string name = path_text(path);
-    const gpu::Result<std::string> text = read_file(path);
+    const Result<std::string> text = read_file(path);
     if (!text)
         return text.error();
     std::string_view body = text.value();
-    const gpu::Result<PlyHeader> header = take_ply_header(body, name);
+    const Result<PlyHeader> header = take_ply_header(body, name);
     if (!header)
         return header.error();
-    gpu::Result<Polygons> polygons = BodyReader(header.value(), body, name).run();
+    Result<Polygons> polygons = BodyReader(header.value(), body, name).run();
     if (!polygons)
         return polygons.error();
     return build_mesh(std::move(polygons.value()), name, report, vertices);

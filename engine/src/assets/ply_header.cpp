@@ -163,10 +163,10 @@ std::string find_missing(PlyHeader& header)
 
 } // namespace
 
-gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string& name)
+Result<PlyHeader> take_ply_header(std::string_view& text, const std::string& name)
 {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        return gpu::Error{name + ": file is empty"};
+        return Error{name + ": file is empty"};
     PlyHeader header;
     Words words;
     Names elements;
@@ -174,7 +174,7 @@ gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string
     for (bool ended = false; !ended;)
     {
         if (text.empty())
-            return gpu::Error{name + ": file ends before 'end_header'"};
+            return Error{name + ": file ends before 'end_header'"};
         words.clear();
         split(take_line(text), words);
         ++header.lines;
@@ -192,11 +192,11 @@ gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string
         else if (!is_comment)
             reason = read_statement(words, header, elements);
         if (!reason.empty())
-            return gpu::Error{name + ":" + std::to_string(header.lines) + ": " + reason};
+            return Error{name + ":" + std::to_string(header.lines) + ": " + reason};
     }
     const std::string missing = find_missing(header);
     if (!missing.empty())
-        return gpu::Error{name + ": " + missing};
+        return Error{name + ": " + missing};
     return header;
 }
 

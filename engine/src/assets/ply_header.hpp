@@ -2,7 +2,7 @@
 // Format: Turk 1994, "The PLY Polygon File Format".
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <string>
@@ -69,6 +69,6 @@ struct PlyHeader
 };
 
 // Takes the header off the text. Errors: "NAME:LINE: REASON", or "NAME: REASON" for the file as a whole.
-gpu::Result<PlyHeader> take_ply_header(std::string_view& text, const std::string& name);
+Result<PlyHeader> take_ply_header(std::string_view& text, const std::string& name);
 
 } // namespace voile::engine

@@ -61,7 +61,7 @@ std::string path_text(const std::filesystem::path& path, size_t most)
 std::string quoted_word(std::string_view word)
 {
     constexpr size_t k_longest = 40;
-    return "'" + gpu::printable(word, k_longest) + "'";
+    return '\'' + gpu::printable(word, k_longest) + '\'';
 }
 
 } // namespace voile::engine

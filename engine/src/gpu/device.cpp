@@ -3,7 +3,6 @@
 
 #include "voile/gpu/printable.hpp"
 
-#include <vk_mem_alloc.h>
 #include <volk.h>
 
 #include <algorithm>
@@ -207,8 +206,7 @@ void Device::release() noexcept
 {
     if (pipeline_cache_ != VK_NULL_HANDLE)
         context_.fn.vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
-    if (allocator_ != VK_NULL_HANDLE)
-        vmaDestroyAllocator(allocator_);
+    allocator_.reset();
     if (device_ != VK_NULL_HANDLE)
     {
         const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(vkGetDeviceProcAddr(device_, "vkDestroyDevice"));
@@ -308,18 +306,12 @@ void Device::create_device(const DeviceOptions& options)
 
 void Device::create_allocator()
 {
-    VmaVulkanFunctions functions{};
-    functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
-    functions.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
-    VmaAllocatorCreateInfo info{};
-    info.instance = instance_;
-    info.physicalDevice = physical_device_;
-    info.device = device_;
-    info.vulkanApiVersion = k_api_version;
-    info.pVulkanFunctions = &functions;
-    check(vmaCreateAllocator(&info, &allocator_), "memory allocator");
-
-    gpu::Handles handles{instance_, physical_device_, device_, allocator_, VK_NULL_HANDLE, vkGetInstanceProcAddr};
+    Handles handles{.instance = instance_,
+                    .physical_device = physical_device_,
+                    .device = device_,
+                    .get_instance_proc_addr = vkGetInstanceProcAddr};
+    allocator_ = take(gpu::Allocator::create(handles));
+    handles.buffer_allocator = allocator_.get();
     context_ = take(gpu::create_context(handles));
     VkPipelineCacheCreateInfo cache_info{};
     cache_info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;

@@ -14,7 +14,7 @@ std::vector<std::byte> download(const Device& device, VkBuffer buffer, VkDeviceS
         return {};
     const gpu::Context& context = device.context();
     const gpu::Buffer host =
-        take(gpu::create_buffer(context, "download", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback));
+        take(gpu::create_buffer(context, "download", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::readback));
     device.wait_idle();
     FrameRing ring(device, 1);
     const FrameRing::Frame frame = ring.begin();

@@ -1,18 +1,15 @@
-// Image: creation through VMA, and layout transitions.
+// Image: creation, and layout transitions.
 #include "voile/engine/gpu/image.hpp"
-
-#include "voile/engine/gpu/device.hpp"
-
-#include <vk_mem_alloc.h>
 
 #include <utility>
 
 namespace voile::engine
 {
 
-Image::Image(const gpu::Context& context, const ImageDescription& description)
-    : context_(&context), format_(description.format), extent_(description.extent), aspect_(description.aspect)
+Image::Image(const Device& device, const ImageDescription& description)
+    : device_(&device), format_(description.format), extent_(description.extent), aspect_(description.aspect)
 {
+    const gpu::Context& context = device.context();
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
     info.imageType = VK_IMAGE_TYPE_2D;
@@ -22,16 +19,14 @@ Image::Image(const gpu::Context& context, const ImageDescription& description)
     info.arrayLayers = 1;
     info.samples = description.samples;
     info.usage = description.usage;
-    VmaAllocationCreateInfo allocation_info{};
-    allocation_info.usage = VMA_MEMORY_USAGE_AUTO;
     const std::string what = std::string("image \"") + description.name + "\" of " + std::to_string(extent_.width) +
                              "x" + std::to_string(extent_.height);
-    check(vmaCreateImage(context.allocator(), &info, &allocation_info, &image_, &allocation_, nullptr), what.c_str());
-    gpu::set_name(context, VK_OBJECT_TYPE_IMAGE, image_, description.name);
+    check(device.allocator().create_image(info, memory_), what.c_str());
+    gpu::set_name(context, VK_OBJECT_TYPE_IMAGE, handle(), description.name);
 
     VkImageViewCreateInfo view_info{};
     view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view_info.image = image_;
+    view_info.image = handle();
     view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = format_;
     view_info.subresourceRange = {aspect_, 0, 1, 0, 1};
@@ -41,10 +36,11 @@ Image::Image(const gpu::Context& context, const ImageDescription& description)
 
 Image::~Image()
 {
-    if (context_ == nullptr)
+    if (device_ == nullptr)
         return;
-    context_->fn.vkDestroyImageView(context_->device(), view_, nullptr);
-    vmaDestroyImage(context_->allocator(), image_, allocation_);
+    const gpu::Context& context = device_->context();
+    context.fn.vkDestroyImageView(context.device(), view_, nullptr);
+    device_->allocator().destroy_image(memory_);
 }
 
 Image::Image(Image&& other) noexcept
@@ -54,9 +50,8 @@ Image::Image(Image&& other) noexcept
 
 Image& Image::operator=(Image&& other) noexcept
 {
-    std::swap(context_, other.context_);
-    std::swap(image_, other.image_);
-    std::swap(allocation_, other.allocation_);
+    std::swap(device_, other.device_);
+    std::swap(memory_, other.memory_);
     std::swap(view_, other.view_);
     std::swap(format_, other.format_);
     std::swap(extent_, other.extent_);

@@ -10,12 +10,12 @@ namespace voile::engine
 
 gpu::Buffer UploadBatch::buffer(const char* name, std::span<const std::byte> bytes, VkBufferUsageFlags usage)
 {
-    gpu::Buffer result = take(gpu::create_buffer(context_, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                 gpu::Memory::device));
+    gpu::Buffer result = take(
+        gpu::create_buffer(context_, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::device));
     if (bytes.empty())
         return result;
-    gpu::Buffer staging = take(
-        gpu::create_buffer(context_, "staging", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload));
+    gpu::Buffer staging =
+        take(gpu::create_buffer(context_, "staging", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::upload));
     std::copy(bytes.begin(), bytes.end(), staging.mapped().begin());
     staging.flush();
     copies_.push_back({result.handle(), bytes.size(), std::move(staging)});

@@ -90,7 +90,7 @@ void FrameBindings::create_sets(uint32_t slots, VkImageView shadow_map)
     for (const VkDescriptorSet set : sets_)
     {
         uniforms_.push_back(take(gpu::create_buffer(context_, "frame uniforms", sizeof(shared::FrameUniforms),
-                                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::Memory::upload)));
+                                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::upload)));
         const VkDescriptorBufferInfo buffer{uniforms_.back().handle(), 0, VK_WHOLE_SIZE};
         const VkDescriptorImageInfo image{VK_NULL_HANDLE, shadow_map, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
         std::array<VkWriteDescriptorSet, 2> writes{};

@@ -13,7 +13,7 @@ Readback::Readback(const Device& device, VkExtent2D extent, uint32_t slots) : de
     const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
     for (uint32_t i = 0; i < slots; ++i)
         buffers_.push_back(take(gpu::create_buffer(device.context(), "picture readback", bytes,
-                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback)));
+                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::readback)));
 }
 
 void Readback::record(VkCommandBuffer cmd, const Image& image, uint32_t slot) const

@@ -39,30 +39,29 @@ struct Targets
     Image depth;
 
     Targets() = default;
-    Targets(const gpu::Context& context, VkExtent2D extent)
-        : color(context, {.name = "color",
-                          .format = k_color_format,
-                          .extent = extent,
-                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}),
-          samples(context, {.name = "color samples",
-                            .format = k_color_format,
-                            .extent = extent,
-                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
-                            .samples = k_samples}),
-          depth(context,
-                {.name = "depth",
-                 .format = k_depth_format,
-                 .extent = extent,
-                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
-                 .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                 .samples = k_samples})
+    Targets(const Device& device, VkExtent2D extent)
+        : color(device, {.name = "color",
+                         .format = k_color_format,
+                         .extent = extent,
+                         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}),
+          samples(device, {.name = "color samples",
+                           .format = k_color_format,
+                           .extent = extent,
+                           .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
+                           .samples = k_samples}),
+          depth(device, {.name = "depth",
+                         .format = k_depth_format,
+                         .extent = extent,
+                         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT,
+                         .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                         .samples = k_samples})
     {
     }
 };
 
-Image create_shadow_map(const gpu::Context& context, uint32_t resolution)
+Image create_shadow_map(const Device& device, uint32_t resolution)
 {
-    return {context,
+    return {device,
             {.name = "shadow map",
              .format = k_depth_format,
              .extent = {resolution, resolution},
@@ -117,6 +116,7 @@ VkRenderingAttachmentInfoKHR depth_attachment(VkImageView view, VkAttachmentStor
 
 struct Renderer::State
 {
+    const Device& device;
     const gpu::Context& context;
     RendererOptions options;
     Targets targets;
@@ -127,9 +127,9 @@ struct Renderer::State
     Owned<VkPipeline> sky_pipeline;
     MarkPipelines marks;
 
-    State(const Device& device, const RendererOptions& wanted)
-        : context(device.context()), options(wanted), targets(context, wanted.extent),
-          shadow_map(create_shadow_map(context, wanted.shadow_resolution)),
+    State(const Device& on, const RendererOptions& wanted)
+        : device(on), context(on.context()), options(wanted), targets(on, wanted.extent),
+          shadow_map(create_shadow_map(on, wanted.shadow_resolution)),
           bindings(device, wanted.slots, shadow_map.view()),
           marks(context, bindings.layout(), k_color_format, k_depth_format, k_samples)
     {
@@ -293,7 +293,7 @@ VkExtent2D Renderer::extent() const
 
 void Renderer::resize(VkExtent2D extent)
 {
-    state_->targets = Targets(state_->context, extent);
+    state_->targets = Targets(state_->device, extent);
     state_->options.extent = extent;
 }
 

@@ -18,7 +18,7 @@ DeformingMesh::DeformingMesh(UploadBatch& uploads, uint32_t slots, const Mesh& m
     const size_t bytes = vertices_.size() * sizeof(glm::vec4);
     for (Slot& slot : slots_)
         slot.vertices = take(gpu::create_buffer(uploads.context(), "deforming vertices", bytes,
-                                                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Memory::upload));
+                                                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Memory::upload));
     drawable_.normal_offset = bytes / 2;
     set_positions(mesh.positions);
 }

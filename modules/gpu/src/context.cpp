@@ -1,6 +1,8 @@
 // Context: reads functions and limits from the host's handles, names objects, converts results to text.
 #include "voile/gpu/context.hpp"
 
+#include "voile/gpu/allocator.hpp"
+
 #include <algorithm>
 
 namespace voile::gpu
@@ -32,10 +34,10 @@ VkDeviceSize largest_storage_buffer(const Handles& handles, const VkPhysicalDevi
 Result<Context> create_context(const Handles& handles)
 {
     if (handles.instance == VK_NULL_HANDLE || handles.physical_device == VK_NULL_HANDLE ||
-        handles.device == VK_NULL_HANDLE || handles.allocator == VK_NULL_HANDLE)
-        return Error{"gpu::Handles: instance, physical_device, device and allocator must all be set"};
+        handles.device == VK_NULL_HANDLE)
+        return Error{"Handles: instance, physical_device and device must all be set"};
     if (handles.get_instance_proc_addr == nullptr)
-        return Error{"gpu::Handles: get_instance_proc_addr is null"};
+        return Error{"Handles: get_instance_proc_addr is null"};
 
     Context context;
     context.handles = handles;
@@ -43,6 +45,13 @@ Result<Context> create_context(const Handles& handles)
                                        handles.device);
     if (context.fn.vkCmdPipelineBarrier2KHR == nullptr)
         return Error{"the device was made without VK_KHR_synchronization2, and not for Vulkan 1.3, which has it"};
+
+    if (handles.buffer_allocator != nullptr) // borrowed: no owner counts it
+        context.buffers = std::shared_ptr<BufferAllocator>(std::shared_ptr<void>(), handles.buffer_allocator);
+    else if (auto own = Allocator::create(handles))
+        context.buffers = std::shared_ptr<Allocator>(std::move(own.value()));
+    else
+        return own.error();
 
     VkPhysicalDeviceProperties properties{};
     instance_function<PFN_vkGetPhysicalDeviceProperties>(handles, "vkGetPhysicalDeviceProperties")(

@@ -7,8 +7,7 @@
 #pragma once
 
 #include "voile/ids.hpp"
-
-#include <glm/glm.hpp>
+#include "voile/math.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -30,7 +29,7 @@ struct Attachment
     // The point, m in the anchor's space, -1e6..1e6. In the world, where the anchor was added: -2e6..2e6.
     // Default: where the vertex was at the start, moved as the anchor has moved since it was added. A pin without a
     // position keeps the vertex where it is when the pin is set.
-    std::optional<glm::vec3> position{};
+    std::optional<Vec3> position{};
 
     // Pull towards the point, N/m, 0..1e9. Infinite, the default, makes a pin: the vertex has no inverse mass and
     // follows the anchor exactly. A spring is integrated implicitly (backward Euler) and is stable at any stiffness.
@@ -44,21 +43,21 @@ struct Attachment
 
     // Unit normal of the backstop, in the anchor's space. The vertex stays on this side of a plane that lies `backstop`
     // behind the point. Zero, the default: no backstop.
-    glm::vec3 backstop_normal{0.f};
+    Vec3 backstop_normal{0.f};
     float backstop = 0; // m, -1e6..1e6
 
     // The same attachment to an anchor; to a point (m, in the anchor's space); with a limit; with a backstop.
     [[nodiscard]] Attachment to(AnchorId frame) const;
-    [[nodiscard]] Attachment at(const glm::vec3& point) const;
+    [[nodiscard]] Attachment at(const Vec3& point) const;
     [[nodiscard]] Attachment with_max_distance(float distance) const;
-    [[nodiscard]] Attachment with_backstop(const glm::vec3& normal, float distance) const;
+    [[nodiscard]] Attachment with_backstop(const Vec3& normal, float distance) const;
 };
 
 // The vertex stays where it is.
 [[nodiscard]] Attachment pin(uint32_t vertex);
 // The vertex follows the anchor: from where it is, or at a point in the anchor's space (m).
 [[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor);
-[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor, const glm::vec3& position);
+[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor, const Vec3& position);
 
 // A spring pulls the vertex to the point. N/m, N s/m.
 [[nodiscard]] Attachment spring(uint32_t vertex, float stiffness, float damping = 0);
@@ -67,7 +66,7 @@ struct Attachment
 [[nodiscard]] Attachment max_distance(uint32_t vertex, float distance);
 
 // The vertex moves freely in front of a plane `distance` (m) behind the point. `normal` is of unit length.
-[[nodiscard]] Attachment backstop(uint32_t vertex, const glm::vec3& normal, float distance);
+[[nodiscard]] Attachment backstop(uint32_t vertex, const Vec3& normal, float distance);
 
 // Tethers limit the distance from each vertex to the pins. The limit is the length of the cloth at rest between them,
 // times (1 + stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Pins that are connected by edges form

@@ -12,9 +12,10 @@
 // mesh; a file that somebody made up can hold a cloth with springs of any kind.
 #pragma once
 
+#include "voile/export.hpp"
 #include "voile/jobs.hpp"
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct MeshCollider;
 
 // A cloth mesh with its springs, folds and membrane. Copies share what they hold, which never changes; any thread may
 // use them. A default-constructed one holds nothing.
-class CookedCloth
+class VOILE_API CookedCloth
 {
 public:
     CookedCloth() = default;
@@ -40,8 +41,8 @@ public:
     [[nodiscard]] std::vector<std::byte> bytes() const;
     // With an `owner`, which keeps the bytes alive and unchanged, nothing is copied if they begin at a multiple of 16.
     // Errors: data of another kind, version or byte order, data that is incomplete, damaged or out of range.
-    static gpu::Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
-                                         const Jobs& jobs = {});
+    static Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
+                                    const Jobs& jobs = {});
 
     [[nodiscard]] uint32_t vertices() const;
     [[nodiscard]] uint32_t triangles() const;
@@ -55,15 +56,15 @@ private:
 };
 
 // A mesh collider that keeps its shape, with its hierarchy. Otherwise as CookedCloth.
-class CookedCollider
+class VOILE_API CookedCollider
 {
 public:
     CookedCollider() = default;
     explicit operator bool() const { return state_ != nullptr; }
 
     [[nodiscard]] std::vector<std::byte> bytes() const;
-    static gpu::Result<CookedCollider> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
-                                            const Jobs& jobs = {});
+    static Result<CookedCollider> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
+                                       const Jobs& jobs = {});
 
     [[nodiscard]] uint32_t triangles() const; // those with an area
 
@@ -77,9 +78,9 @@ private:
 
 // From the positions, triangles, texture coordinates and transform of the description, and from what its material says
 // of the springs: Fabric or Material, isometric bending or not. Errors: those of Solver::add_cloth.
-gpu::Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs = {});
+VOILE_API Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs = {});
 
 // From the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.
-gpu::Result<CookedCollider> cook(const MeshCollider& collider, const Jobs& jobs = {});
+VOILE_API Result<CookedCollider> cook(const MeshCollider& collider, const Jobs& jobs = {});
 
 } // namespace voile

@@ -5,8 +5,7 @@
 #include "voile/cooked.hpp"
 #include "voile/ids.hpp"
 #include "voile/material.hpp"
-
-#include <glm/glm.hpp>
+#include "voile/math.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -43,10 +42,10 @@ struct GridCloth
 
     // World from grid; affine. It does not change the rest lengths: a transform that stretches starts a stretched
     // cloth.
-    glm::mat4 transform{1.f};
+    Mat4 transform{1.f};
 
     // Velocity of every vertex at the start, m/s, -1e4..1e4 along each axis.
-    glm::vec3 velocity{0.f};
+    Vec3 velocity{0.f};
 
     // A Fabric or a Material. fabrics.hpp has presets.
     ClothMaterial material{};
@@ -83,23 +82,23 @@ struct MeshCloth
     std::string name = "cloth";
 
     // m, in the space of the mesh.
-    std::span<const glm::vec3> positions{};
+    std::span<const Vec3> positions{};
 
     // Indices into positions, counter-clockwise seen from outside.
-    std::span<const glm::uvec3> triangles{};
+    std::span<const UVec3> triangles{};
 
     // One per position, m of fabric, -1e6..1e6. The warp of a Fabric runs in each triangle where the first coordinate
     // grows and the second does not; the weft is at right angles to it. Both turn with the transform, and the scale of
     // the coordinates does not matter. Empty: the mesh is projected along that of its own axes along which it is
     // thinnest, and a flat mesh in x and z has its warp along x, like a GridCloth. A triangle whose coordinates have no
     // area is projected too.
-    std::span<const glm::vec2> texture_coordinates{};
+    std::span<const Vec2> texture_coordinates{};
 
     // World from mesh; affine. The transformed mesh is the shape at rest.
-    glm::mat4 transform{1.f};
+    Mat4 transform{1.f};
 
     // Velocity of every vertex at the start, m/s, -1e4..1e4 along each axis.
-    glm::vec3 velocity{0.f};
+    Vec3 velocity{0.f};
 
     // A Fabric or a Material. fabrics.hpp has presets.
     ClothMaterial material{};
@@ -199,13 +198,13 @@ struct MeshCollider
     std::string name = "mesh";
 
     // m, in the space of the mesh.
-    std::span<const glm::vec3> positions{};
+    std::span<const Vec3> positions{};
 
     // Indices into positions. Triangles without area are dropped.
-    std::span<const glm::uvec3> triangles{};
+    std::span<const UVec3> triangles{};
 
     // World from mesh; affine.
-    glm::mat4 transform{1.f};
+    Mat4 transform{1.f};
 
     // None: the cloth's.
     std::optional<Friction> friction{};
@@ -221,7 +220,8 @@ struct MeshCollider
 
     // Replaces positions and triangles, which stay empty (voile/cooked.hpp). The transform may differ by a rotation and
     // a translation from the one that the mesh was cooked with; a rotated one behaves and costs like a collider
-    // that was moved there. With the same transform results equal those of the mesh itself to the bit. A cooked collider cannot deform.
+    // that was moved there. With the same transform results equal those of the mesh itself to the bit. A cooked
+    // collider cannot deform.
     CookedCollider cooked{};
 };
 
@@ -230,7 +230,7 @@ struct MeshCollider
 // triangles are equal to the bit in the world's axes, relative to their center. 0 caches none and frees all. Any thread
 // may call this at any time.
 constexpr uint64_t k_default_hierarchy_cache_limit = uint64_t{256} << 20;
-void set_hierarchy_cache_limit(uint64_t bytes);
+VOILE_API void set_hierarchy_cache_limit(uint64_t bytes);
 
 // A plane. Everything below it is solid: normal . x < offset.
 struct PlaneCollider
@@ -238,7 +238,7 @@ struct PlaneCollider
     std::string name = "plane";
 
     // Unit length.
-    glm::vec3 normal{0, 1, 0};
+    Vec3 normal{0, 1, 0};
 
     // m, -1e6..1e6. An inclined plane far from the origin is as precise as at the origin near the middle of where the
     // cloths that collide with it started.
@@ -252,8 +252,8 @@ struct PlaneCollider
 struct SphereCollider
 {
     std::string name = "sphere";
-    glm::vec3 center{0.f}; // m
-    float radius = 1;      // m, 1e-4..2e6
+    Vec3 center{0.f}; // m
+    float radius = 1; // m, 1e-4..2e6
     std::optional<Friction> friction{};
     uint32_t layers = 1;
 };
@@ -262,8 +262,8 @@ struct SphereCollider
 struct CapsuleCollider
 {
     std::string name = "capsule";
-    glm::vec3 from{0.f}; // m
-    glm::vec3 to{0, 1, 0};
+    Vec3 from{0.f}; // m
+    Vec3 to{0, 1, 0};
     float radius = 0.5f; // m, 1e-4..2e6
     std::optional<Friction> friction{};
     uint32_t layers = 1;
@@ -275,11 +275,11 @@ struct BoxCollider
     std::string name = "box";
 
     // Opposite corners, m, in the space of the box, -1e6..1e6. Each side is at least 1e-4 m long.
-    glm::vec3 min{-0.5f};
-    glm::vec3 max{0.5f};
+    Vec3 min{-0.5f};
+    Vec3 max{0.5f};
 
     // World from box; rigid.
-    glm::mat4 transform{1.f};
+    Mat4 transform{1.f};
 
     std::optional<Friction> friction{};
     uint32_t layers = 1;
@@ -290,8 +290,8 @@ using Collider = std::variant<MeshCollider, PlaneCollider, SphereCollider, Capsu
 // An axis-aligned box.
 struct BoundingBox
 {
-    glm::vec3 min{0.f}; // m
-    glm::vec3 max{0.f};
+    Vec3 min{0.f}; // m
+    Vec3 max{0.f};
 };
 
 } // namespace voile

@@ -30,13 +30,13 @@ namespace voile
 // - Friction is that of the fabric on itself. Measured values depend on pressure and direction.
 // - Damping and air drag are Fabric's defaults.
 // - Thickness is the distance that contact keeps, 2 to 5 mm. fabrics.cpp names the fabric's own thickness.
-Fabric silk();    // light and limp: crepe de chine, charmeuse
-Fabric cotton();  // broadcloth, for shirts
-Fabric wool();    // tropical worsted, for summer suits
-Fabric denim();   // washed, 11 oz
-Fabric leather(); // sheep garment leather
+VOILE_API Fabric silk();    // light and limp: crepe de chine, charmeuse
+VOILE_API Fabric cotton();  // broadcloth, for shirts
+VOILE_API Fabric wool();    // tropical worsted, for summer suits
+VOILE_API Fabric denim();   // washed, 11 oz
+VOILE_API Fabric leather(); // sheep garment leather
 
 // The preset with the function's name. None: no preset has that name.
-std::optional<Fabric> find_fabric(std::string_view name);
+VOILE_API std::optional<Fabric> find_fabric(std::string_view name);
 
 } // namespace voile

@@ -1,7 +1,8 @@
 // What a cloth is made of: a Fabric, or a Material. SI units.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/export.hpp"
+#include "voile/result.hpp"
 
 #include <array>
 #include <string>
@@ -9,9 +10,6 @@
 
 namespace voile
 {
-
-using gpu::Error;
-using gpu::Result;
 
 // The members' units, ranges and meanings stand in voile/material_parameters.hpp, one line each. A value outside its
 // range is an error.
@@ -113,18 +111,18 @@ using ClothMaterial = std::variant<Fabric, Material>;
 // of each triangle around it. Strain is uniform in a triangle: where edges cross warp and weft and triangles are as
 // large as folds, the mesh resists shear that changes within a fold more than the fabric does, the more the stiffer
 // stretch is against shear. MeshCloth::texture_coordinates give warp and weft.
-Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
+VOILE_API Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
 // The constants of the reference scene: 0.15 kg per vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag
 // 0.1 N s/m, thickness 0.03 m, friction 0.4.
-Material reference_material();
+VOILE_API Material reference_material();
 
 // Errors: a value outside its range, with its name and value.
-Result<void> validate(const Material& material);
-Result<void> validate(const Fabric& fabric);
+VOILE_API Result<void> validate(const Material& material);
+VOILE_API Result<void> validate(const Fabric& fabric);
 
 // Every parameter with its value and unit, in one line.
-std::string to_string(const Material& material);
-std::string to_string(const Fabric& fabric);
+VOILE_API std::string to_string(const Material& material);
+VOILE_API std::string to_string(const Fabric& fabric);
 
 } // namespace voile

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "voile/descriptions.hpp"
-
-#include <glm/glm.hpp>
+#include "voile/math.hpp"
 
 #include <memory>
 #include <optional>
@@ -12,7 +11,7 @@ namespace voile
 {
 
 // The signed distance of points from a collider's mesh.
-class MeshDistance
+class VOILE_API MeshDistance
 {
 public:
     // Copies the mesh. Errors: those of Solver::add_collider.
@@ -29,7 +28,7 @@ public:
 
     struct Nearest
     {
-        glm::dvec3 point{0.0};      // on the mesh, m
+        DVec3 point{0.0};           // on the mesh, m
         double signed_distance = 0; // m; negative inside a closed mesh, or behind an open one
         bool on_boundary = false;   // nearest to an edge that only one triangle has: the sign means little there
     };
@@ -37,16 +36,16 @@ public:
     // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal"). Of a mesh that
     // cuts itself, or has parts in each other, the sign says on which side of that triangle the point is; what is
     // inside, winding_number says.
-    [[nodiscard]] Nearest nearest(const glm::dvec3& point) const;
+    [[nodiscard]] Nearest nearest(const DVec3& point) const;
 
     // How often the mesh winds around the point: 1 inside a closed mesh, 0 outside, near these inside and outside of
     // one with small holes, negative where it is inside-out (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust
     // inside-outside segmentation using generalized winding numbers"). Of a closed mesh a whole number, also where it
     // cuts itself, and found by the hierarchy; an open one takes a look at every triangle.
-    [[nodiscard]] double winding_number(const glm::dvec3& point) const;
+    [[nodiscard]] double winding_number(const DVec3& point) const;
 
     // Where the segment first crosses the mesh, as a fraction of its length.
-    [[nodiscard]] std::optional<double> crossing(const glm::dvec3& from, const glm::dvec3& to) const;
+    [[nodiscard]] std::optional<double> crossing(const DVec3& from, const DVec3& to) const;
 
 private:
     struct State;
@@ -56,6 +55,6 @@ private:
 
 // Pairs of triangles that have no corner in common and cut each other: an edge of one passes through the other (Möller
 // and Trumbore 1997). Indices must be within `positions`; triangles with a corner that is not finite are left out.
-uint64_t count_self_intersections(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+VOILE_API uint64_t count_self_intersections(std::span<const Vec3> positions, std::span<const UVec3> triangles);
 
 } // namespace voile

@@ -1,41 +1,29 @@
 // Solver: cloths and colliders on the GPU, advanced by dispatches recorded into the host's command buffer.
 //
 //   auto solver = Solver::create(handles, {});           // borrowed handles, see requirements()
-//   auto sheet  = solver.value().add_cloth({...});              // copied and validated
-//   auto ball   = solver.value().add_collider(SphereCollider{...});
-//   auto upload = solver.value().record_upload(cmd);            // keep until cmd has completed
-//   each frame:   if (auto r = solver.value().record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
-//                 draw solver.value().vertices(sheet.value())   // the same buffers that were written
+//   auto sheet  = solver->add_cloth({...});              // copied and validated
+//   auto ball   = solver->add_collider(SphereCollider{...});
+//   auto upload = solver->record_upload(cmd);            // keep until cmd has completed
+//   each frame:   if (auto r = solver->record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
+//                 draw solver->vertices(*sheet)           // the same buffers that were written
 //
 // The host draws from the buffers of VertexStreams: positions, velocities, normals. docs/buffers.md lists all buffers
 // and which kernels write and read them.
 //
-// Lifetime. The solver submits nothing and waits for nothing, so the host keeps things alive for the GPU:
-// - destroy a Solver, or assign another one to it, when no command buffer that it recorded into is pending;
-// - keep an Upload until the command buffer that record_upload recorded into has completed;
-// - keep a Snapshot until the command buffers that save it or restore from it have completed;
-// - the handles that a Solver was made with outlive it, its Uploads and its Snapshots;
-// - Uploads and Snapshots may outlive the Solver.
-// Where SolverOptions::lifetime_checks is on, destroying a Solver or an Upload while the GPU executes its commands ends
-// the program with a line on stderr. A Solver, an Upload or a Snapshot that was moved from may only be destroyed or
-// assigned to.
-//
-// Threads. One solver is used by one thread at a time: the host orders the calls, with a lock of its own where several
-// threads make them. Const functions of one solver may run at the same time as each other. Different solvers may be
-// used by different threads at the same time, also if they share a device, an allocator and a pipeline cache (VMA's
-// allocator and Vulkan's cache lock themselves unless the host made them externally synchronized). A command buffer,
-// and the pool that it comes from, belong to one thread while a call records into it. set_hierarchy_cache_limit, cook
-// and CookedCloth::load are for any thread. Only add_cloth, add_collider and record_upload share work out, to
-// SolverOptions::jobs or to threads that end with the call; record never does.
+// docs/integration.md is the contract: threads, lifetimes, queues, scopes, memory. In short:
+// - one thread at a time uses a solver; different solvers are independent of each other;
+// - the solver submits nothing and waits for nothing. Destroy a Solver, an Upload or a Snapshot, or assign to it, when
+//   no command buffer that it recorded into, or that uses it, is pending. Uploads and Snapshots may outlive the Solver;
+//   the handles outlive all of them;
+// - a Solver, an Upload or a Snapshot that was moved from may only be destroyed or assigned to.
 #pragma once
 
 #include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
+#include "voile/export.hpp"
+#include "voile/handles.hpp"
 #include "voile/jobs.hpp"
 #include "voile/statistics.hpp"
-
-#include "voile/gpu/context.hpp"
-#include "voile/gpu/recorder.hpp"
 
 #include <cstddef>
 #include <initializer_list>
@@ -47,16 +35,23 @@
 namespace voile
 {
 
+namespace gpu // <voile/gpu/...>: only for hosts that use these, too
+{
+struct Context;
+class Recorder;
+class Timestamps;
+} // namespace gpu
+
 // What the host must switch on when it makes its device, and what this must have. Everything else is within the limits
 // that Vulkan guarantees, with the default options.
 struct Requirements
 {
-    uint32_t api_version = VK_API_VERSION_1_2;
+    uint32_t api_version = 0;                   // VK_API_VERSION_1_2
     std::vector<const char*> device_extensions; // VK_KHR_synchronization2
     bool synchronization2 = true;               // VkPhysicalDeviceSynchronization2FeaturesKHR
     uint32_t storage_buffers = 0;               // maxPerStageDescriptorStorageBuffers, at least
 };
-Requirements requirements();
+VOILE_API Requirements requirements();
 
 // How contact finds the surface of a mesh within the thickness.
 enum class ContactMethod
@@ -87,6 +82,21 @@ struct Tuning
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
+// Stages and accesses as in VkMemoryBarrier2.
+struct Scope
+{
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 accesses = 0;
+};
+
+// What the host's own commands do with the vertex streams. Compute shaders and transfers need not be named. A member
+// of 0 names nothing.
+struct HostScopes
+{
+    Scope before; // what must be done before the solver writes: stages that read; accesses only of what writes
+    Scope after;  // what sees what the solver has written
+};
+
 struct SolverOptions
 {
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
@@ -95,7 +105,12 @@ struct SolverOptions
                                  // pass more
     bool recovery = true; // what is inside a collider at the start of a step is brought out along a smooth field;
                           // without, straight to the nearest surface, and out of meshes not at all
-    std::optional<bool> lifetime_checks{}; // see above. None: on where the module was compiled without NDEBUG
+    // None: vertex input reads the streams. A queue without graphics has no vertex input: there give the host's own
+    // stages on that queue, or HostScopes{}, and let semaphores order other queues.
+    std::optional<HostScopes> host_scopes{};
+    // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
+    // None: on if the module was compiled without NDEBUG.
+    std::optional<bool> lifetime_checks{};
     Tuning tuning{};
     Jobs jobs{}; // the host's job system, for add_cloth, add_collider and record_upload (voile/jobs.hpp)
 };
@@ -106,21 +121,21 @@ struct Step
     float duration = 1.f / 60;    // s, 1e-6..10
     uint32_t substeps = 0;        // 0..1000000; 0: as many as stability asks for, stable_substeps(duration)
     uint32_t max_substeps = 2000; // of those, 1..1000000; a cloth for which they are too few is softened, see stability
-    glm::vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
-    glm::vec3 wind{0.f};             // m/s, -1e3..1e3
-    float gust = 0;                  // root mean square of the gusts as a share of the wind's speed, 0..10
-    float gust_length = 4;      // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
-    double time = 0;            // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
-    float air_density = 1.225f; // kg/m^3, 0..1e5
+    Vec3 gravity{0, -9.81f, 0};   // m/s^2, -1e4..1e4
+    Vec3 wind{0.f};               // m/s, -1e3..1e3
+    float gust = 0;               // root mean square of the gusts as a share of the wind's speed, 0..10
+    float gust_length = 4;        // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;              // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
+    float air_density = 1.225f;   // kg/m^3, 0..1e5
 };
 
 // Errors: a member out of its range, with its name and value.
-Result<void> validate(const Step& step);
+VOILE_API Result<void> validate(const Step& step);
 
 // Vertices in a buffer of the host's, three floats each. It needs TRANSFER_SRC usage.
 struct DeviceVertices
 {
-    VkBuffer buffer = VK_NULL_HANDLE;
+    VkBuffer buffer{};
     VkDeviceSize offset = 0; // bytes, of the first vertex; a multiple of 4
     uint32_t stride = 12;    // bytes from one vertex to the next: 12 to 64, a multiple of 4
 };
@@ -138,7 +153,7 @@ struct Stability
 // Staging memory and the buffers that an upload replaced. Destroy it, or assign another one to it, once the command
 // buffer has completed; one that was never submitted may go at any time. It may outlive the solver. A
 // default-constructed one holds nothing.
-class Upload
+class VOILE_API Upload
 {
 public:
     Upload();
@@ -155,7 +170,7 @@ private:
 // The state of all cloths at one time: positions, velocities, normals. Copied on the GPU by record_save and
 // record_restore, in memory that the host sees, so that it can be kept in a file. Destroy it once the command buffers
 // that use it have completed. It may outlive the solver.
-class Snapshot
+class VOILE_API Snapshot
 {
 public:
     ~Snapshot();
@@ -178,23 +193,22 @@ private:
 // for a cloth that is not uploaded yet or does not exist.
 struct VertexStreams
 {
-    VkBuffer positions = VK_NULL_HANDLE;  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities = VK_NULL_HANDLE; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a
-                                          // tether, a maximum distance or a backstop limits it, plus 4 if what is
-                                          // around it met a
-                                          // corner or an edge of a collider
-    VkBuffer normals = VK_NULL_HANDLE;    // vec4: unit normal and 0
-    VkDeviceSize offset = 0;              // bytes, of the first vertex, in each of them
+    VkBuffer positions{};  // vec4: x y z (m) and inverse mass (1/kg)
+    VkBuffer velocities{}; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a tether, a
+                           // max-distance constraint or a backstop limits it, plus 4 if a triangle or an edge around it
+                           // touched a feature of a collider
+    VkBuffer normals{};      // vec4: unit normal and 0
+    VkDeviceSize offset = 0; // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
 };
 
-class Solver
+class VOILE_API Solver
 {
 public:
     // Compiles the kernels. Errors: null handles, a device without the functions or the limits that requirements()
     // lists, options out of range or beyond what the device allows, out of memory. Which version the instance was made
     // for and which features are switched on, no handle says: validation reports it where they are missing.
-    static Result<Solver> create(const gpu::Handles& handles, const SolverOptions& options);
+    static Result<Solver> create(const Handles& handles, const SolverOptions& options);
     ~Solver();
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;
@@ -240,22 +254,22 @@ public:
 
     // A frame for attachments. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin
     // beyond 1e6 m, a volume below 1e-9 of the unit cube's.
-    Result<AnchorId> add_anchor(const glm::mat4& world_from_anchor);
+    Result<AnchorId> add_anchor(const Mat4& world_from_anchor);
     // Where the anchor is at the end of the next step; its attachments go there along straight lines.
-    Result<void> move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor);
+    Result<void> move_anchor(AnchorId anchor, const Mat4& world_from_anchor);
 
     // Where a collider is at the end of the next step: moved and turned by `motion` from where it was added. It goes
     // there evenly, turning the shorter way; cloth feels its surface's velocity, which jumps from step to step where it
     // changes: cloth on ground that accelerates slips a little in each jump. On ground that moves evenly static
     // friction holds as on ground at rest up to 0.5 m/s, within 5 % up to 4 m/s. Costs no refit. Errors: a motion that
     // is not finite or not rigid, or takes its center beyond 1e6 m.
-    Result<void> move_collider(ColliderId collider, const glm::mat4& motion);
+    Result<void> move_collider(ColliderId collider, const Mat4& motion);
 
     // Where the vertices of a deforming mesh are at the end of the next step, in the mesh's space; they go there
     // straight. The step refits the hierarchy, and cloth feels the surface's velocity. Errors: a collider that does not
     // deform, another number of vertices than it was added with, a position that is not finite or beyond 1e6 m in the
     // world.
-    Result<void> deform_collider(ColliderId collider, std::span<const glm::vec3> positions);
+    Result<void> deform_collider(ColliderId collider, std::span<const Vec3> positions);
     // The same from a buffer that the GPU has written, as by the host's skinning: the next record copies from it, and
     // waits for compute and transfer writes recorded before. A vertex that is not finite or in range stays where it
     // was. Errors: a collider that does not deform, no buffer, an offset or stride out of range.
@@ -271,9 +285,9 @@ public:
     // Moves a cloth at once: positions by the transform, velocities by its axes. Pins that have a position go back to
     // it. What this takes beyond 1e6 m or 1e4 m/s along an axis stays there. Errors: a transform that is not affine, an
     // axis with an entry beyond 1e3, a translation beyond 2e6 m.
-    Result<void> teleport(ClothId cloth, const glm::mat4& transform);
+    Result<void> teleport(ClothId cloth, const Mat4& transform);
     // m/s, of every vertex. Errors: beyond 1e4 along an axis.
-    Result<void> set_velocity(ClothId cloth, const glm::vec3& velocity);
+    Result<void> set_velocity(ClothId cloth, const Vec3& velocity);
 
     // True if something was added since the last upload.
     [[nodiscard]] bool needs_upload() const;
@@ -317,9 +331,9 @@ public:
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;
     // Triangles of a cloth as the normals see them, indices within the cloth; a grid's counter-clockwise seen from +y
     // when flat, a mesh's as they were given.
-    [[nodiscard]] std::vector<glm::uvec3> triangles(ClothId cloth) const;
+    [[nodiscard]] std::vector<UVec3> triangles(ClothId cloth) const;
     // One a vertex, meters of fabric: a grid's from its first vertex, a mesh's as they were given.
-    [[nodiscard]] std::vector<glm::vec2> texture_coordinates(ClothId cloth) const;
+    [[nodiscard]] std::vector<Vec2> texture_coordinates(ClothId cloth) const;
     [[nodiscard]] const std::string& name(ClothId cloth) const;
     // What a mesh is like as a cloth; all 0 for a grid.
     [[nodiscard]] MeshReport mesh_report(ClothId cloth) const;

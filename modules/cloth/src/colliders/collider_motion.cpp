@@ -3,8 +3,6 @@
 
 #include "geometry/rounding.hpp"
 
-#include <glm/gtc/quaternion.hpp>
-
 #include <cmath>
 
 namespace voile
@@ -13,14 +11,38 @@ namespace voile
 namespace
 {
 
-glm::dquat rotation_of(const glm::dmat4& rigid)
+// Unit quaternions as x, y, z, w. GLM's own are not used: the order of their members is a setting of the host's, and in
+// one program the linker keeps one copy of each function of GLM.
+double dot(const glm::dvec4& a, const glm::dvec4& b)
 {
-    return glm::normalize(glm::quat_cast(glm::dmat3(rigid)));
+    return (a.w * b.w + a.x * b.x) + (a.y * b.y + a.z * b.z);
 }
 
-glm::vec4 components(const glm::dquat& q)
+// After Shepperd 1978: from the largest component.
+glm::dvec4 rotation_of(const glm::dmat4& rigid)
 {
-    return glm::dvec4(q.x, q.y, q.z, q.w);
+    const glm::dmat4& m = rigid;
+    const double squares[] = {m[0][0] - m[1][1] - m[2][2], m[1][1] - m[0][0] - m[2][2], m[2][2] - m[0][0] - m[1][1],
+                              m[0][0] + m[1][1] + m[2][2]}; // of the components, times 4, less 1
+    int largest = 3;
+    for (int i = 0; i < 3; ++i)
+        if (squares[i] > squares[largest])
+            largest = i;
+    glm::dvec4 q;
+    q[largest] = std::sqrt(squares[largest] + 1) * 0.5;
+    const double scale = 0.25 / q[largest];
+    for (int i = 0; i < 3; ++i)
+    {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        if (largest == 3)
+            q[i] = (m[j][k] - m[k][j]) * scale;
+        else if (i == largest)
+            q.w = (m[j][k] - m[k][j]) * scale;
+        else
+            q[i] = (m[i][largest] + m[largest][i]) * scale;
+    }
+    return q * (1 / std::sqrt(dot(q, q)));
 }
 
 } // namespace
@@ -48,13 +70,13 @@ shared::ColliderMotion make_motion(const ColliderModels& models, uint32_t collid
     const glm::dmat4 placement(models.colliders[collider].placement);
     const glm::dmat4 from = glm::dmat4(pose.from) * placement;
     const glm::dmat4 to = glm::dmat4(pose.to) * placement;
-    const glm::dquat rotation_from = rotation_of(from);
-    glm::dquat rotation_to = rotation_of(to);
-    if (glm::dot(rotation_from, rotation_to) < 0)
+    const glm::dvec4 rotation_from = rotation_of(from);
+    glm::dvec4 rotation_to = rotation_of(to);
+    if (dot(rotation_from, rotation_to) < 0)
         rotation_to = -rotation_to; // the shorter way
     shared::ColliderMotion motion{};
-    motion.rotation_from = components(rotation_from);
-    motion.rotation_to = components(rotation_to);
+    motion.rotation_from = glm::vec4(rotation_from);
+    motion.rotation_to = glm::vec4(rotation_to);
     const glm::dvec4 origin(models.colliders[collider].origin, 1);
     const glm::dvec3 place_from(from * origin);
     motion.origin = rounded(place_from);

@@ -12,7 +12,7 @@
 namespace voile
 {
 
-gpu::Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size)
+Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size)
 {
     const auto& limits = context.limits;
     const uint32_t most = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);

@@ -19,7 +19,7 @@ struct RefitKernels
 };
 
 // `workgroup_size`: a power of two, 2 to the device's limit; what the device does not take is lowered to what it does.
-gpu::Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
+Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
 
 // Where a tree stands in its buffers.
 struct RefitPlace

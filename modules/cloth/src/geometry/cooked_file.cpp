@@ -70,9 +70,9 @@ void sign_cooked(std::span<std::byte> bytes)
 
 CookedReader::CookedReader(std::span<const std::byte> bytes) : bytes_(bytes), next_(sizeof(Header)) {}
 
-gpu::Result<CookedReader> CookedReader::open(std::span<const std::byte> bytes, CookedKind kind)
+Result<CookedReader> CookedReader::open(std::span<const std::byte> bytes, CookedKind kind)
 {
-    const auto bad = [](const std::string& reason) { return gpu::Error{"cooked data: " + reason}; };
+    const auto bad = [](const std::string& reason) { return Error{"cooked data: " + reason}; };
     Header header{};
     if (bytes.size() < sizeof(header))
         return bad(std::to_string(bytes.size()) + " bytes, fewer than its header has");

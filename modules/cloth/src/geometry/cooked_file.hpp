@@ -1,7 +1,7 @@
 // Cooked data as bytes: a header with a version and a checksum, then arrays as they lie in memory.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include "geometry/parallel.hpp"
 #include "geometry/shared_array.hpp"
@@ -70,7 +70,7 @@ class CookedReader
 public:
     // Errors: not cooked data, another kind, version or byte order, a wrong length, a wrong checksum. `bytes` begin at
     // a multiple of k_cooked_alignment.
-    static gpu::Result<CookedReader> open(std::span<const std::byte> bytes, CookedKind kind);
+    static Result<CookedReader> open(std::span<const std::byte> bytes, CookedKind kind);
 
     // The next `count` values; none, and ok() from then on false, where the bytes end before.
     template <typename T>

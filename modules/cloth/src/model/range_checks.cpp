@@ -20,7 +20,7 @@ std::string text(float value)
 
 std::string text(const glm::vec3& v)
 {
-    return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")";
+    return '(' + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ')';
 }
 
 Result<void> check(const std::string& what, const Range& range)

@@ -3,7 +3,7 @@
 
 #include "voile/ranges.hpp"
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <glm/glm.hpp>
 
@@ -14,9 +14,6 @@
 
 namespace voile
 {
-
-using gpu::Error;
-using gpu::Result;
 
 std::string subject(const std::string& what, const std::string& name); // cloth "name"
 Error invalid(const std::string& what, const std::string& name, const std::string& reason);

@@ -2,7 +2,7 @@
 // which each removal raises.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -36,16 +36,16 @@ public:
     }
 
     // Errors: an id that names nothing. `what` is "cloth", "collider" or "anchor".
-    [[nodiscard]] gpu::Result<void> check(const char* what, Id id) const
+    [[nodiscard]] Result<void> check(const char* what, Id id) const
     {
         if (has(id))
             return {};
         if (id == Id{})
-            return gpu::Error{std::string(what) + ": the id is a default-constructed one"};
+            return Error{std::string(what) + ": the id is a default-constructed one"};
         const std::string subject = std::string(what) + " " + std::to_string(id.index);
         if (id.index < slots_.size() && id.generation < slots_[id.index].generation)
-            return gpu::Error{subject + " was removed"};
-        return gpu::Error{subject + " does not exist"};
+            return Error{subject + " was removed"};
+        return Error{subject + " does not exist"};
     }
 
     // Requires has(id).

@@ -13,49 +13,48 @@ namespace
 {
 
 // The declaration of a kernel's binding. Errors: there is none, its entries have another size.
-gpu::Result<const BufferDeclaration*> declaration_of(const gpu::Kernel& kernel, const gpu::ShaderBinding& binding)
+Result<const BufferDeclaration*> declaration_of(const gpu::Kernel& kernel, const gpu::ShaderBinding& binding)
 {
     const std::string name = std::string("kernel \"") + kernel.name() + "\": binding ";
     const BufferDeclaration* declared = find_declaration(binding.number);
     if (declared == nullptr)
-        return gpu::Error{name + std::to_string(binding.number) + " stands in no table of buffers"};
+        return Error{name + std::to_string(binding.number) + " stands in no table of buffers"};
     if (binding.stride == 0 || declared->entry_bytes % binding.stride != 0) // it may be read in parts
-        return gpu::Error{name + '"' + declared->name + "\" has entries of " + std::to_string(binding.stride) +
-                          " bytes, a " + declared->entry + " has " + std::to_string(declared->entry_bytes)};
+        return Error{name + '"' + declared->name + "\" has entries of " + std::to_string(binding.stride) +
+                     " bytes, a " + declared->entry + " has " + std::to_string(declared->entry_bytes)};
     return declared;
 }
 
-gpu::Result<buffer::Name> buffer_of(const gpu::Kernel& kernel, const BufferDeclaration& declared,
-                                    std::span<const RoleBuffer> roles)
+Result<buffer::Name> buffer_of(const gpu::Kernel& kernel, const BufferDeclaration& declared,
+                               std::span<const RoleBuffer> roles)
 {
     const std::string name = std::string("kernel \"") + kernel.name() + "\": binding \"" + declared.name + "\" ";
     const auto count = std::ranges::count(roles, declared.number, &RoleBuffer::binding);
     if (count > 1)
-        return gpu::Error{name + "has more than one buffer"};
+        return Error{name + "has more than one buffer"};
     if (count == 0 && declared.number >= buffer::k_numbers)
-        return gpu::Error{name + "has no buffer"};
+        return Error{name + "has no buffer"};
     if (count == 0)
         return static_cast<buffer::Name>(declared.number);
     const buffer::Name given = std::ranges::find(roles, declared.number, &RoleBuffer::binding)->buffer;
     const BufferDeclaration* bound = find_declaration(given);
     if (bound == nullptr || std::strcmp(bound->entry, declared.entry) != 0)
-        return gpu::Error{name + "has entries of type " + declared.entry + ", buffer \"" +
-                          (bound != nullptr ? bound->name : "?") + "\" of type " +
-                          (bound != nullptr ? bound->entry : "?")};
+        return Error{name + "has entries of type " + declared.entry + ", buffer \"" +
+                     (bound != nullptr ? bound->name : "?") + "\" of type " + (bound != nullptr ? bound->entry : "?")};
     return given;
 }
 
 } // namespace
 
-gpu::Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<const RoleBuffer> roles)
+Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<const RoleBuffer> roles)
 {
     const std::vector<gpu::ShaderBinding>& bindings = kernel.bindings();
     for (const RoleBuffer& role : roles)
         if (std::ranges::find(bindings, role.binding, &gpu::ShaderBinding::number) == bindings.end())
         {
             const BufferDeclaration* declared = find_declaration(role.binding);
-            return gpu::Error{std::string("kernel \"") + kernel.name() + "\" has no binding \"" +
-                              (declared != nullptr ? declared->name : "?") + '"'};
+            return Error{std::string("kernel \"") + kernel.name() + "\" has no binding \"" +
+                         (declared != nullptr ? declared->name : "?") + '"'};
         }
     std::vector<buffer::Name> buffers;
     for (const gpu::ShaderBinding& binding : bindings)
@@ -71,7 +70,7 @@ gpu::Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::s
     return buffers;
 }
 
-gpu::Result<void> check_sets(const Kernels& kernels)
+Result<void> check_sets(const Kernels& kernels)
 {
     DescriptorSets none;
     for (const SetDescription& description : describe_sets(none, kernels))
@@ -80,8 +79,8 @@ gpu::Result<void> check_sets(const Kernels& kernels)
     return {};
 }
 
-gpu::Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
-                                         const BufferHandles& buffers)
+Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
+                                    const BufferHandles& buffers)
 {
     const std::vector<SetDescription> descriptions = describe_sets(sets, kernels);
     size_t bindings = 0;

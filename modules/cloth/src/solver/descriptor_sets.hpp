@@ -21,7 +21,7 @@ struct RoleBuffer
 // Buffers of each of a kernel's bindings, in their order: that of the role, or the buffer of the same name. Errors,
 // which name the kernel and the binding: a role without a buffer or with two, one that the kernel does not have, a
 // binding that buffers.h does not declare, entries of another type or size than declared.
-gpu::Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<const RoleBuffer> roles);
+Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<const RoleBuffer> roles);
 
 struct DescriptorSets
 {
@@ -69,12 +69,12 @@ struct SetDescription
 std::vector<SetDescription> describe_sets(DescriptorSets& sets, const Kernels& kernels);
 
 // That every set can be resolved. Errors: see resolve.
-gpu::Result<void> check_sets(const Kernels& kernels);
+Result<void> check_sets(const Kernels& kernels);
 
 using BufferHandles = std::array<VkBuffer, buffer::k_numbers>; // by name
 
 // Writes all sets, from a pool of their size. Errors: see resolve; out of memory.
-gpu::Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
-                                         const BufferHandles& buffers);
+Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
+                                    const BufferHandles& buffers);
 
 } // namespace voile

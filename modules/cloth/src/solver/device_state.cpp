@@ -35,7 +35,7 @@ struct BufferCounts
     }
 };
 
-gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const BufferCounts& counts)
+Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const BufferCounts& counts)
 {
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -47,7 +47,7 @@ gpu::Result<void> create_buffers(const gpu::Context& context, DeviceState& state
             continue;
         const std::string name = std::string("cloth ") + declared.name;
         auto created = gpu::create_buffer(context, name.c_str(), entries[declared.number] * declared.entry_bytes,
-                                          k_usage, gpu::Memory::device);
+                                          k_usage, Memory::device);
         if (!created)
             return created.error();
         state.buffers[declared.number] = std::move(created.value());
@@ -65,9 +65,9 @@ uint32_t near_stride(uint32_t colliders, uint32_t patches, uint64_t max_bytes)
 
 } // namespace
 
-gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const ColliderModels& colliders, const UploadData& data,
-                                             const gpu::Buffer& statistics)
+Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
+                                        const ColliderModels& colliders, const UploadData& data,
+                                        const gpu::Buffer& statistics)
 {
     DeviceState state;
     state.vertices = model.vertices;

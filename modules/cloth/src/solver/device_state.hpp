@@ -66,8 +66,8 @@ struct UploadData
 };
 
 // `statistics`: where the reduction writes, one record a slot.
-gpu::Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                             const ColliderModels& colliders, const UploadData& data,
-                                             const gpu::Buffer& statistics);
+Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
+                                        const ColliderModels& colliders, const UploadData& data,
+                                        const gpu::Buffer& statistics);
 
 } // namespace voile

@@ -87,7 +87,7 @@ uint32_t most_storage_buffers()
     return static_cast<uint32_t>(most);
 }
 
-gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
+Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
 {
     Kernels none;
     for (const Request& request : requests_of(none, options))
@@ -96,7 +96,7 @@ gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const Solve
     return {};
 }
 
-gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options)
+Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options)
 {
     if (auto within = check_limits(context.limits, options); !within) // before any is compiled
         return within.error();

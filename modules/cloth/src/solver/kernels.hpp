@@ -45,9 +45,9 @@ uint32_t most_storage_buffers();
 
 // Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what
 // they find (create_refit_kernels).
-gpu::Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options);
+Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options);
 
 // Errors: those of check_limits, a driver that refuses a shader.
-gpu::Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options);
+Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options);
 
 } // namespace voile

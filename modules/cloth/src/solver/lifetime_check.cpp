@@ -32,7 +32,7 @@ LifetimeCheck& LifetimeCheck::operator=(LifetimeCheck&& other) noexcept
     return *this;
 }
 
-gpu::Result<LifetimeCheck> LifetimeCheck::create(const gpu::Context& context, const char* object)
+Result<LifetimeCheck> LifetimeCheck::create(const gpu::Context& context, const char* object)
 {
     LifetimeCheck check;
     check.context_ = context;
@@ -41,7 +41,7 @@ gpu::Result<LifetimeCheck> LifetimeCheck::create(const gpu::Context& context, co
     info.sType = VK_STRUCTURE_TYPE_EVENT_CREATE_INFO;
     const VkResult status = context.fn.vkCreateEvent(context.device(), &info, nullptr, &check.event_);
     if (status != VK_SUCCESS)
-        return gpu::Error{std::string("event of the lifetime check: ") + gpu::to_string(status)};
+        return Error{std::string("event of the lifetime check: ") + gpu::to_string(status)};
     return check;
 }
 

@@ -17,7 +17,7 @@ public:
     LifetimeCheck& operator=(LifetimeCheck&& other) noexcept;
 
     // `object`: what is destroyed, for the line; a literal.
-    static gpu::Result<LifetimeCheck> create(const gpu::Context& context, const char* object);
+    static Result<LifetimeCheck> create(const gpu::Context& context, const char* object);
 
     // Around all commands that use the object.
     void begin(VkCommandBuffer cmd) const;

@@ -18,18 +18,20 @@ constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
 // Earlier draws and copies have read the buffers, uploads and earlier steps have written them.
-void begin_scope(gpu::Recorder& recorder)
+void begin_scope(gpu::Recorder& recorder, const SolverOptions& options)
 {
-    recorder.barrier(VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
-                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_compute,
-                     k_storage);
+    const Scope before = host_scopes(options).before;
+    recorder.barrier(before.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     before.accesses | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     k_compute, k_storage);
 }
 
-void end_scope(gpu::Recorder& recorder)
+void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
 {
+    const Scope after = host_scopes(options).after;
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
-                     VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
+                     after.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     after.accesses | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
 // The number of a step's first substep. Where the numbers are used up, all that is told apart by them is made anew.
@@ -94,6 +96,13 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, StepHis
 
 } // namespace
 
+HostScopes host_scopes(const SolverOptions& options)
+{
+    constexpr VkPipelineStageFlags2KHR k_input = VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR;
+    constexpr HostScopes k_default{{k_input, 0}, {k_input, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR}};
+    return options.host_scopes.value_or(k_default);
+}
+
 void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
 {
     const VkDispatchIndirectCommand none{0, groups_each, 1};
@@ -143,11 +152,11 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     if (!state_->device || state_->device->patch_count == 0)
         return {};
     state_->lifetime.begin(recorder.cmd());
-    begin_scope(recorder);
+    begin_scope(recorder, state_->options);
     state_->history.recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
     record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));
-    end_scope(recorder);
+    end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
     return {};
 }
@@ -164,7 +173,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
     const uint32_t group = state_->options.tuning.workgroup_size;
     gpu::Recorder recorder(state_->context, cmd, timestamps);
     state_->lifetime.begin(cmd);
-    begin_scope(recorder);
+    begin_scope(recorder, state_->options);
     recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
                       shared::StatisticsPush{device.collider_count, device.near_stride});
     recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,

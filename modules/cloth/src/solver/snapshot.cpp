@@ -110,19 +110,20 @@ VkDeviceSize total_bytes(const DeviceState& device)
     return bytes;
 }
 
-// Copies wait for compute, vertex input and earlier copies; what follows waits for them.
-void barrier(const gpu::Context& context, VkCommandBuffer cmd, bool before)
+// Copies wait for compute, the host's stages and earlier copies; what follows waits for them.
+void barrier(const gpu::Context& context, const SolverOptions& options, VkCommandBuffer cmd, bool before)
 {
-    constexpr VkPipelineStageFlags2KHR k_users =
-        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR |
-        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | VK_PIPELINE_STAGE_2_HOST_BIT_KHR;
+    const HostScopes scopes = host_scopes(options);
+    const VkPipelineStageFlags2KHR users = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR |
+                                           VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | VK_PIPELINE_STAGE_2_HOST_BIT_KHR |
+                                           (before ? scopes.before.stages : scopes.after.stages);
     constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     constexpr VkAccessFlags2KHR k_copies = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
     gpu::Recorder recorder(context, cmd);
     if (before)
-        recorder.barrier(k_users, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR, k_copy, k_copies);
+        recorder.barrier(users, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR, k_copy, k_copies);
     else
-        recorder.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_users,
+        recorder.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, users,
                          VK_ACCESS_2_MEMORY_READ_BIT_KHR | VK_ACCESS_2_MEMORY_WRITE_BIT_KHR);
 }
 
@@ -137,7 +138,7 @@ Result<Snapshot> Solver::create_snapshot() const
     contents->cloths = state_->device->cloth_count;
     auto buffer =
         gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(*state_->device),
-                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::readback);
     if (!buffer)
         return buffer.error();
     contents->buffer = std::move(buffer.value());
@@ -154,7 +155,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     snapshot.contents_->filled = true;
     snapshot.contents_->recovery_step = step;
     state_->lifetime.begin(cmd);
-    barrier(state_->context, cmd, true);
+    barrier(state_->context, state_->options, cmd, true);
     VkDeviceSize offset = 0;
     for (const Region& region : regions_of(*state_->device, step))
     {
@@ -163,7 +164,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
         offset += region.bytes;
     }
     state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, offset, sizeof(step), &step);
-    barrier(state_->context, cmd, false);
+    barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
     state_->history.recovery_due = true; // as after restoring: both go on alike
     return {};
@@ -177,7 +178,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     if (!snapshot.contents_->filled)
         return Error{"snapshot: nothing was saved in it"};
     state_->lifetime.begin(cmd);
-    barrier(state_->context, cmd, true);
+    barrier(state_->context, state_->options, cmd, true);
     VkDeviceSize offset = 0;
     for (const Region& region : regions_of(*state_->device, snapshot.contents_->recovery_step))
     {
@@ -185,7 +186,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
         offset += region.bytes;
     }
-    barrier(state_->context, cmd, false);
+    barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
     state_->history.recovery_step = snapshot.contents_->recovery_step;
     state_->history.recovery_due = true;

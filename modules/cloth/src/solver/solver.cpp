@@ -1,4 +1,6 @@
 // Solver: creation, additions, upload and queries. Recording is in record.cpp.
+#include "voile/gpu/context.hpp"
+
 #include "geometry/parallel.hpp"
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
@@ -28,7 +30,7 @@ uint32_t feature_threads(const gpu::Context& context, const SolverOptions& optio
 Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
 {
     auto buffer = gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsRecord),
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Memory::readback);
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::readback);
     if (buffer)
     {
         std::ranges::fill(buffer.value().mapped(), std::byte{0});
@@ -52,6 +54,7 @@ bool checks_lifetime(const SolverOptions& options)
 Requirements requirements()
 {
     Requirements result;
+    result.api_version = VK_API_VERSION_1_2;
     result.device_extensions = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
     result.storage_buffers = most_storage_buffers();
     return result;
@@ -67,7 +70,7 @@ Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
-Result<Solver> Solver::create(const gpu::Handles& handles, const SolverOptions& options)
+Result<Solver> Solver::create(const Handles& handles, const SolverOptions& options)
 {
     auto context = gpu::create_context(handles);
     if (!context)
@@ -142,8 +145,7 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
     constexpr uint64_t k_bytes_a_vertex = 256;
     const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
     const uint64_t bytes = (state_->model.mesh_vertices + vertices) * k_bytes_a_vertex;
-    if (auto room = check_room(state_->model.limits, "cloth", mesh.name,
-                               std::to_string(vertices) + " vertices", bytes);
+    if (auto room = check_room(state_->model.limits, "cloth", mesh.name, std::to_string(vertices) + " vertices", bytes);
         !room)
         return room.error();
     const uint64_t patches = count_mesh_patches(vertices, state_->model.limits.workgroup_size);

@@ -158,6 +158,9 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);
 
+// The host's scopes, as given or as they are where none are given.
+HostScopes host_scopes(const SolverOptions& options);
+
 // Whether solvers with these options look for commands that run when they are destroyed.
 bool checks_lifetime(const SolverOptions& options);
 

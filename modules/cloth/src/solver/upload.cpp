@@ -20,7 +20,7 @@ public:
     Uploader(const gpu::Context& context, VkCommandBuffer cmd) : context_(context), cmd_(cmd) {}
 
     // Stages the pieces one after the other for `destination` at `offset`; nothing for no bytes.
-    gpu::Result<void> stage(const gpu::Buffer& destination, VkDeviceSize offset, const Pieces& pieces)
+    Result<void> stage(const gpu::Buffer& destination, VkDeviceSize offset, const Pieces& pieces)
     {
         size_t bytes = 0;
         for (const auto& piece : pieces)
@@ -28,7 +28,7 @@ public:
         if (bytes == 0)
             return {};
         auto staging =
-            gpu::create_buffer(context_, "cloth staging", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::Memory::upload);
+            gpu::create_buffer(context_, "cloth staging", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Memory::upload);
         if (!staging)
             return staging.error();
         auto end = staging.value().mapped().begin();
@@ -47,7 +47,7 @@ public:
     }
 
     // Copies touch different buffers, or different ranges, so that one barrier before and one after suffice.
-    std::vector<gpu::Buffer> record()
+    std::vector<gpu::Buffer> record(const Scope& after)
     {
         constexpr VkAccessFlags2KHR k_copy = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
         gpu::Recorder recorder(context_, cmd_);
@@ -56,10 +56,9 @@ public:
         const gpu::LabelScope scope(context_, cmd_, "cloth upload");
         for (const Copy& copy : copies_)
             context_.fn.vkCmdCopyBuffer(cmd_, copy.source, copy.destination, 1, &copy.region);
-        recorder.barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, k_copy,
-                         VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
-                         VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR |
-                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+        recorder.barrier(
+            VK_PIPELINE_STAGE_2_COPY_BIT_KHR, k_copy, after.stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
+            after.accesses | VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
         return std::move(staging_);
     }
 
@@ -177,8 +176,7 @@ Pieces bytes_of(std::span<const ClothModel> cloths, std::vector<T> ClothModel::*
 
 // An array of each hierarchy, or of the features of each collider.
 template <typename Owner, typename Array>
-Pieces bytes_of(const ColliderModels& models, std::shared_ptr<const Owner> ColliderModel::*owner,
-                Array Owner::*member)
+Pieces bytes_of(const ColliderModels& models, std::shared_ptr<const Owner> ColliderModel::*owner, Array Owner::*member)
 {
     return bytes_of(std::span<const ColliderModel>(models.colliders), [&](const ColliderModel& collider)
                     { return collider.*owner ? &((*(collider.*owner)).*member) : nullptr; });
@@ -311,7 +309,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     }
     s.lifetime.begin(cmd);
     upload.contents_->lifetime.begin(cmd);
-    upload.contents_->staging = uploader.record();
+    upload.contents_->staging = uploader.record(host_scopes(s.options).after);
     gpu::Recorder recorder(s.context, cmd);
     forget_candidates(recorder, next);
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.

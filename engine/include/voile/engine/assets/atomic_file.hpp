@@ -3,7 +3,7 @@
 #pragma once
 
 #include "voile/engine/assets/cleanup.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstddef>
 #include <cstdio>
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     void remove() noexcept;
     // Renames the file to `target` and replaces an existing file. Errors name the target.
-    gpu::Result<void> complete(const std::filesystem::path& target);
+    Result<void> complete(const std::filesystem::path& target);
 
 private:
     std::filesystem::path path_;
@@ -38,13 +38,13 @@ private:
 };
 
 // Follows symbolic links, so that the file that a link points to is replaced and not the link. Errors name the path.
-gpu::Result<std::filesystem::path> resolve_target(const std::filesystem::path& path);
+Result<std::filesystem::path> resolve_target(const std::filesystem::path& path);
 
 class AtomicFile
 {
 public:
     // Errors name the file and the system's reason. A special file (/dev/stdout) is written directly.
-    static gpu::Result<AtomicFile> create(const std::filesystem::path& path);
+    static Result<AtomicFile> create(const std::filesystem::path& path);
 
     ~AtomicFile(); // without commit(), nothing is left behind
     AtomicFile(AtomicFile&& other) noexcept;
@@ -60,7 +60,7 @@ public:
     // False once a write has failed.
     [[nodiscard]] bool good() const { return failure_ == 0; }
 
-    gpu::Result<void> commit();
+    Result<void> commit();
 
 private:
     AtomicFile() = default;

@@ -1,7 +1,7 @@
 // Reads and writes whole files. Errors carry the system's reason.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,9 +15,9 @@ constexpr uint64_t k_largest_file = uint64_t{4} << 30; // bytes
 
 // Reads regular files only: a pipe or a device may have no end. Errors: "PATH: cannot read: REASON", the reason in the
 // words of the system ("Is a directory"), "not a regular file" or "larger than N MiB".
-gpu::Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes = k_largest_file);
+Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes = k_largest_file);
 
 // Writes like AtomicFile: nobody sees half a file. The folder must exist.
-gpu::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace voile::engine

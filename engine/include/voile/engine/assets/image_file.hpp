@@ -1,7 +1,7 @@
 // 8-bit images on the host, read and written as PNG through stb.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,9 +18,9 @@ struct Picture
 };
 
 // Expands gray and palette pictures and truncates 16 bits per channel to 8. Errors name the file and the reason.
-gpu::Result<Picture> load_png(const std::filesystem::path& path);
+Result<Picture> load_png(const std::filesystem::path& path);
 // Writes three channels and drops alpha. Compression is tuned for speed, because films write hundreds of frames. The
 // file appears complete or not at all. Each side has 1 to 16384 pixels. Errors name the file and the reason.
-gpu::Result<void> save_png(const std::filesystem::path& path, const Picture& picture);
+Result<void> save_png(const std::filesystem::path& path, const Picture& picture);
 
 } // namespace voile::engine

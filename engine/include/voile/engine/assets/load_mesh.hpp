@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <filesystem>
 
@@ -11,7 +11,7 @@ namespace voile::engine
 
 // Selects the format by the extension, in either case: .obj (load_obj) or .ply (load_ply). Errors: those of the loader,
 // or an unknown extension.
-gpu::Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
-                            MeshVertices vertices = MeshVertices::corners);
+Result<Mesh> load_mesh(const std::filesystem::path& path, MeshReport* report = nullptr,
+                       MeshVertices vertices = MeshVertices::corners);
 
 } // namespace voile::engine

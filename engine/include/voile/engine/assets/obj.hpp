@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <filesystem>
 
@@ -15,11 +15,11 @@ namespace voile::engine
 // computed, weighted by angle (Thürmer and Wüthrich 1998) across all triangles that share the position. Errors, each
 // naming the file and, if there is one, the line: missing, unreadable, empty or malformed file; an index out of range;
 // a coordinate that is not finite; no triangles left.
-gpu::Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report = nullptr,
-                           MeshVertices vertices = MeshVertices::corners);
+Result<Mesh> load_obj(const std::filesystem::path& path, MeshReport* report = nullptr,
+                      MeshVertices vertices = MeshVertices::corners);
 
 // Writes positions and triangles in vertex order, every float exactly, through a temporary file that is renamed when it
 // is complete. Errors name the file: a position that is not finite, an index out of range, the system's reason.
-gpu::Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh);
+Result<void> save_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 } // namespace voile::engine

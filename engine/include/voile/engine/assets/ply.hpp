@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
-#include "voile/gpu/result.hpp"
+#include "voile/result.hpp"
 
 #include <filesystem>
 
@@ -15,7 +15,7 @@ namespace voile::engine
 // triangulated and cleaned like those of load_obj. Errors name the file, the line (in a binary file the vertex or face)
 // and the reason: missing, unreadable, empty, malformed or truncated file; data after the last element; an index out of
 // range; a coordinate that is not finite; no triangles left.
-gpu::Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report = nullptr,
-                           MeshVertices vertices = MeshVertices::corners);
+Result<Mesh> load_ply(const std::filesystem::path& path, MeshReport* report = nullptr,
+                      MeshVertices vertices = MeshVertices::corners);
 
 } // namespace voile::engine

@@ -1,10 +1,12 @@
-// Device: the instance, the physical device, the logical device and VMA, made once at start-up.
+// Device: the instance, the physical device, the logical device and the memory allocator, made once at start-up.
 #pragma once
 
 #include "voile/engine/gpu/validation.hpp"
 
+#include "voile/gpu/allocator.hpp"
 #include "voile/gpu/context.hpp"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -49,6 +51,7 @@ public:
     Device& operator=(const Device&) = delete;
 
     [[nodiscard]] const gpu::Context& context() const { return context_; }
+    [[nodiscard]] gpu::Allocator& allocator() const { return *allocator_; }
     [[nodiscard]] const DeviceInfo& info() const { return info_; }
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] uint32_t queue_family() const { return queue_family_; }
@@ -68,7 +71,7 @@ private:
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
-    VmaAllocator allocator_ = VK_NULL_HANDLE;
+    std::unique_ptr<gpu::Allocator> allocator_;
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
@@ -95,14 +98,14 @@ void check(VkResult result, const char* what);
 
 // The value, or StartupError with the result's message.
 template <typename T>
-T take(gpu::Result<T> result)
+T take(Result<T> result)
 {
     if (!result)
         throw StartupError(result.error().message);
     return std::move(result.value());
 }
 
-inline void take(const gpu::Result<void>& result)
+inline void take(const Result<void>& result)
 {
     if (!result)
         throw StartupError(result.error().message);

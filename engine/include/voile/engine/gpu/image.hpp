@@ -1,7 +1,7 @@
 // Image: a VkImage with its view and memory, freed together.
 #pragma once
 
-#include "voile/gpu/context.hpp"
+#include "voile/engine/gpu/device.hpp"
 
 namespace voile::engine
 {
@@ -20,21 +20,20 @@ class Image
 {
 public:
     Image() = default;
-    Image(const gpu::Context& context, const ImageDescription& description); // StartupError if it cannot be made
+    Image(const Device& device, const ImageDescription& description); // StartupError if it cannot be made
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;
 
-    [[nodiscard]] VkImage handle() const { return image_; }
+    [[nodiscard]] VkImage handle() const { return memory_.image; }
     [[nodiscard]] VkImageView view() const { return view_; }
     [[nodiscard]] VkFormat format() const { return format_; }
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
     [[nodiscard]] VkImageAspectFlags aspect() const { return aspect_; }
 
 private:
-    const gpu::Context* context_ = nullptr;
-    VkImage image_ = VK_NULL_HANDLE;
-    VmaAllocation allocation_ = VK_NULL_HANDLE;
+    const Device* device_ = nullptr;
+    gpu::ImageMemory memory_;
     VkImageView view_ = VK_NULL_HANDLE;
     VkFormat format_ = VK_FORMAT_UNDEFINED;
     VkExtent2D extent_{};

@@ -1,6 +1,8 @@
 // DeviceFunctions: the functions of a device that this library and the engine call.
 #pragma once
 
+#include "voile/export.hpp"
+
 #include "voile/gpu/vulkan.hpp"
 
 namespace voile::gpu
@@ -91,6 +93,6 @@ struct DeviceFunctions
 
 // Loads the functions; null if the device lacks one. A function of an extension that a later Vulkan version promoted is
 // found by either name.
-DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);
+VOILE_GPU_API DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);
 
 } // namespace voile::gpu

@@ -23,13 +23,13 @@ struct KernelDescription
 
 // What the shader declares. Errors: a descriptor that is no storage buffer of set 0, a specialization constant that is
 // given no value or that the shader does not have; each names the kernel.
-Result<ShaderInterface> reflect(const KernelDescription& description);
+VOILE_GPU_API Result<ShaderInterface> reflect(const KernelDescription& description);
 
 // Errors: those of reflect; more push-constant bytes, a larger workgroup, more shared memory or more storage buffers
 // than `limits` allow.
-Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description);
+VOILE_GPU_API Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const KernelDescription& description);
 
-class Kernel
+class VOILE_GPU_API Kernel
 {
 public:
     Kernel() = default;
@@ -67,7 +67,7 @@ struct BufferBinding
 };
 
 // Descriptor sets of one pool, written once when they are made.
-class BindingPool
+class VOILE_GPU_API BindingPool
 {
 public:
     BindingPool() = default;

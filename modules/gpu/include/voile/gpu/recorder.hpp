@@ -9,7 +9,7 @@ namespace voile::gpu
 {
 
 // A scope that RenderDoc and validation show as `name`, and that is timed when `timestamps` is given.
-class LabelScope
+class VOILE_GPU_API LabelScope
 {
 public:
     LabelScope(const Context& context, VkCommandBuffer cmd, const char* name, Timestamps* timestamps = nullptr);
@@ -32,7 +32,7 @@ enum class Ordering
     unordered,
 };
 
-class Recorder
+class VOILE_GPU_API Recorder
 {
 public:
     // Called after each dispatch with the current command buffer. Returns the command buffer to continue in. Tests use

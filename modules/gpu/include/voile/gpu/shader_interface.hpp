@@ -1,7 +1,8 @@
 // ShaderInterface: what a compute shader binds and takes, read from its SPIR-V.
 #pragma once
 
-#include "voile/gpu/result.hpp"
+#include "voile/export.hpp"
+#include "voile/result.hpp"
 
 #include <cstdint>
 #include <span>
@@ -45,7 +46,7 @@ struct ShaderInterface
 
 // `spirv` must be valid. `specialization` decides the sizes of shared arrays. Names serve messages alone: everything
 // else survives their removal. Errors: a descriptor that is no storage buffer of set 0.
-Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
+VOILE_GPU_API Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
                                 std::span<const SpecializationConstant> specialization);
 
 } // namespace voile::gpu

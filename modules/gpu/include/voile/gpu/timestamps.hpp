@@ -19,7 +19,7 @@ struct PassTime
 
 // One query pool per frame slot. Call begin_frame, any number of begin/end pairs, and read once the slot's submission
 // has completed. Recording never allocates: a pass beyond the capacity is counted in dropped().
-class Timestamps
+class VOILE_GPU_API Timestamps
 {
 public:
     Timestamps() = default;

@@ -1,10 +1,6 @@
-// Includes the Vulkan headers. Nothing else does. Only types are used: prototypes may be declared and functions of a
-// loader with the same names linked, and neither is called.
+// Includes the Vulkan headers. Only types are used: prototypes may be declared and functions of a loader with the same
+// names linked, and neither is called. A host that uses volk, or any loader that wants VK_NO_PROTOTYPES, includes its
+// loader's header before this one; the headers of the cloth module do not need that.
 #pragma once
 
-#include <vulkan/vulkan.h>
-
-// The handles of VulkanMemoryAllocator, as its own header declares them. Only the code that allocates memory includes
-// that header.
-VK_DEFINE_HANDLE(VmaAllocator)
-VK_DEFINE_HANDLE(VmaAllocation)
+#include <vulkan/vulkan_core.h>

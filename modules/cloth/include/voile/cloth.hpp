@@ -1,0 +1,7 @@
+// The whole interface of the cloth module. docs/integration.md is the guide to it.
+#pragma once
+
+#include "voile/fabrics.hpp"
+#include "voile/ranges.hpp"
+#include "voile/solver.hpp"
+#include "voile/version.hpp"

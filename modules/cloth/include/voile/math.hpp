@@ -1,0 +1,28 @@
+// The vectors and matrices of the interface: GLM's, always tightly packed. Whatever the host tells GLM about its
+// default types (GLM_FORCE_DEFAULT_ALIGNED_GENTYPES and the like), the public structs keep their layout. With GLM's own
+// defaults Vec3 is glm::vec3. Where it is not, GLM converts single values; arrays of another layout are a compile error
+// and are copied by the host.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace voile
+{
+
+using Vec2 = glm::vec<2, float, glm::packed_highp>;
+using Vec3 = glm::vec<3, float, glm::packed_highp>;
+using Vec4 = glm::vec<4, float, glm::packed_highp>;
+using DVec3 = glm::vec<3, double, glm::packed_highp>;
+using UVec3 = glm::vec<3, uint32_t, glm::packed_highp>;
+using Mat4 = glm::mat<4, 4, float, glm::packed_highp>; // column by column
+
+static_assert(sizeof(Vec2) == 8 && alignof(Vec2) == 4);
+static_assert(sizeof(Vec3) == 12 && alignof(Vec3) == 4);
+static_assert(sizeof(Vec4) == 16 && alignof(Vec4) == 4);
+static_assert(sizeof(DVec3) == 24 && alignof(DVec3) == alignof(double));
+static_assert(sizeof(UVec3) == 12 && alignof(UVec3) == 4);
+static_assert(sizeof(Mat4) == 64 && alignof(Mat4) == 4);
+
+} // namespace voile

@@ -1,0 +1,14 @@
+// A host that loads Vulkan with volk, whose variables have the names of Vulkan's functions.
+#include <volk.h>
+
+#include "falling_sheet.hpp"
+
+int main()
+{
+    if (volkInitialize() != VK_SUCCESS)
+        return 1;
+    foreign::Engine engine({.get_instance_proc_addr = vkGetInstanceProcAddr});
+    volkLoadInstance(engine.instance());
+    volkLoadDevice(engine.device());
+    return let_a_sheet_fall(engine, handles_of(engine));
+}
