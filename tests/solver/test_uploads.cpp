@@ -19,7 +19,8 @@ using tests::moved;
 constexpr float k_frame = 1.f / 60; // s
 
 // Attaches vertices of the first row to a rod of the host's and returns its anchor.
-voile::AnchorId attach_first_row(ClothHarness& harness, voile::ClothId id, uint32_t columns, voile::Attachment attachment)
+voile::AnchorId attach_first_row(ClothHarness& harness, voile::ClothId id, uint32_t columns,
+                                 voile::Attachment attachment)
 {
     const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(moved({0, 0, 0})));
     std::vector<voile::Attachment> attachments;
@@ -171,8 +172,8 @@ TEST_CASE("changes of an uploaded cloth take effect while an upload is due")
     harness.step({}, 10);
     const voile::ClothId other = voile::engine::take(harness.solver.add_cloth(flat_sheet(4, 0.5f, 3)));
     const voile::Attachment corner{.vertex = 0};
-    voile::engine::take(harness.solver.set_attachments(id, {&corner, 1}));    // the capacity suffices, but the change waits
-                                                                        // for the upload
+    voile::engine::take(harness.solver.set_attachments(id, {&corner, 1})); // the capacity suffices, but the change
+                                                                           // waits for the upload
     voile::engine::take(harness.solver.set_velocity(other, {7, 0, 0})); // this waits, too
     voile::engine::take(harness.solver.reset(id));
     voile::engine::take(harness.solver.set_velocity(id, {2, 0, 0}));

@@ -5,6 +5,7 @@ command buffer, in order, under readable labels, and the position buffer that is
 usage: check_capture.py VIEWER SCENE     exit code 77: RenderDoc's Python module is not installed
 """
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ except ImportError:
     sys.exit(77)
 
 STAGES = ["cloth rk4 stage"] * 4
+BUFFERS = pathlib.Path(__file__).parents[2] / "shaders/cloth/shared/buffers.h"
 
 
 def expect(condition, message):
@@ -59,7 +61,8 @@ class Frame:
 
     def bound_buffers(self, action):
         sets = self.state_at(action).compute.descriptorSets
-        return [binding.binds[0].resourceResourceId for binding in sets[0].bindings]
+        return {number: binding.binds[0].resourceResourceId
+                for number, binding in enumerate(sets[0].bindings) if len(binding.binds) > 0}
 
     def drawn_positions(self, action):
         return self.state_at(action).vertexInput.vertexBuffers[0].resourceId
@@ -88,6 +91,12 @@ def check_order(frame):
     expect(last_dispatch < first_draw, "a draw stands before the last dispatch")
 
 
+def binding_of(name):
+    declared = re.search(rf"^VOILE_(?:BUFFER|ROLE)\((\d+), {name},", BUFFERS.read_text(), re.MULTILINE)
+    expect(declared, f"{BUFFERS} declares no {name}")
+    return int(declared.group(1))
+
+
 def check_buffers(frame):
     contact = [action for labels, action in frame.steps if labels[-1] == "cloth contact"][-1]
     draws = [(labels, action) for labels, action in frame.steps
@@ -95,7 +104,8 @@ def check_buffers(frame):
     views = {labels[-2] for labels, _ in draws}
     expect(views == {"shadow map", "scene"}, f"the cloth is drawn in {views}")
     bound = frame.bound_buffers(contact)
-    written = [bound[2], bound[4]]  # of contact.comp: what is proposed, in place, or the state before
+    # What contact.comp writes: the proposed state, in place, or the state before.
+    written = [bound[binding_of(name)] for name in ("proposed_positions", "earlier_positions")]
     names = {r.resourceId: r.name for r in frame.controller.GetResources()}
     for labels, action in draws:
         drawn = frame.drawn_positions(action)

@@ -197,7 +197,7 @@ struct VertexStreams
     VkBuffer velocities{}; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a tether, a
                            // max-distance constraint or a backstop limits it, plus 4 if a triangle or an edge around it
                            // touched a feature of a collider
-    VkBuffer normals{};      // vec4: unit normal and 0
+    VkBuffer normals{};    // vec4: unit normal and 0
     VkDeviceSize offset = 0; // bytes, of the first vertex, in each of them
     uint32_t vertices = 0;
 };

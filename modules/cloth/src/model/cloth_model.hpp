@@ -1,8 +1,8 @@
 // ClothModel: one cloth as the solver remembers it, with arrays of its own in the layout that is uploaded.
 #pragma once
 
-#include "voile/descriptions.hpp"
 #include "voile/attachments.hpp"
+#include "voile/descriptions.hpp"
 
 #include "model/mesh_lists.hpp"
 #include "model/mesh_topology.hpp"
@@ -45,7 +45,7 @@ struct ClothModel
     // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
     // area (fabric) or share (material). 0: all are the material's.
     double own_inverse_mass = 0;
-    glm::vec3 velocity{0.f}; // m/s, at the start
+    glm::vec3 velocity{0.f};             // m/s, at the start
     std::vector<Attachment> attachments; // pins and others, in the order given
     std::optional<Tethers> tether_options;
     std::vector<shared::TetherRecord> tethers;

@@ -13,7 +13,8 @@
 namespace voile
 {
 
-// All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays; an upload puts them together.
+// All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays; an upload puts them
+// together.
 struct Model
 {
     std::vector<ClothModel> cloths;

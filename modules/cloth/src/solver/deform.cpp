@@ -31,8 +31,8 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
                                   mesh.first(deformation.now),
                                   mesh.first(1 - deformation.now),
                                   mesh.vertices};
-    recorder.dispatch(solver.kernels.deform, solver.device->sets.deform, mesh.vertices, solver.options.tuning.workgroup_size,
-                      push);
+    recorder.dispatch(solver.kernels.deform, solver.device->sets.deform, mesh.vertices,
+                      solver.options.tuning.workgroup_size, push);
 }
 
 // Boxes of the triangles as they move from one of the mesh's two sets of positions to the other.

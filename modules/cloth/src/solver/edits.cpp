@@ -42,7 +42,8 @@ void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
     {
         if (!is_moving(solver.collider_models.colliders[i].record))
             continue;
-        const shared::ColliderMotion motion = make_motion(solver.collider_models, i, solver.colliders[i], solver.deformations);
+        const shared::ColliderMotion motion =
+            make_motion(solver.collider_models, i, solver.colliders[i], solver.deformations);
         recorder.update(device[buffer::collider_motions].handle(), i * sizeof(motion),
                         std::as_bytes(std::span(&motion, 1)));
     }
@@ -206,8 +207,8 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     const auto uploaded = [&](const shared::EditPush& edit) { return edit.cloth < device.cloth_count; };
     for (const shared::EditPush& edit : solver.edits.places)
         if (uploaded(edit))
-            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.cloths[edit.cloth].record.vertices, group,
-                              edit);
+            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.cloths[edit.cloth].record.vertices,
+                              group, edit);
     const size_t edited = std::erase_if(solver.edits.places, uploaded);
     if (due.anchors || edited > 0)
         recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins, group,

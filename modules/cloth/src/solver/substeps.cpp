@@ -134,7 +134,7 @@ void SubstepRecorder::record_attachments(uint32_t substep, float duration)
 {
     const size_t from = in_stage_b(substep) ? 1 : 0;
     shared::AttachmentPush push{solver_.passes.pins, solver_.passes.attachments, duration, progress(substep + 1),
-                          1 / step_.duration};
+                                1 / step_.duration};
     recorder_.dispatch(kernels_.attachments, device_.sets.proposed_attachments[from], push.count, group_, push);
     push.first = 0;
     push.count = solver_.passes.tethers;

@@ -47,6 +47,6 @@ struct ShaderInterface
 // `spirv` must be valid. `specialization` decides the sizes of shared arrays. Names serve messages alone: everything
 // else survives their removal. Errors: a descriptor that is no storage buffer of set 0.
 VOILE_GPU_API Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
-                                std::span<const SpecializationConstant> specialization);
+                                              std::span<const SpecializationConstant> specialization);
 
 } // namespace voile::gpu
