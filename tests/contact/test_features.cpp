@@ -42,7 +42,7 @@ Count count(const voile::engine::Mesh& mesh)
     REQUIRE(colliders.add(tests::collider(mesh)));
     voile::update_features(colliders, model);
     Count result;
-    for (const auto& feature : colliders.colliders[0].features->features)
+    for (const auto& feature : colliders.colliders.at(0)->features->features)
     {
         if (feature.a == feature.b)
             ++result.corners;
@@ -203,7 +203,7 @@ TEST_CASE("features of a mesh are found again only where cloths are thinner or c
         tests::fabric_of(sheet).thickness = thickness;
         REQUIRE(model.add(sheet));
         voile::update_features(colliders, model);
-        return colliders.colliders[0].features;
+        return colliders.colliders.at(0)->features;
     };
     const auto first = add(21, k_thickness);
     CHECK_FALSE(first->features.empty());
@@ -215,5 +215,5 @@ TEST_CASE("features of a mesh are found again only where cloths are thinner or c
 
     REQUIRE(colliders.add(tests::collider(mesh)));
     voile::update_features(colliders, model);
-    CHECK(colliders.colliders[1].features == colliders.colliders[0].features);
+    CHECK(colliders.colliders.at(1)->features == colliders.colliders.at(0)->features);
 }

@@ -85,8 +85,8 @@ void use(const voile::CookedCloth& cooked)
             cloth.material = voile::Material();
         if (!model.add(cloth))
             continue;
-        model.cloths[0].attachments.push_back({.vertex = 0});
-        (void)voile::make_tethers(model, 0, {});
+        model.cloths.at(0)->attachments.push_back({.vertex = 0});
+        (void)voile::make_tethers(*model.cloths.at(0), 0, {});
         (void)voile::make_patches(model, 32);
     }
 }
@@ -100,7 +100,7 @@ void use(const voile::CookedCollider& cooked)
     if (!colliders.add(collider))
         return;
     voile::update_features(colliders, model);
-    (void)voile::nearest_point(*colliders.colliders[0].hierarchy, glm::dvec3(0.1), 1);
+    (void)voile::nearest_point(*colliders.colliders.at(0)->hierarchy, glm::dvec3(0.1), 1);
 }
 
 // Loads `bytes` with every word in turn as something that a file could hold, signed anew. What is accepted is used.
@@ -178,7 +178,7 @@ TEST_CASE("a cooked cloth equals its mesh to the bit, also by way of bytes")
                 voile::Model other;
                 cloth.cooked = asset;
                 REQUIRE(other.add(cloth));
-                CHECK(same(model.cloths[0], other.cloths[0]));
+                CHECK(same(*model.cloths.at(0), *other.cloths.at(0)));
             }
         }
 }
@@ -193,14 +193,14 @@ TEST_CASE("a hundred instances of a cooked cloth share what is at rest")
         REQUIRE(model.add(instance(
             cooked, glm::rotate(glm::translate(glm::mat4(1), glm::vec3(at, 0, 0)), 0.1f * at, glm::vec3(1, 2, 3)))));
     }
-    for (const voile::ClothModel& cloth : model.cloths)
+    for (const auto [index, cloth] : model.cloths)
     {
         CHECK(cloth.mesh == cooked.state()->mesh);
-        CHECK(cloth.lists == model.cloths[0].lists);
+        CHECK(cloth.lists == model.cloths.at(0)->lists);
     }
-    CHECK(model.cloths[7].record.first_vertex == 7 * cooked.vertices());
-    const glm::vec3 moved(model.cloths[9].start[5] - model.cloths[9].start[0]);
-    const glm::vec3 there(model.cloths[0].start[5] - model.cloths[0].start[0]);
+    CHECK(model.cloths.at(7)->record.first_vertex == 7 * cooked.vertices());
+    const glm::vec3 moved(model.cloths.at(9)->start[5] - model.cloths.at(9)->start[0]);
+    const glm::vec3 there(model.cloths.at(0)->start[5] - model.cloths.at(0)->start[0]);
     CHECK(glm::length(moved) == doctest::Approx(glm::length(there)));
 }
 
@@ -231,7 +231,7 @@ TEST_CASE("a cooked cloth is refused where it does not fit its description")
     cloth = instance(cooked);
     cloth.transform[3].x = 2e6f;
     CHECK(error(cloth).find("its transform takes vertex 0") != std::string::npos);
-    CHECK(model.cloths.empty());
+    CHECK(model.cloths.size() == 0);
     CHECK_FALSE(voile::cook(voile::MeshCloth()));
 }
 
@@ -251,8 +251,8 @@ TEST_CASE("a cooked collider equals its mesh to the bit, also by way of bytes, a
     voile::ColliderModels models;
     REQUIRE(models.add(collider));
     REQUIRE(models.add(voile::MeshCollider{.transform = transform, .cooked = loaded}));
-    const voile::ColliderModel own = models.colliders[0];
-    const voile::ColliderModel other = models.colliders[1];
+    const voile::ColliderModel own = *models.colliders.at(0);
+    const voile::ColliderModel other = *models.colliders.at(1);
     CHECK(same_bits(*own.hierarchy, *other.hierarchy));
     CHECK(own.origin == other.origin);
     CHECK(own.placement == other.placement);
@@ -266,10 +266,10 @@ TEST_CASE("a cooked collider equals its mesh to the bit, also by way of bytes, a
     REQUIRE(models.add(voile::MeshCollider{.transform = moved, .cooked = loaded}));
     REQUIRE(
         models.add(voile::MeshCollider{.transform = glm::rotate(moved, 1.f, glm::vec3(0, 0, 1)), .cooked = loaded}));
-    CHECK(glm::distance(models.colliders[2].origin, own.origin + glm::dvec3(4, 0, 0)) < 1e-6);
-    CHECK((models.colliders[2].record.flags & VOILE_COLLIDER_MOVED) == 0);
-    CHECK((models.colliders[3].record.flags & VOILE_COLLIDER_MOVED) != 0);
-    CHECK(models.colliders[3].hierarchy == loaded.state()->hierarchy);
+    CHECK(glm::distance(models.colliders.at(2)->origin, own.origin + glm::dvec3(4, 0, 0)) < 1e-6);
+    CHECK((models.colliders.at(2)->record.flags & VOILE_COLLIDER_MOVED) == 0);
+    CHECK((models.colliders.at(3)->record.flags & VOILE_COLLIDER_MOVED) != 0);
+    CHECK(models.colliders.at(3)->hierarchy == loaded.state()->hierarchy);
 
     const auto error = [&](const voile::MeshCollider& wrong)
     {

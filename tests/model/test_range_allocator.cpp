@@ -23,8 +23,9 @@ TEST_CASE("ranges that are in use never overlap, and gaps are used again")
         if (used.empty() || random() % 2 == 0)
         {
             const uint64_t count = random() % 20;
-            const uint64_t first = allocator.find(count);
-            REQUIRE(allocator.allocate(count) == first);
+            const uint64_t end = allocator.end_with(count);
+            const uint64_t first = allocator.allocate(count);
+            REQUIRE(allocator.end() == end);
             owners.resize(std::max<size_t>(owners.size(), first + count), -1);
             for (uint64_t i = first; i < first + count; ++i)
             {
@@ -65,11 +66,11 @@ TEST_CASE("the lowest gap that fits is taken, and free neighbors become one rang
         CHECK(allocator.allocate(10) == 10 * i);
     allocator.release(10, 10);
     allocator.release(30, 10);
-    CHECK(allocator.find(15) == 60);
+    CHECK(allocator.end_with(15) == 75);
     allocator.release(20, 10); // joins both
-    CHECK(allocator.find(15) == 10);
-    CHECK(allocator.find(30) == 10);
-    CHECK(allocator.find(31) == 60);
+    CHECK(allocator.end_with(15) == 60);
+    CHECK(allocator.end_with(30) == 60);
+    CHECK(allocator.end_with(31) == 91);
     CHECK(allocator.allocate(5) == 10);
     CHECK(allocator.allocate(25) == 15);
     CHECK(allocator.allocate(1) == 60);

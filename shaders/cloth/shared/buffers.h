@@ -1,9 +1,11 @@
 // The storage buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
 // allocates and binds it by its name, and docs/buffers.md lists who reads and writes it.
 //
-// VOILE_BUFFER(number, name, entry, count, meaning): what a solver allocates at each upload. `count` is an expression
-// over BufferCounts (device_state.cpp). A kernel that declares a binding of that name gets the buffer.
-// VOILE_SOLVER_BUFFER(number, name, entry, meaning): what outlives uploads.
+// VOILE_BUFFER(number, name, entry, count, meaning): what an upload allocates, and copies over where it has to grow.
+// `count` is an expression over BufferCounts (device_state.hpp). A kernel that declares a binding of that name gets the
+// buffer.
+// VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning): the same, but nothing in it outlives an upload.
+// VOILE_SOLVER_BUFFER(number, name, entry, meaning): what uploads leave alone.
 // VOILE_ROLE(number, name, entry, meaning): what a kernel calls a buffer that changes from set to set. Each set says
 // which (descriptor_sets.cpp).
 //
@@ -11,6 +13,9 @@
 
 #ifndef VOILE_BUFFER
 #define VOILE_BUFFER(number, name, entry, count, meaning)
+#endif
+#ifndef VOILE_SCRATCH_BUFFER
+#define VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning) VOILE_BUFFER(number, name, entry, count, meaning)
 #endif
 #ifndef VOILE_SOLVER_BUFFER
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning)
@@ -23,11 +28,11 @@
 
 // Cloths.
 VOILE_BUFFER(0, cloths, ClothRecord, cloths, "size, springs, bounds, friction, drag of a cloth")
-VOILE_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, what kernels need of their cloth, whether it is near features")
-VOILE_BUFFER(2, mesh_vertices, MeshVertex, model.mesh_vertices, "where the lists of a mesh vertex begin")
-VOILE_BUFFER(3, mesh_springs, MeshSpring, data.springs, "springs of mesh vertices, the lists of a workgroup interleaved")
-VOILE_BUFFER(4, mesh_corners, MeshCorner, data.corners, "triangles around mesh vertices, interleaved like springs")
-VOILE_BUFFER(5, membrane_corners, MembraneCorner, data.corners, "the same triangles at rest, in warp and weft")
+VOILE_SCRATCH_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, what kernels need of their cloth, whether it is near features")
+VOILE_BUFFER(2, mesh_vertices, MeshVertex, mesh_vertices, "where the lists of a mesh vertex begin")
+VOILE_BUFFER(3, mesh_springs, MeshSpring, springs, "springs of mesh vertices, the lists of a workgroup interleaved")
+VOILE_BUFFER(4, mesh_corners, MeshCorner, corners, "triangles around mesh vertices, interleaved like springs")
+VOILE_BUFFER(5, membrane_corners, MembraneCorner, corners, "the same triangles at rest, in warp and weft")
 VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of what the density multiplies")
 VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start position")
 VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
@@ -38,57 +43,57 @@ VOILE_BUFFER(10, residuals, uvec2, vertices, "what the floats of the position do
 VOILE_BUFFER(11, velocities, vec4, vertices, "velocity and flags (VOILE_VERTEX_*); the host draws from it")
 
 // Stages of the integrators. Under Verlet the velocities of A and C are the predicted ones of the state and of stage B.
-VOILE_BUFFER(12, stage_a_positions, vec4, vertices, "RK4 stage 1, passes of the strain limit, the state before its guard")
-VOILE_BUFFER(13, stage_a_residuals, uvec2, vertices, "residuals of stage A")
-VOILE_BUFFER(14, stage_a_velocities, vec4, vertices, "RK4 stage 1, passes of the strain limit; velocities that Verlet predicts for the state")
-VOILE_BUFFER(15, stage_b_positions, vec4, vertices, "RK4 stages 2 and 4, Verlet: the positions that a substep proposes")
-VOILE_BUFFER(16, stage_b_residuals, uvec2, vertices, "residuals of stage B")
-VOILE_BUFFER(17, stage_b_velocities, vec4, vertices, "RK4 stages 2 and 4, Verlet: the velocities that a substep proposes")
-VOILE_BUFFER(18, stage_c_positions, vec4, vertices, "RK4 stage 3; velocities before the guard of the strain limit")
-VOILE_BUFFER(19, stage_c_residuals, uvec2, vertices, "residuals of stage C")
-VOILE_BUFFER(20, stage_c_velocities, vec4, vertices, "RK4 stage 3; velocities that Verlet predicts for stage B")
+VOILE_SCRATCH_BUFFER(12, stage_a_positions, vec4, vertices, "RK4 stage 1, passes of the strain limit, the state before its guard")
+VOILE_SCRATCH_BUFFER(13, stage_a_residuals, uvec2, vertices, "residuals of stage A")
+VOILE_SCRATCH_BUFFER(14, stage_a_velocities, vec4, vertices, "RK4 stage 1, passes of the strain limit; velocities that Verlet predicts for the state")
+VOILE_SCRATCH_BUFFER(15, stage_b_positions, vec4, vertices, "RK4 stages 2 and 4, Verlet: the positions that a substep proposes")
+VOILE_SCRATCH_BUFFER(16, stage_b_residuals, uvec2, vertices, "residuals of stage B")
+VOILE_SCRATCH_BUFFER(17, stage_b_velocities, vec4, vertices, "RK4 stages 2 and 4, Verlet: the velocities that a substep proposes")
+VOILE_SCRATCH_BUFFER(18, stage_c_positions, vec4, vertices, "RK4 stage 3; velocities before the guard of the strain limit")
+VOILE_SCRATCH_BUFFER(19, stage_c_residuals, uvec2, vertices, "residuals of stage C")
+VOILE_SCRATCH_BUFFER(20, stage_c_velocities, vec4, vertices, "RK4 stage 3; velocities that Verlet predicts for stage B")
 
 // Attachments.
-VOILE_BUFFER(21, anchors, AnchorRecord, anchors, "the pose of an anchor at the step's start and end")
-VOILE_BUFFER(22, attachments, AttachmentRecord, attachments, "an attached vertex; pins come first")
-VOILE_BUFFER(23, tethers, TetherRecord, tethers, "the tethers of a vertex")
+VOILE_SCRATCH_BUFFER(21, anchors, AnchorRecord, anchors, "the pose of an anchor at the step's start and end")
+VOILE_SCRATCH_BUFFER(22, attachments, AttachmentRecord, attachments, "an attached vertex; pins come first")
+VOILE_SCRATCH_BUFFER(23, tethers, TetherRecord, tethers, "the tethers of a vertex")
 
 // Colliders.
 VOILE_BUFFER(24, colliders, ColliderRecord, colliders, "a collider where it was added, and its origin")
 VOILE_BUFFER(25, collider_motions, ColliderMotion, colliders, "its poses at the step's start and end")
-VOILE_BUFFER(26, bvh_nodes, BvhNode, collider_models.nodes, "hierarchies of rigid meshes")
-VOILE_BUFFER(27, bvh_triangles, BvhTriangle, collider_models.triangles, "their triangles, in leaf order")
-VOILE_BUFFER(28, deforming_input, float, deforming_vertices * k_most_stride / sizeof(float), "vertices of deforming meshes as the host gives them, up to 64 bytes per vertex")
+VOILE_BUFFER(26, bvh_nodes, BvhNode, nodes, "hierarchies of rigid meshes")
+VOILE_BUFFER(27, bvh_triangles, BvhTriangle, triangles, "their triangles, in leaf order")
+VOILE_SCRATCH_BUFFER(28, deforming_input, float, deforming_vertices * k_most_stride / sizeof(float), "vertices of deforming meshes as the host gives them, up to 64 bytes per vertex")
 VOILE_BUFFER(29, deforming_positions, vec4, 2 * deforming_vertices, "vertices of deforming meshes, twice: where the step starts, where it ends")
-VOILE_BUFFER(30, padded_leaves, PaddedLeaf, collider_models.padded_leaves, "triangles of deforming meshes")
-VOILE_BUFFER(31, padded_boxes, PaddedBox, collider_models.padded_boxes, "boxes of their hierarchies, level by level")
-VOILE_BUFFER(32, near_colliders, uint, patches * near_stride, "per patch the box in which its list holds, the first and the last word that is not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
+VOILE_BUFFER(30, padded_leaves, PaddedLeaf, padded_leaves, "triangles of deforming meshes")
+VOILE_BUFFER(31, padded_boxes, PaddedBox, padded_boxes, "boxes of their hierarchies, level by level")
+VOILE_SCRATCH_BUFFER(32, near_colliders, uint, near_words, "per patch the box in which its list holds, the first and the last word that is not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
 
 // Contact.
-VOILE_BUFFER(33, candidate_places, vec4, vertices, "where the list of triangles near a vertex holds")
-VOILE_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list: its length, two radii, the triangles")
-VOILE_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that it is inside of, and the velocity at which it leaves")
+VOILE_SCRATCH_BUFFER(33, candidate_places, vec4, vertices, "where the list of triangles near a vertex holds")
+VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list: its length, two radii, the triangles")
+VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that it is inside of, and the velocity at which it leaves")
 VOILE_BUFFER(36, recovery_votes_a, uint, cloths * VOILE_VOTE_WORDS, "of even steps, per cloth: on which side of its normals it leaves colliders, the sum of all directions, which colliders (VOILE_VOTE_*)")
 VOILE_BUFFER(37, recovery_votes_b, uint, cloths * VOILE_VOTE_WORDS, "the same of odd steps")
-VOILE_BUFFER(38, feature_sets, FeatureSet, data.feature_sets.size(), "the feature edges and vertices of a collider")
-VOILE_BUFFER(39, feature_nodes, BvhNode, data.feature_nodes, "hierarchies of features")
-VOILE_BUFFER(40, features, Feature, data.features, "a feature edge or vertex, and where it faces")
-VOILE_BUFFER(41, feature_corrections, FeatureCorrection, data.features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they hold")
-VOILE_BUFFER(42, feature_patches, uint, patches, "the patches that come near features")
-VOILE_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over these patches, cleared before they are written")
+VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and vertices of a collider")
+VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features")
+VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and where it faces")
+VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they hold")
+VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that come near features")
+VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over these patches, cleared before they are written")
 
 // Strain limit.
-VOILE_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")
-VOILE_BUFFER(45, step_start_residuals, uvec2, vertices, "residuals at the start of the step")
-VOILE_BUFFER(46, step_start_velocities, vec4, vertices, "velocities at the start of the step")
-VOILE_BUFFER(47, step_works_first, LimitWork, patches, "energy and work of the step, at its start")
-VOILE_BUFFER(48, step_works_last, LimitWork, patches, "energy and work of the step, at its end")
-VOILE_BUFFER(49, limit_works_before, LimitWork, patches, "energy and work of the limit, before it")
-VOILE_BUFFER(50, limit_works_after, LimitWork, patches, "energy and work of the limit, after it")
+VOILE_SCRATCH_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")
+VOILE_SCRATCH_BUFFER(45, step_start_residuals, uvec2, vertices, "residuals at the start of the step")
+VOILE_SCRATCH_BUFFER(46, step_start_velocities, vec4, vertices, "velocities at the start of the step")
+VOILE_SCRATCH_BUFFER(47, step_works_first, LimitWork, patches, "energy and work of the step, at its start")
+VOILE_SCRATCH_BUFFER(48, step_works_last, LimitWork, patches, "energy and work of the step, at its end")
+VOILE_SCRATCH_BUFFER(49, limit_works_before, LimitWork, patches, "energy and work of the limit, before it")
+VOILE_SCRATCH_BUFFER(50, limit_works_after, LimitWork, patches, "energy and work of the limit, after it")
 VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "what a cloth keeps of the limit's changes, and its reserve of energy")
 
 // Statistics.
-VOILE_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
+VOILE_SCRATCH_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
 VOILE_SOLVER_BUFFER(53, statistics, StatisticsRecord, "statistics of all cloths, one record per slot; the host reads it")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
@@ -133,5 +138,6 @@ VOILE_ROLE(96, works, LimitWork, "the energy and work that is measured")
 // clang-format on
 
 #undef VOILE_BUFFER
+#undef VOILE_SCRATCH_BUFFER
 #undef VOILE_SOLVER_BUFFER
 #undef VOILE_ROLE

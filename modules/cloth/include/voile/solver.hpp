@@ -221,13 +221,30 @@ public:
     Result<ClothId> add_cloth(const MeshCloth& mesh);
     Result<ColliderId> add_collider(const Collider& collider);
 
+    // Remove what was added, at any time. The next record simulates without it, and without an upload; the place that
+    // it leaves in the buffers is used again. Its id stays invalid, also when a later addition gets its index. Command
+    // buffers that are pending and read its vertices are not disturbed before the next record_upload. With an anchor go
+    // the attachments to it, and with a collider the attachments on its surface: their vertices are free, and tethers
+    // to them end. Errors: an id that is not valid.
+    Result<void> remove(ClothId cloth);
+    Result<void> remove(ColliderId collider);
+    Result<void> remove(AnchorId anchor);
+
+    // A disabled cloth stays as it is: no pass runs over it, it takes no part in stable_substeps or statistics, and it
+    // can still be drawn. It continues with the velocities that it had. A disabled collider meets no cloth. What moved
+    // meanwhile is where it is when it is enabled again. Everything is enabled when it is added. Errors: an id that is
+    // not valid.
+    Result<void> set_enabled(ClothId cloth, bool enabled);
+    Result<void> set_enabled(ColliderId collider, bool enabled);
+    [[nodiscard]] bool enabled(ClothId cloth) const; // false for an id that is not valid
+    [[nodiscard]] bool enabled(ColliderId collider) const;
+
     // Every function below that takes an id and returns a Result has one more error: an id that is not valid. Those
     // that answer without a Result say so with an empty answer: no attachments, no boxes, no triangles, an empty name,
     // a default material, null handles, zeros. References that they return hold until the solver changes.
 
-    // Changes of what is there already. They take effect with the next record, without new buffers; those of a cloth, a
-    // collider or an anchor that is not uploaded yet with the first record after that. Attachments and tethers
-    // that are set while an upload is due wait for it as well. Errors leave everything as it was.
+    // Changes of what is there already. They take effect with the next record, without new buffers; those of a cloth or
+    // a collider that is not uploaded yet with the first record after that. Errors leave everything as it was.
 
     // Errors: a value out of range; a Fabric where the cloth was added with a Material or the other way round;
     // isometric bending of a mesh that was added without. With a new density a cloth keeps its momentum where it
@@ -251,6 +268,17 @@ public:
     // Tethers from the present pins; none: takes them away. Errors: no pin, a stretch out of range. More than ever
     // before need an upload.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
+
+    // Which colliders a cloth meets: those whose layers share a bit with its own. Where these have corners and edges
+    // that only now count, they do from the next upload on (needs_upload).
+    Result<void> set_layers(ClothId cloth, uint32_t layers);
+    Result<void> set_layers(ColliderId collider, uint32_t layers);
+
+    // Friction of the collider's own; none: the cloth's. Errors: a coefficient out of range.
+    Result<void> set_friction(ColliderId collider, const std::optional<Friction>& friction);
+    // m, of a sphere or a capsule, at once: what is inside of it then is brought out like any vertex that starts
+    // inside. Errors: another kind of collider, a radius out of range.
+    Result<void> set_radius(ColliderId collider, float radius);
 
     // A frame for attachments. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin
     // beyond 1e6 m, a volume below 1e-9 of the unit cube's.
@@ -289,12 +317,13 @@ public:
     // m/s, of every vertex. Errors: beyond 1e4 along an axis.
     Result<void> set_velocity(ClothId cloth, const Vec3& velocity);
 
-    // True if something was added since the last upload.
+    // True if something was added since the last upload, or what was set needs larger buffers.
     [[nodiscard]] bool needs_upload() const;
 
-    // Allocates buffers for everything added, records their upload, and copies over the state of the cloths that were
-    // there before. Begins and ends like record. Errors: out of device memory, larger than the device's buffers; the
-    // solver then stays as it was.
+    // Records the upload of what is new. What does not fit the buffers gets larger ones, by half at least, into which
+    // the former contents are copied on the GPU; what fits costs as much as it is large, whatever else the solver has.
+    // Begins and ends like record. Errors: out of device memory, larger than the device's buffers; the solver then
+    // stays as it was.
     Result<Upload> record_upload(VkCommandBuffer cmd);
 
     // Records the passes of one step. Never allocates, submits, waits or reads a clock. Outside rendering.
@@ -309,7 +338,7 @@ public:
 
     // The state of all cloths, saved and brought back to the bit: the same steps then give the same bits as after
     // saving. Materials, attachments, anchors and colliders are the host's and are not part of it. Errors: nothing
-    // uploaded yet, out of memory; another number of vertices; nothing saved to restore.
+    // uploaded yet, out of memory; cloths were uploaded or removed since; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);

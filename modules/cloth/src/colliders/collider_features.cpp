@@ -89,7 +89,7 @@ bool same_mesh(const ColliderModel& a, const ColliderModel& b)
 FeatureScale feature_scale(const Model& model, uint32_t layers)
 {
     FeatureScale scale;
-    for (const ClothModel& cloth : model.cloths)
+    for (const auto [index, cloth] : model.cloths)
     {
         if ((cloth.record.layers & layers) == 0)
             continue;
@@ -129,19 +129,30 @@ ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale
     return result;
 }
 
+bool needs_features(const ColliderModel& collider, const Model& model)
+{
+    return collider.features_due || !collider.features ||
+           !covers(collider.features->scale, feature_scale(model, collider.record.layers));
+}
+
 void update_features(ColliderModels& colliders, const Model& model)
 {
-    for (ColliderModel& collider : colliders.colliders)
+    for (auto [index, collider] : colliders.colliders)
     {
-        const FeatureScale scale = feature_scale(model, collider.record.layers);
-        if (collider.features && collider.features->scale == scale)
+        if (!needs_features(collider, model))
             continue;
-        collider.features = nullptr;
-        for (const ColliderModel& other : colliders.colliders)
+        const FeatureScale scale = feature_scale(model, collider.record.layers);
+        std::shared_ptr<const ColliderFeatures> found;
+        for (const auto [other_index, other] : colliders.colliders)
             if (other.features && other.features->scale == scale && same_mesh(collider, other))
-                collider.features = other.features;
-        if (!collider.features)
-            collider.features = std::make_shared<const ColliderFeatures>(make_features(collider, scale));
+                found = other.features;
+        if (!found)
+            found = std::make_shared<const ColliderFeatures>(make_features(collider, scale));
+        colliders.features.acquire(found, {found->nodes.size(), found->features.size()});
+        colliders.features.release(collider.features.get());
+        collider.features = std::move(found);
+        collider.features_due = false;
+        collider.features_new = true;
     }
 }
 

@@ -47,8 +47,18 @@ struct ColliderFeatures
 // deform have none.
 ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale);
 
-// Finds the features of colliders that have none yet, or whose cloths have another scale now. The others keep theirs,
-// and colliders of the same mesh share them.
+// Whether features that were found for one scale hold what another one asks for.
+inline bool covers(const FeatureScale& found, const FeatureScale& needed)
+{
+    return needed.edge == 0 || (found.edge >= needed.edge && found.thickness <= needed.thickness);
+}
+
+// Whether the collider's features must be found: there are none yet, its shape changed, a cloth is thinner or has
+// longer edges than all before.
+bool needs_features(const ColliderModel& collider, const Model& model);
+
+// Finds the features of the colliders that need them. The others keep theirs, and colliders of the same mesh share
+// them.
 void update_features(ColliderModels& colliders, const Model& model);
 
 } // namespace voile

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "voile/descriptions.hpp"
+#include "voile/solver.hpp"
 
 #include "colliders/collider_features.hpp"
 #include "geometry/bvh.hpp"
 #include "model/device_limits.hpp"
+#include "model/range_allocator.hpp"
+#include "model/shared_ranges.hpp"
+#include "model/slots.hpp"
 #include "shared/collider_layout.h"
 #include "shared/padded_layout.h"
 
@@ -18,23 +22,42 @@ namespace voile
 
 struct MeshInput; // mesh_input.hpp
 
-// A mesh collider whose vertices the host moves.
+// From where a collider was added to where it is.
+struct ColliderPose
+{
+    glm::mat4 from{1.f};              // at the end of the last step
+    glm::mat4 to{1.f};                // at the end of the next one
+    std::optional<AnchorId> anchor{}; // of the attachments on its surface
+};
+
+// A mesh whose vertices the host moves.
 struct DeformingMesh
 {
-    uint32_t collider = 0;
     uint32_t vertices = 0;
     uint32_t first_vertex = 0;        // in the buffer of positions; as many again follow them
     glm::mat4 transform{1.f};         // world from the mesh's space
     std::vector<glm::vec4> positions; // as they were added. Empty once they are uploaded
     std::vector<shared::PaddedLeaf> leaves;
+    uint64_t first_range = 0; // of its boxes, with the room for their alignment
+    uint64_t boxes = 0;       // likewise
+
+    uint32_t now = 0;                     // the half of its positions that holds them at the end of the last step
+    bool due = false;                     // new vertices were given: the next step goes to them, in the other half
+    bool refit_due = false;               // its boxes do not fit: after it came to rest
+    std::vector<glm::vec3> input;         // given by the host, m
+    std::optional<DeviceVertices> source; // or where they lie on the GPU
 
     [[nodiscard]] uint32_t first(uint32_t half) const { return first_vertex + half * vertices; }
+    // The halves at the start and at the end of the step.
+    [[nodiscard]] uint32_t first_from() const { return first(now); }
+    [[nodiscard]] uint32_t first_to() const { return first(due ? 1 - now : now); }
 };
 
 // Bytes from one vertex to the next in what the host gives for a deforming mesh, at most.
 constexpr uint32_t k_most_stride = 64;
 
-// Offsets in `record` (first_node, first_triangle) are those of the solver's buffers, in the order of the colliders.
+// Offsets in `record` (first_node, first_triangle) are those of the solver's buffers. They stay as long as the
+// collider.
 struct ColliderModel
 {
     shared::ColliderRecord record{};
@@ -42,27 +65,63 @@ struct ColliderModel
     glm::mat4 placement{1.f};               // the world when it was added; of a box from its space
     std::optional<float> plane_offset{};    // m, of a plane as it was added: normal . x = offset
     std::shared_ptr<const Bvh> hierarchy{}; // of a mesh that keeps its shape; colliders of the same mesh share it
-    std::shared_ptr<const ColliderFeatures> features{}; // as they were uploaded last
+    std::optional<DeformingMesh> deforming{};
+    std::shared_ptr<const ColliderFeatures> features{}; // with ranges of the solver's buffers
+    bool features_due = false;                          // its shape or its layers changed since they were found
+    bool features_new = false;                          // found since the last upload
+    ColliderPose pose{};
+    bool enabled = true;
+    bool uploaded = false; // its arrays are in the solver's buffers
 };
 
-// All colliders of a solver. An upload puts their arrays together.
+// Whether cloth feels the collider.
+inline bool is_active(const ColliderModel& collider)
+{
+    return collider.uploaded && collider.enabled;
+}
+
+// The record as kernels see it: a disabled collider meets no cloth.
+inline shared::ColliderRecord shown_record(const ColliderModel& collider)
+{
+    shared::ColliderRecord record = collider.record;
+    if (!collider.enabled)
+        record.layers = 0;
+    return record;
+}
+
+// The arrays that have ranges of their own.
+enum HierarchyArray : size_t
+{
+    k_hierarchy_nodes,
+    k_hierarchy_triangles,
+    k_hierarchy_arrays
+};
+enum FeatureArray : size_t
+{
+    k_feature_nodes,
+    k_feature_list,
+    k_feature_arrays
+};
+
+// All colliders of a solver. Each has ranges of the solver's buffers for its arrays.
 struct ColliderModels
 {
-    std::vector<ColliderModel> colliders;
-    std::vector<DeformingMesh> deforming; // in the order of their colliders
-    uint64_t nodes = 0;                   // of all hierarchies
-    uint64_t triangles = 0;               // likewise
-    uint64_t padded_leaves = 0;           // of all meshes that deform
-    uint32_t padded_boxes = 0;            // likewise, with the room before each tree
-    uint64_t deforming_positions = 0;     // likewise, two a vertex
+    Slots<ColliderId, ColliderModel> colliders;
+    SharedRanges<Bvh, k_hierarchy_arrays> hierarchies;
+    SharedRanges<ColliderFeatures, k_feature_arrays> features;
+    RangeAllocator padded_leaves; // of all meshes that deform
+    RangeAllocator padded_boxes;
+    RangeAllocator deforming_positions; // two per vertex
     DeviceLimits limits;
 
-    // Append after validating; unchanged on error.
+    // Validate and add; unchanged on error.
     Result<ColliderId> add(const MeshCollider& collider);
     Result<ColliderId> add(const PlaneCollider& collider);
     Result<ColliderId> add(const SphereCollider& collider);
     Result<ColliderId> add(const CapsuleCollider& collider);
     Result<ColliderId> add(const BoxCollider& collider);
+    // Requires that the collider exists.
+    void remove(ColliderId collider);
 
 private:
     Result<ColliderId> add_cooked(const MeshCollider& collider);
@@ -76,6 +135,9 @@ private:
 
 // Puts the origin of a plane where it is nearest to `point`, m, both before its placement.
 void place_plane(ColliderModel& plane, const glm::dvec3& point);
+
+// Friction of its own, or none.
+void set_record_friction(shared::ColliderRecord& record, const std::optional<Friction>& friction);
 
 // What the validation of colliders shares.
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);

@@ -63,13 +63,12 @@ bool is_rigid(const glm::mat4& transform)
     return affine && glm::determinant(turn) > 0;
 }
 
-shared::ColliderMotion make_motion(const ColliderModels& models, uint32_t collider, const ColliderPose& pose,
-                                   std::span<const Deformation> deformations)
+shared::ColliderMotion make_motion(const ColliderModel& collider)
 {
     // In double: floats of what is far from the origin are coarse.
-    const glm::dmat4 placement(models.colliders[collider].placement);
-    const glm::dmat4 from = glm::dmat4(pose.from) * placement;
-    const glm::dmat4 to = glm::dmat4(pose.to) * placement;
+    const glm::dmat4 placement(collider.placement);
+    const glm::dmat4 from = glm::dmat4(collider.pose.from) * placement;
+    const glm::dmat4 to = glm::dmat4(collider.pose.to) * placement;
     const glm::dvec4 rotation_from = rotation_of(from);
     glm::dvec4 rotation_to = rotation_of(to);
     if (dot(rotation_from, rotation_to) < 0)
@@ -77,18 +76,16 @@ shared::ColliderMotion make_motion(const ColliderModels& models, uint32_t collid
     shared::ColliderMotion motion{};
     motion.rotation_from = glm::vec4(rotation_from);
     motion.rotation_to = glm::vec4(rotation_to);
-    const glm::dvec4 origin(models.colliders[collider].origin, 1);
+    const glm::dvec4 origin(collider.origin, 1);
     const glm::dvec3 place_from(from * origin);
     motion.origin = rounded(place_from);
     motion.place_from = place_from - glm::dvec3(motion.origin);
     motion.place_to = glm::dvec3(to * origin) - glm::dvec3(motion.origin);
-    for (size_t i = 0; i < models.deforming.size(); ++i)
-        if (models.deforming[i].collider == collider)
-        {
-            const Deformation& deformation = deformations[i];
-            motion.first_from = models.deforming[i].first(deformation.now);
-            motion.first_to = models.deforming[i].first(deformation.due ? 1 - deformation.now : deformation.now);
-        }
+    if (collider.deforming)
+    {
+        motion.first_from = collider.deforming->first_from();
+        motion.first_to = collider.deforming->first_to();
+    }
     return motion;
 }
 

@@ -67,13 +67,18 @@ shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, cons
     shared::ColliderRecord record{};
     record.kind = kind;
     record.layers = layers;
-    if (friction)
-    {
-        record.flags = VOILE_COLLIDER_FRICTION;
-        record.static_friction = friction->static_coefficient;
-        record.kinetic_friction = friction->kinetic_coefficient;
-    }
+    set_record_friction(record, friction);
     return record;
+}
+
+void set_record_friction(shared::ColliderRecord& record, const std::optional<Friction>& friction)
+{
+    record.flags &= ~VOILE_COLLIDER_FRICTION;
+    if (friction)
+        record.flags |= VOILE_COLLIDER_FRICTION;
+    const Friction coefficients = friction.value_or(Friction{});
+    record.static_friction = coefficients.static_coefficient;
+    record.kinetic_friction = coefficients.kinetic_coefficient;
 }
 
 // m: what floats may take from where a collider is. Beyond it has the finer position of those that move.
@@ -86,8 +91,21 @@ ColliderId ColliderModels::append(ColliderModel collider)
     if (collider.placement != glm::mat4(1) ||
         glm::distance(origin, glm::dvec3(collider.record.origin)) > k_most_origin_error)
         collider.record.flags |= VOILE_COLLIDER_MOVED;
-    colliders.push_back(std::move(collider));
-    return {static_cast<uint32_t>(colliders.size() - 1)};
+    return colliders.add(std::move(collider));
+}
+
+void ColliderModels::remove(ColliderId id)
+{
+    const ColliderModel& collider = *colliders.find(id);
+    hierarchies.release(collider.hierarchy.get());
+    features.release(collider.features.get());
+    if (const auto& mesh = collider.deforming)
+    {
+        padded_leaves.release(collider.record.first_triangle, mesh->leaves.size());
+        padded_boxes.release(mesh->first_range, mesh->boxes);
+        deforming_positions.release(mesh->first_vertex, 2 * uint64_t{mesh->vertices});
+    }
+    colliders.remove(id);
 }
 
 void place_plane(ColliderModel& plane, const glm::dvec3& point)
@@ -111,7 +129,7 @@ Result<ColliderId> ColliderModels::add(const PlaneCollider& collider)
     auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
     record.shape = glm::vec4(glm::normalize(collider.normal), 0);
     const ColliderId id = append({.record = record, .plane_offset = collider.offset});
-    place_plane(colliders[id.index], glm::dvec3(0));
+    place_plane(*colliders.find(id), glm::dvec3(0));
     return id;
 }
 

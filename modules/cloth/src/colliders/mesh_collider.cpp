@@ -71,13 +71,26 @@ Result<void> check_box(const MeshCollider& description, const ColliderModel& col
 
 } // namespace
 
+// The entries that boxes may need before their first one, so that it is aligned.
+constexpr uint64_t k_box_alignment = VOILE_REFIT_RUN - 1;
+
 ColliderId ColliderModels::append_deforming(shared::ColliderRecord record, const MeshInput& mesh,
                                             const glm::mat4& transform)
 {
     PaddedTree tree = build_padded_tree(mesh.positions, mesh.triangles);
+    DeformingMesh added;
+    added.vertices = static_cast<uint32_t>(mesh.positions.size());
+    added.first_vertex = static_cast<uint32_t>(deforming_positions.allocate(2 * mesh.positions.size()));
+    added.transform = transform;
+    for (int half = 0; half < 2; ++half)
+        for (const glm::vec3& p : mesh.positions)
+            added.positions.emplace_back(p, 0);
+    added.boxes = tree.boxes() + k_box_alignment;
+    added.first_range = padded_boxes.allocate(added.boxes);
+    added.leaves = std::move(tree.leaves);
     record.flags |= VOILE_COLLIDER_DEFORMS;
-    record.first_node = aligned_first_box(padded_boxes);
-    record.first_triangle = static_cast<uint32_t>(padded_leaves);
+    record.first_node = aligned_first_box(static_cast<uint32_t>(added.first_range));
+    record.first_triangle = static_cast<uint32_t>(padded_leaves.allocate(added.leaves.size()));
     record.triangles = tree.triangles;
     record.box_min = record.box_max = mesh.positions[mesh.triangles.front().x];
     for (const glm::uvec3& t : mesh.triangles)
@@ -87,29 +100,16 @@ ColliderId ColliderModels::append_deforming(shared::ColliderRecord record, const
             record.box_max = glm::max(record.box_max, mesh.positions[t[corner]]);
         }
     record.extent = extent_of(record);
-    const ColliderId id = append({.record = record, .origin = mesh.origin});
-    DeformingMesh& added = deforming.emplace_back();
-    added.collider = id.index;
-    added.vertices = static_cast<uint32_t>(mesh.positions.size());
-    added.first_vertex = static_cast<uint32_t>(deforming_positions);
-    added.transform = transform;
-    for (int half = 0; half < 2; ++half)
-        for (const glm::vec3& p : mesh.positions)
-            added.positions.emplace_back(p, 0);
-    padded_boxes = record.first_node + static_cast<uint32_t>(tree.boxes());
-    padded_leaves += tree.leaves.size();
-    deforming_positions += added.positions.size();
-    added.leaves = std::move(tree.leaves);
-    return id;
+    return append({.record = record, .origin = mesh.origin, .deforming = std::move(added)});
 }
 
 // Of the largest buffer, once the mesh is there too.
 uint64_t ColliderModels::bytes_with_deforming(const MeshInput& mesh) const
 {
     const uint64_t leaves = uint64_t{1} << padded_levels(static_cast<uint32_t>(mesh.triangles.size()));
-    const uint64_t boxes = aligned_first_box(padded_boxes) + 2 * leaves - 1;
-    const uint64_t vertices = deforming_positions / 2 + mesh.positions.size();
-    return std::max({(padded_leaves + leaves) * sizeof(shared::PaddedLeaf), boxes * sizeof(shared::PaddedBox),
+    const uint64_t boxes = padded_boxes.end_with(2 * leaves - 1 + k_box_alignment);
+    const uint64_t vertices = deforming_positions.end_with(2 * mesh.positions.size()) / 2;
+    return std::max({padded_leaves.end_with(leaves) * sizeof(shared::PaddedLeaf), boxes * sizeof(shared::PaddedBox),
                      vertices * std::max(2 * sizeof(glm::vec4), size_t{k_most_stride})});
 }
 
@@ -120,10 +120,11 @@ constexpr size_t k_most_triangles = size_t{1} << VOILE_CANDIDATE_TRIANGLE_BITS;
 Result<void> ColliderModels::check_triangles(const std::string& name, size_t count, bool deforms) const
 {
     const std::string contents = std::to_string(count) + " triangles";
-    const uint64_t bytes = deforms ? 0 : (triangles + count) * sizeof(shared::BvhTriangle);
+    const uint64_t listed =
+        deforms ? padded_leaves.end_with(2 * count) : hierarchies.end_with(k_hierarchy_triangles, count);
+    const uint64_t bytes = deforms ? 0 : listed * sizeof(shared::BvhTriangle);
     if (auto room = check_room(limits, "collider", name, contents, bytes); !room)
         return room;
-    const size_t listed = deforms ? padded_leaves + 2 * count : triangles + count;
     if (listed > k_most_triangles)
         return invalid("collider", name,
                        contents + ", and the colliders of a solver can have " + std::to_string(k_most_triangles) +
@@ -143,22 +144,21 @@ Result<void> ColliderModels::check_deforming(const std::string& name, const Mesh
 Result<ColliderId> ColliderModels::append_rigid(const MeshCollider& description, ColliderModel collider)
 {
     const Bvh& bvh = *collider.hierarchy;
-    const uint64_t node_bytes = (nodes + bvh.nodes.size()) * sizeof(shared::BvhNode);
+    const uint64_t node_bytes = hierarchies.end_with(k_hierarchy_nodes, bvh.nodes.size()) * sizeof(shared::BvhNode);
     if (auto room = check_room(limits, "collider", description.name,
                                std::to_string(bvh.triangles.size()) + " triangles", node_bytes);
         !room)
         return room.error();
     shared::ColliderRecord& record = collider.record;
-    record.first_node = static_cast<uint32_t>(nodes);
-    record.first_triangle = static_cast<uint32_t>(triangles);
+    const auto& placement = hierarchies.acquire(collider.hierarchy, {bvh.nodes.size(), bvh.triangles.size()});
+    record.first_node = static_cast<uint32_t>(placement.first[k_hierarchy_nodes]);
+    record.first_triangle = static_cast<uint32_t>(placement.first[k_hierarchy_triangles]);
     record.triangles = static_cast<uint32_t>(bvh.triangles.size());
     record.nodes = static_cast<uint32_t>(bvh.nodes.size());
     const shared::BvhNode& root = bvh.nodes[0];
     record.box_min = glm::min(root.left_min, root.right_min);
     record.box_max = glm::max(root.left_max, root.right_max);
     record.extent = extent_of(record);
-    nodes += bvh.nodes.size();
-    triangles += bvh.triangles.size();
     return append(std::move(collider));
 }
 

@@ -8,6 +8,7 @@
 
 #include "geometry/closedness.hpp"
 #include "geometry/normal_cones.hpp"
+#include "shared/collider_layout.h"
 
 #include <algorithm>
 #include <cmath>

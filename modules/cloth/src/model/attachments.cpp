@@ -25,8 +25,8 @@ Result<void> validate_attachment(const Model& model, const Attachment& attachmen
     {
         if (auto valid = check(what, "position", *attachment.position, k_most_coordinate, " m"); !valid)
             return valid;
-        const glm::mat4& anchor = model.anchors[attachment.anchor ? attachment.anchor->index : 0];
-        const glm::vec3 world(anchor * glm::vec4(*attachment.position, 1));
+        const Anchor& anchor = *model.anchors.at(attachment.anchor ? attachment.anchor->index : 0);
+        const glm::vec3 world(anchor.added * glm::vec4(*attachment.position, 1));
         if (auto valid = check(what, "position in the world", world, 2 * k_most_coordinate, " m"); !valid)
             return valid;
     }
@@ -49,12 +49,13 @@ Result<void> validate_attachment(const Model& model, const Attachment& attachmen
     return {};
 }
 
-shared::AttachmentRecord make_record(const Model& model, uint32_t cloth, const Attachment& attachment)
+// `index`: the slot of the cloth.
+shared::AttachmentRecord make_record(const Model& model, const ClothModel& cloth, uint32_t index,
+                                     const Attachment& attachment)
 {
-    const uint32_t vertex = model.cloths[cloth].record.first_vertex + attachment.vertex;
     shared::AttachmentRecord record{};
-    record.vertex = vertex;
-    record.cloth = cloth;
+    record.vertex = cloth.record.first_vertex + attachment.vertex;
+    record.cloth = index;
     record.anchor = attachment.anchor ? attachment.anchor->index : 0;
     record.stiffness = is_pin(attachment) ? 0 : attachment.stiffness;
     record.damping = attachment.damping;
@@ -65,9 +66,9 @@ shared::AttachmentRecord make_record(const Model& model, uint32_t cloth, const A
         record.flags |= VOILE_ATTACHMENT_BACKSTOP;
     if (attachment.position || !is_pin(attachment))
         record.flags |= VOILE_ATTACHMENT_PLACED;
-    const glm::vec4 start(glm::vec3(model.cloths[cloth].start[attachment.vertex]), 1);
-    record.place =
-        attachment.position ? *attachment.position : glm::vec3(glm::inverse(model.anchors[record.anchor]) * start);
+    const glm::vec4 start(glm::vec3(cloth.start[attachment.vertex]), 1);
+    record.place = attachment.position ? *attachment.position
+                                       : glm::vec3(glm::inverse(model.anchors.at(record.anchor)->added) * start);
     return record;
 }
 
@@ -136,13 +137,13 @@ Result<void> check_anchor(const Model& model, AnchorId anchor)
 {
     if (anchor.index == 0) // the world, which has no id
         return Error{"anchor 0 does not exist"};
-    return check_id("anchor", anchor.index, model.anchors.size());
+    return model.anchors.check("anchor", anchor);
 }
 
-Result<void> validate_attachments(const Model& model, uint32_t cloth, std::span<const Attachment> attachments)
+Result<void> validate_attachments(const Model& model, const ClothModel& cloth, std::span<const Attachment> attachments)
 {
-    const std::string& name = model.cloths[cloth].name;
-    const uint32_t vertices = model.cloths[cloth].record.vertices;
+    const std::string& name = cloth.name;
+    const uint32_t vertices = cloth.record.vertices;
     std::vector<bool> attached(vertices);
     for (const Attachment& attachment : attachments)
     {
@@ -163,15 +164,16 @@ AttachmentLists make_attachment_lists(const Model& model)
     AttachmentLists lists;
     for (const bool pins : {true, false})
     {
-        for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
-            for (const Attachment& attachment : model.cloths[cloth].attachments)
-                if (is_pin(attachment) == pins)
-                    lists.attachments.push_back(make_record(model, cloth, attachment));
+        for (const auto [index, cloth] : model.cloths)
+            for (const Attachment& attachment : cloth.attachments)
+                if (is_active(cloth) && is_pin(attachment) == pins)
+                    lists.attachments.push_back(make_record(model, cloth, index, attachment));
         if (pins)
             lists.pins = static_cast<uint32_t>(lists.attachments.size());
     }
-    for (const ClothModel& cloth : model.cloths)
-        lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());
+    for (const auto [index, cloth] : model.cloths)
+        if (is_active(cloth))
+            lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());
     return lists;
 }
 

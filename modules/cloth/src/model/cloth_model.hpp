@@ -33,10 +33,12 @@ struct Extent
     [[nodiscard]] bool empty() const { return min.x > max.x; }
 };
 
-// Offsets in `record` (first_vertex, first_list) are those of the solver's buffers, in the order of the cloths.
+// Offsets in `record` (first_vertex, first_list) are those of the solver's buffers. They stay as long as the cloth.
 struct ClothModel
 {
     std::string name;
+    bool enabled = true;
+    bool uploaded = false; // its arrays are in the solver's buffers
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it

@@ -167,14 +167,18 @@ Result<ClothId> Model::add(const MeshCloth& description)
     return append(std::move(cloth), input_of(description), shape.value().world);
 }
 
-std::shared_ptr<const MeshLists> Model::uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh) const
+std::shared_ptr<const MeshLists> Model::uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh)
 {
-    for (auto cloth = cloths.rbegin(); cloth != cloths.rend(); ++cloth) // instances are added one after the other
-        if (cloth->mesh == mesh)
-            return cloth->lists;
+    // Who holds the lists of a mesh holds the mesh, so that no other mesh has its address while they exist.
+    std::weak_ptr<const MeshLists>& kept = lists_of_[mesh.get()];
+    if (auto made = kept.lock())
+        return made;
+    std::erase_if(lists_of_, [&](const auto& entry) { return entry.first != mesh.get() && entry.second.expired(); });
+    std::shared_ptr<const MeshLists> made(mesh, &mesh->lists);
     if (interleaved)
-        return std::make_shared<const MeshLists>(interleave(mesh->lists, limits.workgroup_size));
-    return {mesh, &mesh->lists};
+        made = std::make_shared<const MeshLists>(interleave(mesh->lists, limits.workgroup_size));
+    lists_of_[mesh.get()] = made;
+    return made;
 }
 
 } // namespace voile

@@ -58,18 +58,31 @@ Result<void> check_dispatch(const DeviceLimits& limits, const std::string& what,
 
 Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> places)
 {
-    if (size_t{vertices} + places.size() > UINT32_MAX / 2)
+    if (vertices.end_with(places.size()) > UINT32_MAX / 2)
         return invalid("cloth", cloth.name, "more than 2 147 483 647 vertices in one solver");
     shared::ClothRecord& record = cloth.record;
-    record.first_vertex = vertices;
     record.vertices = static_cast<uint32_t>(places.size());
-    record.first_list = cloth.mesh ? mesh_vertices : 0;
+    record.first_vertex = static_cast<uint32_t>(vertices.allocate(places.size()));
+    if (cloth.lists)
+    {
+        const MeshLists& mesh = *cloth.lists;
+        const auto& placement =
+            lists.acquire(cloth.lists, {mesh.vertices.size(), mesh.springs.size(), mesh.corners.size()});
+        record.first_list = static_cast<uint32_t>(placement.first[k_list_vertices]);
+    }
     apply_material(cloth);
     set_start(cloth, input, places);
-    vertices += record.vertices;
-    mesh_vertices += cloth.mesh ? record.vertices : 0;
-    cloths.push_back(std::move(cloth));
-    return ClothId{static_cast<uint32_t>(cloths.size() - 1)};
+    patches += count_patches(record, limits.workgroup_size);
+    return cloths.add(std::move(cloth));
+}
+
+void Model::remove(ClothId id)
+{
+    const ClothModel& cloth = *cloths.find(id);
+    vertices.release(cloth.record.first_vertex, cloth.record.vertices);
+    lists.release(cloth.lists.get());
+    patches -= count_patches(cloth.record, limits.workgroup_size);
+    cloths.remove(id);
 }
 
 } // namespace voile

@@ -3,40 +3,69 @@
 
 #include "model/cloth_model.hpp"
 #include "model/device_limits.hpp"
-#include "shared/cloth_layout.h"
-#include "shared/collider_layout.h"
-#include "shared/padded_layout.h"
+#include "model/range_allocator.hpp"
+#include "model/shared_ranges.hpp"
+#include "model/slots.hpp"
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace voile
 {
 
-// All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays; an upload puts them
-// together.
+// A frame that the host moves.
+struct Anchor
+{
+    glm::mat4 added{1.f}; // world from anchor, when it was added
+    glm::mat4 from{1.f};  // at the end of the last step
+    glm::mat4 to{1.f};    // at the end of the next one
+};
+
+// The arrays of MeshLists that have ranges of their own; corners and membrane corners share one.
+enum ListArray : size_t
+{
+    k_list_vertices,
+    k_list_springs,
+    k_list_corners,
+    k_list_arrays
+};
+
+// All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays, and ranges of the solver's
+// buffers for them.
 struct Model
 {
-    std::vector<ClothModel> cloths;
-    std::vector<glm::mat4> anchors{glm::mat4(1)}; // where they were when they were added; the first is the world
-    uint32_t vertices = 0;                        // of all cloths
-    uint32_t mesh_vertices = 0;                   // of the meshes among them
-    uint64_t patches = 0;                         // workgroups over all cloths, see make_patches
-    bool interleaved = true;                      // lists of meshes: SolverOptions::mesh_layout
+    Slots<ClothId, ClothModel> cloths;
+    Slots<AnchorId, Anchor> anchors; // the first is the world
+    RangeAllocator vertices;
+    SharedRanges<MeshLists, k_list_arrays> lists;
+    uint64_t patches = 0;    // workgroups over all cloths, see make_patches
+    bool interleaved = true; // lists of meshes: SolverOptions::mesh_layout
     DeviceLimits limits;
 
-    // Append after validating; unchanged on error.
+    Model() { anchors.add(Anchor{}); }
+
+    // Validate and add; unchanged on error.
     Result<ClothId> add(const GridCloth& grid);
     Result<ClothId> add(const MeshCloth& cloth);
+    // Requires that the cloth exists.
+    void remove(ClothId cloth);
 
 private:
     // A mesh's lists as this solver uploads them; instances share them.
-    [[nodiscard]] std::shared_ptr<const MeshLists>
-    uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh) const;
+    std::shared_ptr<const MeshLists> uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh);
     Result<ClothId> append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> places);
+
+    std::unordered_map<const MeshTopology*, std::weak_ptr<const MeshLists>> lists_of_;
 };
 
-// The attachments of all cloths as records, pins first, and the tethers.
+// Whether a cloth takes part in steps.
+inline bool is_active(const ClothModel& cloth)
+{
+    return cloth.uploaded && cloth.enabled;
+}
+
+// The attachments of active cloths as records, pins first, and the tethers.
 struct AttachmentLists
 {
     std::vector<shared::AttachmentRecord> attachments;
@@ -49,22 +78,25 @@ AttachmentLists make_attachment_lists(const Model& model);
 Result<void> check_anchor(const Model& model, AnchorId anchor);
 
 // Errors: a vertex that does not exist or has two attachments, an anchor that does not exist, values out of range.
-Result<void> validate_attachments(const Model& model, uint32_t cloth, std::span<const Attachment> attachments);
+Result<void> validate_attachments(const Model& model, const ClothModel& cloth, std::span<const Attachment> attachments);
 
-// The tethers of a cloth by its present pins. Errors: no pin, a value out of range, no vertex that could be tethered.
-Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint32_t cloth, const Tethers& tethers);
+// The tethers of a cloth by its present pins; `index`: its slot. Errors: no pin, a value out of range.
+Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, uint32_t index, const Tethers& tethers);
 
-// The patches that cover all cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those of
-// cloths that use RK4 come first.
+// The patches that cover the active cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those
+// of cloths that use RK4 come first.
 struct Patches
 {
     std::vector<shared::Patch> patches;
     uint32_t rk4 = 0; // how many
+
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(patches.size()); }
 };
 Patches make_patches(const Model& model, uint32_t workgroup_size);
 
 // How many of them a grid or a mesh has.
 uint64_t count_grid_patches(uint32_t columns, uint32_t rows, uint32_t workgroup_size);
 uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size);
+uint64_t count_patches(const shared::ClothRecord& cloth, uint32_t workgroup_size);
 
 } // namespace voile

@@ -38,6 +38,12 @@ uint64_t count_grid_patches(uint32_t columns, uint32_t rows, uint32_t workgroup_
     return (columns + width - 1) / width * ((rows + height - 1) / height);
 }
 
+uint64_t count_patches(const shared::ClothRecord& cloth, uint32_t workgroup_size)
+{
+    return cloth.columns > 0 ? count_grid_patches(cloth.columns, cloth.rows, workgroup_size)
+                             : count_mesh_patches(cloth.vertices, workgroup_size);
+}
+
 uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size)
 {
     return (vertices + workgroup_size - 1) / workgroup_size;
@@ -48,16 +54,16 @@ Patches make_patches(const Model& model, uint32_t workgroup_size)
     Patches result;
     for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
     {
-        for (uint32_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        for (const auto [index, cloth] : model.cloths)
         {
-            const shared::ClothRecord& record = model.cloths[cloth].record;
-            if (model.cloths[cloth].integrator != integrator)
+            const shared::ClothRecord& record = cloth.record;
+            if (!is_active(cloth) || cloth.integrator != integrator)
                 continue;
             if (record.columns > 0)
-                add_tiles(record, cloth, workgroup_size, result.patches);
+                add_tiles(record, index, workgroup_size, result.patches);
             else
                 for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
-                    result.patches.push_back({cloth, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
+                    result.patches.push_back({index, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
         }
         if (integrator == Integrator::rk4)
             result.rk4 = static_cast<uint32_t>(result.patches.size());

@@ -15,6 +15,11 @@ uint64_t RangeAllocator::find(uint64_t count) const
     return range == free_.end() ? end_ : range->first;
 }
 
+uint64_t RangeAllocator::end_with(uint64_t count) const
+{
+    return std::max(end_, find(count) + count);
+}
+
 uint64_t RangeAllocator::allocate(uint64_t count)
 {
     const uint64_t first = find(count);

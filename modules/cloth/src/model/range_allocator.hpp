@@ -23,10 +23,13 @@ public:
     // Free entries below end().
     [[nodiscard]] uint64_t gaps() const { return gaps_; }
 
-    // Where allocate would put `count` entries, without taking them.
-    [[nodiscard]] uint64_t find(uint64_t count) const;
+    // What end() would be with `count` entries more.
+    [[nodiscard]] uint64_t end_with(uint64_t count) const;
 
 private:
+    // Where allocate puts `count` entries.
+    [[nodiscard]] uint64_t find(uint64_t count) const;
+
     std::map<uint64_t, uint64_t> free_; // entries by first entry; ranges neither touch each other nor end_
     uint64_t end_ = 0;
     uint64_t gaps_ = 0;

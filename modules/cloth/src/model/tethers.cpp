@@ -21,17 +21,17 @@ struct Surface
     std::vector<uint32_t> pins;
 };
 
-Surface make_surface(const Model& model, uint32_t cloth)
+Surface make_surface(const ClothModel& cloth)
 {
-    const shared::ClothRecord& record = model.cloths[cloth].record;
+    const shared::ClothRecord& record = cloth.record;
     Surface surface;
-    surface.triangles = cloth_triangles(model.cloths[cloth]);
+    surface.triangles = cloth_triangles(cloth);
     surface.places.reserve(record.vertices);
-    const glm::vec2 spacing = model.cloths[cloth].spacing;
+    const glm::vec2 spacing = cloth.spacing;
     for (uint32_t i = 0; i < record.vertices; ++i)
     {
         // A grid may start stretched by its transform; its shape at rest is flat.
-        const glm::vec3 start(model.cloths[cloth].start[i]);
+        const glm::vec3 start(cloth.start[i]);
         surface.places.emplace_back(record.columns > 0
                                         ? glm::vec3(static_cast<float>(i % record.columns) * spacing.x,
                                                     static_cast<float>(i / record.columns) * spacing.y, 0)
@@ -41,7 +41,7 @@ Surface make_surface(const Model& model, uint32_t cloth)
     for (uint32_t t = 0; t < surface.triangles.size(); ++t)
         for (int corner = 0; corner < 3; ++corner)
             surface.around[surface.triangles[t][corner]].push_back(t);
-    for (const Attachment& attachment : model.cloths[cloth].attachments)
+    for (const Attachment& attachment : cloth.attachments)
         if (std::isinf(attachment.stiffness))
             surface.pins.push_back(attachment.vertex);
     return surface;
@@ -164,16 +164,16 @@ void add_tether(shared::TetherRecord& record, uint32_t pin, float length)
 
 } // namespace
 
-Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint32_t cloth, const Tethers& tethers)
+Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, uint32_t index, const Tethers& tethers)
 {
-    const std::string& name = model.cloths[cloth].name;
+    const std::string& name = cloth.name;
     if (!(tethers.stretch >= 0 && tethers.stretch <= 10))
         return invalid("cloth", name,
                        "the tethers' stretch is " + std::to_string(tethers.stretch) + ", must be 0 to 10");
-    const Surface surface = make_surface(model, cloth);
+    const Surface surface = make_surface(cloth);
     if (surface.pins.empty())
         return invalid("cloth", name, "tethers need a pin, and it has none");
-    const uint32_t first = model.cloths[cloth].record.first_vertex;
+    const uint32_t first = cloth.record.first_vertex;
     std::vector<shared::TetherRecord> records(surface.places.size());
     for (const std::vector<uint32_t>& group : pin_groups(surface))
     {
@@ -188,7 +188,7 @@ Result<std::vector<shared::TetherRecord>> make_tethers(const Model& model, uint3
     for (uint32_t i = 0; i < records.size(); ++i)
     {
         records[i].vertex = first + i;
-        records[i].cloth = cloth;
+        records[i].cloth = index;
     }
     for (const uint32_t pin : surface.pins) // whatever other group it could hang from
         records[pin].count = 0;

@@ -24,7 +24,9 @@ namespace
 
 constexpr BufferDeclaration k_declarations[] = {
 #define VOILE_BUFFER(number, name, entry, count, meaning)                                                              \
-    {BufferKind::uploaded, number, #name, #entry, sizeof(entry), #count, meaning},
+    {BufferKind::kept, number, #name, #entry, sizeof(entry), #count, meaning},
+#define VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning)                                                      \
+    {BufferKind::scratch, number, #name, #entry, sizeof(entry), #count, meaning},
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning)                                                              \
     {BufferKind::solvers, number, #name, #entry, sizeof(entry), nullptr, meaning},
 #define VOILE_ROLE(number, name, entry, meaning)                                                                       \

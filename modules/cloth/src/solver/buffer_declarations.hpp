@@ -10,9 +10,10 @@ namespace voile
 
 enum class BufferKind
 {
-    uploaded, // made by each upload
-    solvers,  // outlives uploads
-    role,     // what a kernel calls one of the others
+    kept,    // allocated by uploads, copied over when it grows
+    scratch, // allocated by uploads; nothing in it outlives one
+    solvers, // uploads leave it alone
+    role,    // what a kernel calls one of the others
 };
 
 struct BufferDeclaration
@@ -22,7 +23,7 @@ struct BufferDeclaration
     const char* name = nullptr;
     const char* entry = nullptr; // the type of its entries
     uint32_t entry_bytes = 0;
-    const char* count = nullptr; // of entries, as it is written in buffers.h; null unless uploaded
+    const char* count = nullptr; // of entries, as it is written in buffers.h; null unless uploads allocate it
     const char* meaning = nullptr;
 };
 

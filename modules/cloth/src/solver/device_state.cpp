@@ -1,7 +1,12 @@
-// DeviceState: allocation.
+// DeviceState: allocation and growth.
 #include "solver/device_state.hpp"
 
-#include "solver/buffer_declarations.hpp"
+#include "colliders/collider_model.hpp"
+#include "model/range_allocator.hpp"
+
+#include "shared/collider_layout.h"
+
+#include <algorithm>
 
 namespace voile
 {
@@ -9,102 +14,129 @@ namespace voile
 namespace
 {
 
-// What the counts in buffers.h may name.
-struct BufferCounts
-{
-    const Model& model;
-    const ColliderModels& collider_models;
-    const UploadData& data;
-    size_t cloths;
-    size_t vertices;
-    size_t patches;
-    size_t colliders;
-    size_t deforming_vertices; // of one of the two copies
-    size_t near_stride;        // words per patch
-    size_t anchors;
-    size_t attachments;
-    size_t tethers;
-
-    // Entries of each buffer, by name.
-    [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const
-    {
-        std::array<uint64_t, buffer::k_numbers> entries{};
-#define VOILE_BUFFER(number, name, entry, count, meaning) entries[number] = (count);
-#include "shared/buffers.h"
-        return entries;
-    }
+constexpr uint64_t BufferCounts::*k_counts[] = {
+    &BufferCounts::cloths,        &BufferCounts::vertices,     &BufferCounts::patches,
+    &BufferCounts::mesh_vertices, &BufferCounts::springs,      &BufferCounts::corners,
+    &BufferCounts::colliders,     &BufferCounts::nodes,        &BufferCounts::triangles,
+    &BufferCounts::padded_leaves, &BufferCounts::padded_boxes, &BufferCounts::deforming_vertices,
+    &BufferCounts::near_words,    &BufferCounts::features,     &BufferCounts::feature_nodes,
+    &BufferCounts::anchors,       &BufferCounts::attachments,  &BufferCounts::tethers,
 };
+static_assert(sizeof(BufferCounts) == std::size(k_counts) * sizeof(uint64_t));
 
-Result<void> create_buffers(const gpu::Context& context, DeviceState& state, const BufferCounts& counts)
+bool fits(const BufferCounts& counts, uint64_t max_bytes)
+{
+    const auto entries = counts.entries();
+    return std::ranges::all_of(
+        buffer_declarations(), [&](const BufferDeclaration& declared)
+        { return declared.number >= entries.size() || entries[declared.number] * declared.entry_bytes <= max_bytes; });
+}
+
+// Room for what is needed; where something must grow, for half more than there was, if the device can bind that.
+BufferCounts grown(const BufferCounts& present, const BufferCounts& needed, uint64_t max_bytes)
+{
+    BufferCounts roomy = present;
+    BufferCounts exact = present;
+    for (uint64_t BufferCounts::*count : k_counts)
+    {
+        roomy.*count = grown_capacity(present.*count, needed.*count, UINT64_MAX);
+        exact.*count = std::max(present.*count, needed.*count);
+    }
+    return fits(roomy, max_bytes) ? roomy : exact;
+}
+
+// Words per patch of the lists of near colliders; none for a few colliders, nor where the lists would be too large.
+uint32_t near_stride(uint64_t colliders, const BufferCounts& capacities, uint64_t max_bytes)
+{
+    const auto stride = static_cast<uint32_t>(VOILE_NEAR_WORDS + (capacities.colliders + 31) / 32);
+    const bool fits = capacities.patches * stride * sizeof(uint32_t) <= max_bytes;
+    return colliders > VOILE_NEAR_FEW && fits ? stride : 0;
+}
+
+Result<gpu::Buffer> create(const gpu::Context& context, const BufferDeclaration& declared, uint64_t entries)
 {
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const auto entries = counts.entries();
+    const std::string name = std::string("cloth ") + declared.name;
+    return gpu::create_buffer(context, name.c_str(), entries * declared.entry_bytes, k_usage, Memory::device);
+}
+
+// The buffers that must be larger than they are.
+Result<void> create_buffers(const gpu::Context& context, const DeviceState* present, Growth& growth)
+{
+    const auto before = present != nullptr ? present->capacities.entries() : BufferCounts{}.entries();
+    const auto entries = growth.next.capacities.entries();
     for (const BufferDeclaration& declared : buffer_declarations())
     {
-        if (declared.kind != BufferKind::uploaded)
+        const uint32_t number = declared.number;
+        if (declared.kind != BufferKind::kept && declared.kind != BufferKind::scratch)
             continue;
-        const std::string name = std::string("cloth ") + declared.name;
-        auto created = gpu::create_buffer(context, name.c_str(), entries[declared.number] * declared.entry_bytes,
-                                          k_usage, Memory::device);
+        if (present != nullptr && entries[number] <= before[number])
+            continue;
+        auto created = create(context, declared, entries[number]);
         if (!created)
             return created.error();
-        state.buffers[declared.number] = std::move(created.value());
+        growth.next.buffers[number] = std::move(created.value());
+        growth.any = true;
+        if (declared.kind == BufferKind::kept && before[number] > 0)
+            growth.copies.push_back({present->buffers[number].handle(), growth.next.buffers[number].handle(),
+                                     before[number] * declared.entry_bytes});
     }
     return {};
 }
 
-// Words per patch of the lists of near colliders; none for a few colliders, nor where the lists would be too large.
-uint32_t near_stride(uint32_t colliders, uint32_t patches, uint64_t max_bytes)
-{
-    const uint32_t stride = VOILE_NEAR_WORDS + (colliders + 31) / 32;
-    const bool fits = uint64_t{patches} * stride * sizeof(uint32_t) <= max_bytes;
-    return colliders > VOILE_NEAR_FEW && fits ? stride : 0;
-}
-
 } // namespace
 
-Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                        const ColliderModels& colliders, const UploadData& data,
-                                        const gpu::Buffer& statistics)
+std::array<uint64_t, buffer::k_numbers> BufferCounts::entries() const
 {
-    DeviceState state;
-    state.vertices = model.vertices;
-    state.patch_count = static_cast<uint32_t>(data.patches.patches.size());
-    state.deforming_vertices = colliders.deforming_positions;
-    state.deforming_count = colliders.deforming.size();
-    state.rk4_patches = data.patches.rk4;
-    state.anchor_capacity = data.anchors;
-    state.attachment_capacity = data.attachments;
-    state.tether_capacity = data.tethers;
-    state.feature_count = static_cast<uint32_t>(data.features);
-    state.cloth_count = static_cast<uint32_t>(model.cloths.size());
-    state.collider_count = static_cast<uint32_t>(colliders.colliders.size());
-    state.near_stride = near_stride(state.collider_count, state.patch_count, model.limits.max_buffer_bytes);
-    const BufferCounts counts{.model = model,
-                              .collider_models = colliders,
-                              .data = data,
-                              .cloths = model.cloths.size(),
-                              .vertices = state.vertices,
-                              .patches = state.patch_count,
-                              .colliders = state.collider_count,
-                              .deforming_vertices = state.deforming_vertices / 2,
-                              .near_stride = state.near_stride,
-                              .anchors = data.anchors,
-                              .attachments = data.attachments,
-                              .tethers = data.tethers};
-    if (auto created = create_buffers(context, state, counts); !created)
+    std::array<uint64_t, buffer::k_numbers> entries{};
+#define VOILE_BUFFER(number, name, entry, count, meaning) entries[number] = (count);
+#include "shared/buffers.h"
+    return entries;
+}
+
+Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const DeviceState* present,
+                    const BufferCounts& needed, const gpu::Buffer& statistics)
+{
+    const BufferCounts capacities = present != nullptr ? present->capacities : BufferCounts{};
+    Growth growth;
+    DeviceState& next = growth.next;
+    next.capacities = grown(capacities, needed, context.max_buffer_bytes);
+    next.vertices = static_cast<uint32_t>(needed.vertices);
+    next.collider_count = static_cast<uint32_t>(needed.colliders);
+    next.near_stride = near_stride(needed.colliders, next.capacities, context.max_buffer_bytes);
+    next.capacities.near_words = std::max(capacities.near_words, next.capacities.patches * uint64_t{next.near_stride});
+    if (auto created = create_buffers(context, present, growth); !created)
         return created.error();
+    if (!growth.any)
+        return growth;
     BufferHandles handles{};
     for (size_t i = 0; i < handles.size(); ++i)
-        handles[i] = state.buffers[i].handle();
+        handles[i] = next.buffers[i] || present == nullptr ? next.buffers[i].handle() : present->buffers[i].handle();
     handles[buffer::statistics] = statistics.handle();
-    auto pool = write_sets(state.sets, context, kernels, handles);
+    auto pool = write_sets(next.sets, context, kernels, handles);
     if (!pool)
         return pool.error();
-    state.pool = std::move(pool.value());
-    return state;
+    next.pool = std::move(pool.value());
+    return growth;
+}
+
+DeviceState replace_grown(DeviceState& device, Growth growth)
+{
+    DeviceState& next = growth.next;
+    device.vertices = next.vertices;
+    device.near_stride = next.near_stride;
+    device.collider_count = next.collider_count;
+    if (!growth.any)
+        return {};
+    for (size_t i = 0; i < device.buffers.size(); ++i)
+        if (next.buffers[i])
+            std::swap(device.buffers[i], next.buffers[i]);
+    std::swap(device.pool, next.pool);
+    device.sets = next.sets;
+    device.capacities = next.capacities;
+    return std::move(next);
 }
 
 } // namespace voile

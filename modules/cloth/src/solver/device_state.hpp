@@ -1,8 +1,7 @@
-// DeviceState: the buffers of a solver at its present size, and the descriptor sets that bind them.
+// DeviceState: the buffers of a solver at their present capacity, and the descriptor sets that bind them.
 #pragma once
 
-#include "colliders/collider_model.hpp"
-#include "model/model.hpp"
+#include "solver/buffer_declarations.hpp"
 #include "solver/descriptor_sets.hpp"
 #include "solver/state_buffers.hpp"
 
@@ -12,6 +11,8 @@
 #include "voile/gpu/buffer.hpp"
 
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace voile
 {
@@ -28,46 +29,70 @@ constexpr VkDeviceSize scales_bytes(size_t cloths)
     return cloths * sizeof(shared::LimitScale);
 }
 
+// Entries that the solver's arrays need, or have room for. Counts in buffers.h are expressions over these.
+struct BufferCounts
+{
+    uint64_t cloths = 0;
+    uint64_t vertices = 0;
+    uint64_t patches = 0;
+    uint64_t mesh_vertices = 0;
+    uint64_t springs = 0;
+    uint64_t corners = 0;
+    uint64_t colliders = 0;
+    uint64_t nodes = 0;
+    uint64_t triangles = 0;
+    uint64_t deforming_vertices = 0; // of one of the two copies
+    uint64_t padded_leaves = 0;
+    uint64_t padded_boxes = 0;
+    uint64_t near_words = 0; // of all patches
+    uint64_t feature_nodes = 0;
+    uint64_t features = 0;
+    uint64_t anchors = 0;
+    uint64_t attachments = 0;
+    uint64_t tethers = 0;
+
+    // Entries of each buffer, by name.
+    [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
+};
+
 // Everything is allocated, and every set written, when it is made.
 struct DeviceState
 {
-    std::array<gpu::Buffer, buffer::k_numbers> buffers; // by name; those of uploads (VOILE_BUFFER in buffers.h)
+    std::array<gpu::Buffer, buffer::k_numbers> buffers; // by name; those that uploads allocate
     gpu::BindingPool pool;
     DescriptorSets sets;
+    BufferCounts capacities;
+    uint32_t vertices = 0;       // that the last upload left in use, with gaps
+    uint32_t near_stride = 0;    // words per patch of near_colliders; 0: there are few colliders, and no lists
+    uint32_t collider_count = 0; // records that are written; those of removed colliders meet no cloth
 
-    uint32_t vertices = 0;
-    size_t deforming_vertices = 0;
-    size_t deforming_count = 0; // meshes that deform, the first ones of the model
-    uint32_t patch_count = 0;
-    uint32_t rk4_patches = 0; // the first ones
-    uint32_t cloth_count = 0; // of the model's, the first ones
-    uint32_t collider_count = 0;
-    uint32_t near_stride = 0; // words per patch of near_colliders; 0: there are few colliders, and no lists
-    uint32_t feature_count = 0;
-    uint32_t anchor_capacity = 0;
-    uint32_t attachment_capacity = 0;
-    uint32_t tether_capacity = 0;
+    uint32_t patch_count = 0; // that stand in the buffer of patches
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }
 };
 
-// What an upload puts into the buffers beside the models' own arrays.
-struct UploadData
+// A copy of a buffer's contents into the larger one that replaces it.
+struct GrowthCopy
 {
-    Patches patches;
-    size_t springs = 0;                           // of all meshes, as they are uploaded
-    size_t corners = 0;                           // likewise
-    std::vector<shared::FeatureSet> feature_sets; // of all colliders
-    size_t features = 0;
-    size_t feature_nodes = 0;
-    uint32_t anchors = 0; // room for as many
-    uint32_t attachments = 0;
-    uint32_t tethers = 0;
+    VkBuffer from;
+    VkBuffer to;
+    VkDeviceSize bytes;
 };
 
-// `statistics`: where the reduction writes, one record a slot.
-Result<DeviceState> create_device_state(const gpu::Context& context, const Kernels& kernels, const Model& model,
-                                        const ColliderModels& colliders, const UploadData& data,
-                                        const gpu::Buffer& statistics);
+// The buffers that replace those of `present` which are too small, each by half larger at least, and sets that bind
+// them. What is not replaced is null here and stays.
+struct Growth
+{
+    DeviceState next;
+    std::vector<GrowthCopy> copies;
+    bool any = false; // else only the counts of `next` are of use
+};
+
+// Nothing changes on an error: out of memory, beyond the device's limits. `statistics`: where the reduction writes.
+Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const DeviceState* present,
+                    const BufferCounts& needed, const gpu::Buffer& statistics);
+
+// Takes what grew into `device`, and returns what was replaced.
+DeviceState replace_grown(DeviceState& device, Growth growth);
 
 } // namespace voile

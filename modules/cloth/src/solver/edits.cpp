@@ -2,7 +2,6 @@
 #include "solver/solver_state.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace voile
@@ -15,8 +14,6 @@ constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADE
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
-constexpr uint32_t k_recovering_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
-
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values)
 {
@@ -27,25 +24,43 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values)
 void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const DeviceState& device = *solver.device;
-    const size_t count = std::min<size_t>(solver.anchors.size(), device.anchor_capacity);
-    for (size_t i = 0; i < count; ++i)
+    for (const auto [index, anchor] : solver.model.anchors)
     {
-        const shared::AnchorRecord record = make_record(solver.anchors[i]);
-        recorder.update(device[buffer::anchors].handle(), i * sizeof(record), std::as_bytes(std::span(&record, 1)));
+        if (index >= device.capacities.anchors)
+            return;
+        const shared::AnchorRecord record = make_record(anchor);
+        recorder.update(device[buffer::anchors].handle(), index * sizeof(record), std::as_bytes(std::span(&record, 1)));
     }
 }
 
-void update_colliders(gpu::Recorder& recorder, const Solver::State& solver)
+void update_motions(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    for (const auto [index, collider] : solver.collider_models.colliders)
+    {
+        if (!collider.uploaded || !is_moving(collider.record))
+            continue;
+        const shared::ColliderMotion motion = make_motion(collider);
+        recorder.update((*solver.device)[buffer::collider_motions].handle(), index * sizeof(motion),
+                        std::as_bytes(std::span(&motion, 1)));
+    }
+}
+
+void update_records(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const DeviceState& device = *solver.device;
-    for (uint32_t i = 0; i < device.collider_count; ++i)
+    for (const uint32_t index : solver.edits.records)
+        if (const ClothModel* cloth = solver.model.cloths.at(index); cloth != nullptr && cloth->uploaded)
+            recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
+                            std::as_bytes(std::span(&cloth->record, 1)));
+    for (const uint32_t index : solver.edits.colliders)
     {
-        if (!is_moving(solver.collider_models.colliders[i].record))
+        if (index >= device.collider_count)
             continue;
-        const shared::ColliderMotion motion =
-            make_motion(solver.collider_models, i, solver.colliders[i], solver.deformations);
-        recorder.update(device[buffer::collider_motions].handle(), i * sizeof(motion),
-                        std::as_bytes(std::span(&motion, 1)));
+        const ColliderModel* collider = solver.collider_models.colliders.at(index);
+        const shared::ColliderRecord record =
+            collider != nullptr && collider->uploaded ? shown_record(*collider) : shared::ColliderRecord{};
+        recorder.update(device[buffer::colliders].handle(), index * sizeof(record),
+                        std::as_bytes(std::span(&record, 1)));
     }
 }
 
@@ -56,25 +71,20 @@ struct Moved
     bool colliders = false;
 };
 
-void update_buffers(gpu::Recorder& recorder, const Solver::State& solver, const Moved& moved)
+void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved& moved)
 {
     const DeviceState& device = *solver.device;
-    for (const uint32_t cloth : solver.edits.records)
-        if (cloth < device.cloth_count)
-            recorder.update(device[buffer::cloths].handle(), cloth * sizeof(shared::ClothRecord),
-                            std::as_bytes(std::span(&solver.model.cloths[cloth].record, 1)));
-    if (solver.edits.attachments && !solver.dirty)
+    update_records(recorder, solver);
+    if (solver.edits.patches)
+        record_patches(recorder, solver);
+    if (solver.edits.attachments && solver.attachments_fit())
         recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.attachment_lists.attachments));
-    if (solver.edits.tethers && !solver.dirty)
+    if (solver.edits.tethers && solver.tethers_fit())
         recorder.update(device[buffer::tethers].handle(), 0, bytes_of(solver.attachment_lists.tethers));
-    for (const uint32_t collider : solver.edits.colliders)
-        if (collider < device.collider_count)
-            recorder.update(device[buffer::colliders].handle(), collider * sizeof(shared::ColliderRecord),
-                            std::as_bytes(std::span(&solver.collider_models.colliders[collider].record, 1)));
     if (moved.anchors)
         update_anchors(recorder, solver);
     if (moved.colliders)
-        update_colliders(recorder, solver);
+        update_motions(recorder, solver);
 }
 
 // m, at most: how far a pose takes what lies within `radius` of `center`.
@@ -91,18 +101,73 @@ float way_of(const glm::mat4& from, const glm::mat4& to, const glm::dvec3& cente
 float farthest_motion(const Solver::State& solver)
 {
     float farthest = 0;
-    for (const Anchor& anchor : solver.anchors)
+    for (const auto [index, anchor] : solver.model.anchors)
         farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::dvec3(0), 1));
-    for (size_t i = 0; i < solver.colliders.size(); ++i)
+    for (const auto [index, collider] : solver.collider_models.colliders)
     {
-        const ColliderPose& pose = solver.colliders[i];
-        const shared::ColliderRecord& record = solver.collider_models.colliders[i].record;
+        const shared::ColliderRecord& record = collider.record;
         const bool has_box = record.kind == VOILE_COLLIDER_MESH;
-        const glm::dvec3 center = has_box ? solver.collider_models.colliders[i].origin : glm::dvec3(0);
+        const glm::dvec3 center = has_box ? collider.origin : glm::dvec3(0);
         const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
-        farthest = std::max(farthest, way_of(pose.from, pose.to, center, radius));
+        farthest = std::max(farthest, way_of(collider.pose.from, collider.pose.to, center, radius));
     }
     return farthest;
+}
+
+bool is_uploaded(const Solver::State& solver, const shared::EditPush& edit)
+{
+    const ClothModel* cloth = solver.model.cloths.at(edit.cloth);
+    return cloth != nullptr && cloth->uploaded;
+}
+
+Moved find_moved(const Solver::State& solver)
+{
+    Moved moved;
+    for (const auto [index, anchor] : solver.model.anchors)
+        moved.anchors |= anchor.from != anchor.to;
+    for (const auto [index, collider] : solver.collider_models.colliders)
+        moved.colliders |= collider.pose.from != collider.pose.to ||
+                           (collider.uploaded && collider.deforming && collider.deforming->due);
+    return moved;
+}
+
+bool refit_due(const Solver::State& solver)
+{
+    for (const auto [index, collider] : solver.collider_models.colliders)
+        if (collider.uploaded && collider.deforming && collider.deforming->refit_due)
+            return true;
+    return false;
+}
+
+// What moved rests at its end, unless it is moved again.
+void finish_motions(Solver::State& solver)
+{
+    for (auto [index, anchor] : solver.model.anchors)
+        anchor.from = anchor.to;
+    for (auto [index, collider] : solver.collider_models.colliders)
+        collider.pose.from = collider.pose.to;
+}
+
+void finish_edits(Solver::State& solver)
+{
+    Edits& edits = solver.edits;
+    edits.records.clear();
+    edits.colliders.clear();
+    edits.pins = edits.candidates = false;
+    edits.attachments = edits.attachments && !solver.attachments_fit();
+    edits.tethers = edits.tethers && !solver.tethers_fit();
+}
+
+// The edits of uploaded cloths. Returns how many there were.
+size_t record_places(gpu::Recorder& recorder, Solver::State& solver)
+{
+    const auto uploaded = [&](const shared::EditPush& edit) { return is_uploaded(solver, edit); };
+    for (const shared::EditPush& edit : solver.edits.places)
+        if (uploaded(edit))
+            recorder.dispatch(solver.kernels.edit, solver.device->sets.edit,
+                              solver.model.cloths.at(edit.cloth)->record.vertices, solver.options.tuning.workgroup_size,
+                              edit);
+    return std::erase_if(solver.edits.places, uploaded);
 }
 
 } // namespace
@@ -113,70 +178,26 @@ shared::AnchorRecord make_record(const Anchor& anchor)
     return {anchor.from, anchor.to, motion};
 }
 
+void Edits::forget(ClothId cloth)
+{
+    std::erase(records, cloth.index);
+    std::erase_if(places, [&](const shared::EditPush& edit) { return edit.cloth == cloth.index; });
+}
+
 bool Solver::State::changes_due() const
 {
-    const bool lists = !dirty && (edits.attachments || edits.tethers);
-    return lists || edits.pins || !edits.records.empty() || !edits.colliders.empty() ||
-           std::any_of(edits.places.begin(), edits.places.end(),
-                       [&](const shared::EditPush& edit) { return edit.cloth < device->cloth_count; });
+    const bool lists = (edits.attachments && attachments_fit()) || (edits.tethers && tethers_fit());
+    return lists || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
+           !edits.colliders.empty() ||
+           std::ranges::any_of(edits.places, [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });
 }
 
-bool Solver::State::fits() const
+void record_patches(gpu::Recorder& recorder, Solver::State& solver)
 {
-    return device && anchors.size() <= device->anchor_capacity &&
-           attachment_lists.attachments.size() <= device->attachment_capacity &&
-           attachment_lists.tethers.size() <= device->tether_capacity;
-}
-
-void Solver::State::update_attachments()
-{
-    edits.attachments = edits.tethers = edits.pins = true;
-    if (dirty)
-        return; // the next upload makes the lists: once, however many cloths are added before it
-    attachment_lists = make_attachment_lists(model);
-    if (!fits())
-        dirty = true;
-    update_passes();
-}
-
-void Solver::State::update_passes()
-{
-    if (!device)
-        return;
-    if (!dirty) // else the lists in the buffers are those of before
-    {
-        passes.pins = attachment_lists.pins;
-        passes.attachments = static_cast<uint32_t>(attachment_lists.attachments.size()) - attachment_lists.pins;
-        passes.tethers = static_cast<uint32_t>(attachment_lists.tethers.size());
-    }
-    const std::span present = std::span(collider_models.colliders).first(device->collider_count);
-    const auto any_collider = [&](auto&& predicate)
-    { return std::ranges::any_of(present, predicate, &ColliderModel::record); };
-    passes.moving = any_collider(is_moving);
-    passes.convex =
-        any_collider([](const auto& collider)
-                     { return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE; });
-    passes.mesh_extent = 0;
-    for (const ColliderModel& collider : present)
-        passes.mesh_extent = std::max(passes.mesh_extent, collider.record.extent);
-    passes.features = device->feature_count > 0;
-    passes.recover =
-        options.recovery &&
-        (passes.convex || any_collider([](const auto& collider)
-                                       { return (collider.flags & k_recovering_flags) == k_recovering_flags; }));
-    passes.strain_spacing = 0;
-    for (const ClothModel& cloth : std::span(model.cloths).first(device->cloth_count))
-    {
-        const shared::ClothRecord& record = cloth.record;
-        if (record.strain_limit == 0)
-            continue;
-        // Half of the longer side and less; a mesh has as many passes as a grid of its size.
-        const uint32_t side = record.columns > 0
-                                  ? std::max(record.columns, record.rows)
-                                  : static_cast<uint32_t>(std::sqrt(static_cast<double>(record.vertices)));
-        passes.strain_spacing = std::max(passes.strain_spacing, std::bit_floor(std::max(side / 2, 1u)));
-    }
-    passes.commit = !present.empty() || passes.attachments > 0 || passes.tethers > 0 || passes.strain_spacing > 0;
+    DeviceState& device = *solver.device;
+    recorder.update(device[buffer::patches].handle(), 0, bytes_of(solver.patches.patches));
+    device.patch_count = static_cast<uint32_t>(solver.patches.patches.size());
+    solver.edits.patches = false;
 }
 
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
@@ -184,15 +205,10 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (solver.passes.features)
         solver.farthest_motion = farthest_motion(solver);
     const DeviceState& device = *solver.device;
-    const uint32_t group = solver.options.tuning.workgroup_size;
-    const auto moves = [](const auto& poses)
-    { return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.from != pose.to; }); };
-    const bool deforms = std::ranges::any_of(std::span(solver.deformations).first(device.deforming_count),
-                                             [](const Deformation& deformation) { return deformation.due; });
-    const Moved now{moves(solver.anchors), moves(solver.colliders) || deforms};
+    const Moved now = find_moved(solver);
     // Anchors that came to rest leave their pins with the velocity of the last step, colliders their surfaces.
     const Moved due{now.anchors || solver.anchors_moved || solver.edits.pins,
-                    now.colliders || solver.colliders_moved || solver.refit_due || !solver.edits.colliders.empty()};
+                    now.colliders || solver.colliders_moved || refit_due(solver) || !solver.edits.colliders.empty()};
     if (!due.anchors && !due.colliders && !solver.changes_due())
         return;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
@@ -203,28 +219,19 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     record_deforming_input(recorder, solver);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
+    if (solver.edits.candidates)
+        forget_candidates(recorder, device);
     record_deforming_passes(recorder, solver);
-    const auto uploaded = [&](const shared::EditPush& edit) { return edit.cloth < device.cloth_count; };
-    for (const shared::EditPush& edit : solver.edits.places)
-        if (uploaded(edit))
-            recorder.dispatch(solver.kernels.edit, device.sets.edit, solver.model.cloths[edit.cloth].record.vertices,
-                              group, edit);
-    const size_t edited = std::erase_if(solver.edits.places, uploaded);
+    const size_t edited = record_places(recorder, solver);
     if (due.anchors || edited > 0)
-        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins, group,
+        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins,
+                          solver.options.tuning.workgroup_size,
                           shared::AttachmentPush{0, solver.passes.pins, step.duration, 0, 0});
     solver.history.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
-    for (Anchor& anchor : solver.anchors)
-        anchor.from = anchor.to;
-    for (ColliderPose& pose : solver.colliders)
-        pose.from = pose.to;
-    solver.edits.records.clear();
-    solver.edits.colliders.clear();
-    solver.edits.pins = false;
-    if (!solver.dirty)
-        solver.edits.attachments = solver.edits.tethers = false;
+    finish_motions(solver);
+    finish_edits(solver);
 }
 
 } // namespace voile

@@ -41,12 +41,11 @@ BoundingBox placed(const BoundingBox& box, const glm::mat4& placement)
 
 std::vector<BoundingBox> Solver::hierarchy_boxes(ColliderId collider, uint32_t level) const
 {
-    if (!state_->has(collider))
+    const ColliderModel* found = state_->find(collider);
+    if (found == nullptr || !found->hierarchy)
         return {};
-    const ColliderModel& model = state_->collider_models.colliders[collider.index];
+    const ColliderModel& model = *found;
     const shared::ColliderRecord& record = model.record;
-    if (!model.hierarchy)
-        return {};
     std::vector<BoundingBox> boxes;
     if (level == 0)
         boxes.push_back({record.box_min, record.box_max});

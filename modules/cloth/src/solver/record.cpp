@@ -49,7 +49,7 @@ uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, St
 void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const uint32_t group = solver.options.tuning.workgroup_size;
-    recorder.dispatch(solver.kernels.normals, solver.device->sets.normals, solver.device->patch_count * group, group,
+    recorder.dispatch(solver.kernels.normals, solver.device->sets.normals, solver.patches.count() * group, group,
                       std::span<const std::byte>{});
 }
 
@@ -70,11 +70,11 @@ void record_recovery(gpu::Recorder& recorder, const Solver::State& solver, StepH
     const bool all = std::exchange(history.recovery_due, false) || solver.passes.moving || periodic;
     const size_t now = history.recovery_step++ % 2;
     const size_t next = history.recovery_step % 2;
-    const shared::RecoverPush push{step.duration, device.collider_count, device.near_stride, recovery_word(next)};
+    const shared::RecoverPush push{step.duration, solver.passes.colliders, device.near_stride, recovery_word(next)};
     const VkBuffer depenetrations = device[buffer::depenetrations].handle();
     clear_dispatch(recorder, depenetrations, recovery_word(next), 1, device[k_recovery_votes[next]].handle());
     if (all)
-        recorder.dispatch(kernel, device.sets.recover[next], device.patch_count * group, group, push);
+        recorder.dispatch(kernel, device.sets.recover[next], solver.patches.count() * group, group, push);
     else
         recorder.dispatch_indirect(kernel, device.sets.recover[next], depenetrations,
                                    recovery_word(now) * sizeof(uint32_t), push);
@@ -149,13 +149,14 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
 {
     if (auto valid = validate(step); !valid)
         return valid;
-    if (!state_->device || state_->device->patch_count == 0)
+    if (!state_->device || (state_->device->patch_count == 0 && !state_->edits.patches))
         return {};
     state_->lifetime.begin(recorder.cmd());
     begin_scope(recorder, state_->options);
     state_->history.recovery_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
-    record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));
+    if (state_->patches.count() > 0)
+        record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
     return {};
@@ -175,7 +176,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
     state_->lifetime.begin(cmd);
     begin_scope(recorder, state_->options);
     recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
-                      shared::StatisticsPush{device.collider_count, device.near_stride});
+                      shared::StatisticsPush{state_->passes.colliders, device.near_stride});
     recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,
                       shared::StatisticsReducePush{device.patch_count, slot});
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
@@ -186,7 +187,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
 
 uint32_t Solver::dispatches(const Step& step) const
 {
-    if (!state_->device || state_->device->patch_count == 0 || !validate(step))
+    if (!state_->device || state_->patches.count() == 0 || !validate(step))
         return 0;
     gpu::Recorder dry(state_->context);
     StepHistory history = state_->history;

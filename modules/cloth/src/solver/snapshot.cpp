@@ -11,9 +11,9 @@ namespace voile
 
 struct Snapshot::Contents
 {
-    gpu::Buffer buffer; // one region after the other, then the recovery's step
-    uint32_t vertices = 0;
-    uint32_t cloths = 0;
+    gpu::Buffer buffer; // one stream after the other, then the recovery's step
+    std::vector<ClothId> cloths;
+    uint32_t vertices = 0;      // of these
     uint32_t recovery_step = 0; // modulo its period
     bool filled = false;
 };
@@ -68,7 +68,7 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
     if (bytes.size() != mapped.size())
         return Error{"snapshot: " + std::to_string(bytes.size()) + " bytes, this solver's state has " +
                      std::to_string(mapped.size())};
-    if (auto finite = check_finite(bytes, contents_->vertices, contents_->cloths); !finite)
+    if (auto finite = check_finite(bytes, contents_->vertices, contents_->cloths.size()); !finite)
         return finite;
     std::copy(bytes.begin(), bytes.end(), mapped.begin());
     contents_->buffer.flush();
@@ -81,33 +81,79 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
 namespace
 {
 
-// The start of a buffer.
-struct Region
+// A stream of the state: what one cloth has of it.
+struct Stream
 {
-    VkBuffer buffer;
-    VkDeviceSize bytes;
+    buffer::Name buffer;
+    VkDeviceSize bytes; // per vertex, or per cloth
+    bool per_vertex;
 };
 
 // The streams of all vertices, and what recovery and the strain limit remember from one step to the next.
-std::array<Region, 6> regions_of(const DeviceState& device, uint32_t recovery_step)
+std::array<Stream, 6> streams_of(uint32_t recovery_step)
 {
-    const auto stream = [&](const gpu::Buffer& buffer, size_t bytes_per_vertex) {
-        return Region{buffer.handle(), bytes_per_vertex * device.vertices};
-    };
-    return {stream(device[buffer::positions], sizeof(glm::vec4)),
-            stream(device[buffer::residuals], sizeof(glm::uvec2)),
-            stream(device[buffer::velocities], sizeof(glm::vec4)),
-            stream(device[buffer::normals], sizeof(glm::vec4)),
-            Region{device[k_recovery_votes[recovery_step % 2]].handle(), votes_bytes(device.cloth_count)},
-            Region{device[buffer::limit_scales].handle(), scales_bytes(device.cloth_count)}};
+    return {{{buffer::positions, sizeof(glm::vec4), true},
+             {buffer::residuals, sizeof(glm::uvec2), true},
+             {buffer::velocities, sizeof(glm::vec4), true},
+             {buffer::normals, sizeof(glm::vec4), true},
+             {k_recovery_votes[recovery_step % 2], votes_bytes(1), false},
+             {buffer::limit_scales, scales_bytes(1), false}}};
 }
 
-VkDeviceSize total_bytes(const DeviceState& device)
+// A part of the snapshot, and where it is on the device.
+struct Region
+{
+    VkBuffer buffer;
+    VkDeviceSize offset;          // bytes
+    VkDeviceSize snapshot_offset; // bytes
+    VkDeviceSize bytes;
+};
+
+// Stream by stream, and cloth by cloth; neighbors are one region.
+std::vector<Region> regions_of(const Solver::State& solver, std::span<const ClothId> cloths, uint32_t recovery_step)
+{
+    std::vector<Region> regions;
+    VkDeviceSize end = 0;
+    for (const Stream& stream : streams_of(recovery_step))
+        for (const ClothId id : cloths)
+        {
+            const shared::ClothRecord& record = solver.find(id)->record;
+            const VkBuffer buffer = (*solver.device)[stream.buffer].handle();
+            const VkDeviceSize offset = stream.bytes * (stream.per_vertex ? record.first_vertex : id.index);
+            const VkDeviceSize bytes = stream.bytes * (stream.per_vertex ? record.vertices : 1);
+            if (!regions.empty() && regions.back().buffer == buffer &&
+                regions.back().offset + regions.back().bytes == offset)
+                regions.back().bytes += bytes;
+            else
+                regions.push_back({buffer, offset, end, bytes});
+            end += bytes;
+        }
+    return regions;
+}
+
+VkDeviceSize total_bytes(uint32_t vertices, size_t cloths)
 {
     VkDeviceSize bytes = sizeof(uint32_t);
-    for (const Region& region : regions_of(device, 0))
-        bytes += region.bytes;
+    for (const Stream& stream : streams_of(0))
+        bytes += stream.bytes * (stream.per_vertex ? vertices : cloths);
     return bytes;
+}
+
+std::vector<ClothId> uploaded_cloths(const Model& model)
+{
+    std::vector<ClothId> ids;
+    for (const auto [index, cloth] : model.cloths)
+        if (cloth.uploaded)
+            ids.push_back(model.cloths.id_at(index));
+    return ids;
+}
+
+// Errors: cloths were uploaded or removed since the snapshot was made.
+Result<void> check_cloths(const Solver::State& solver, std::span<const ClothId> cloths)
+{
+    if (std::ranges::equal(uploaded_cloths(solver.model), cloths))
+        return {};
+    return Error{"snapshot: it was made for other cloths: some were uploaded or removed since"};
 }
 
 // Copies wait for compute, the host's stages and earlier copies; what follows waits for them.
@@ -131,13 +177,14 @@ void barrier(const gpu::Context& context, const SolverOptions& options, VkComman
 
 Result<Snapshot> Solver::create_snapshot() const
 {
-    if (!state_->device || state_->device->vertices == 0)
-        return Error{"snapshot: nothing has been uploaded yet"};
     auto contents = std::make_unique<Snapshot::Contents>();
-    contents->vertices = state_->device->vertices;
-    contents->cloths = state_->device->cloth_count;
+    contents->cloths = uploaded_cloths(state_->model);
+    if (contents->cloths.empty())
+        return Error{"snapshot: nothing has been uploaded yet"};
+    for (const ClothId cloth : contents->cloths)
+        contents->vertices += state_->find(cloth)->record.vertices;
     auto buffer =
-        gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(*state_->device),
+        gpu::create_buffer(state_->context, "cloth snapshot", total_bytes(contents->vertices, contents->cloths.size()),
                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::readback);
     if (!buffer)
         return buffer.error();
@@ -147,23 +194,22 @@ Result<Snapshot> Solver::create_snapshot() const
 
 Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const
 {
-    const uint32_t vertices = snapshot.contents_->vertices;
-    if (!state_->device || state_->device->vertices != vertices)
-        return Error{"snapshot: it was made for another number of vertices"};
+    if (auto same = check_cloths(*state_, snapshot.contents_->cloths); !same)
+        return same;
     const uint32_t step = state_->history.recovery_step % k_recovery_period;
     const VkBuffer buffer = snapshot.contents_->buffer.handle();
     snapshot.contents_->filled = true;
     snapshot.contents_->recovery_step = step;
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
-    VkDeviceSize offset = 0;
-    for (const Region& region : regions_of(*state_->device, step))
+    VkDeviceSize end = 0;
+    for (const Region& region : regions_of(*state_, snapshot.contents_->cloths, step))
     {
-        const VkBufferCopy copy{0, offset, region.bytes};
+        const VkBufferCopy copy{region.offset, region.snapshot_offset, region.bytes};
         state_->context.fn.vkCmdCopyBuffer(cmd, region.buffer, buffer, 1, &copy);
-        offset += region.bytes;
+        end = region.snapshot_offset + region.bytes;
     }
-    state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, offset, sizeof(step), &step);
+    state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, end, sizeof(step), &step);
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
     state_->history.recovery_due = true; // as after restoring: both go on alike
@@ -172,19 +218,16 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
 
 Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapshot)
 {
-    const uint32_t vertices = snapshot.contents_->vertices;
-    if (!state_->device || state_->device->vertices != vertices)
-        return Error{"snapshot: it was made for another number of vertices"};
+    if (auto same = check_cloths(*state_, snapshot.contents_->cloths); !same)
+        return same;
     if (!snapshot.contents_->filled)
         return Error{"snapshot: nothing was saved in it"};
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
-    VkDeviceSize offset = 0;
-    for (const Region& region : regions_of(*state_->device, snapshot.contents_->recovery_step))
+    for (const Region& region : regions_of(*state_, snapshot.contents_->cloths, snapshot.contents_->recovery_step))
     {
-        const VkBufferCopy copy{offset, 0, region.bytes};
+        const VkBufferCopy copy{region.snapshot_offset, region.offset, region.bytes};
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
-        offset += region.bytes;
     }
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);

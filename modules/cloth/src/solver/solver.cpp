@@ -124,7 +124,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
 Result<ClothId> Solver::add_cloth(const GridCloth& grid)
 {
     constexpr uint64_t k_bytes_a_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
-    const uint64_t bytes = (state_->model.vertices + uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
+    const uint64_t bytes = state_->model.vertices.end_with(uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
     if (auto room = check_room(state_->model.limits, "cloth", grid.name,
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
         !room)
@@ -133,8 +133,7 @@ Result<ClothId> Solver::add_cloth(const GridCloth& grid)
     if (auto dispatch = state_->check_patches(grid.name, patches); !dispatch)
         return dispatch.error();
     auto result = state_->model.add(grid);
-    if (result)
-        state_->added(patches);
+    state_->dirty |= result.has_value();
     return result;
 }
 
@@ -144,7 +143,7 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_a_vertex = 256;
     const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
-    const uint64_t bytes = (state_->model.mesh_vertices + vertices) * k_bytes_a_vertex;
+    const uint64_t bytes = state_->model.lists.end_with(k_list_vertices, vertices) * k_bytes_a_vertex;
     if (auto room = check_room(state_->model.limits, "cloth", mesh.name, std::to_string(vertices) + " vertices", bytes);
         !room)
         return room.error();
@@ -152,8 +151,7 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
     if (auto dispatch = state_->check_patches(mesh.name, patches); !dispatch)
         return dispatch.error();
     auto result = state_->model.add(mesh);
-    if (result)
-        state_->added(patches);
+    state_->dirty |= result.has_value();
     return result;
 }
 
@@ -161,12 +159,7 @@ Result<ColliderId> Solver::add_collider(const Collider& collider)
 {
     const JobScope scope(state_->options.jobs);
     auto result = std::visit([&](const auto& shape) { return state_->collider_models.add(shape); }, collider);
-    if (result)
-    {
-        state_->colliders.emplace_back();
-        state_->deformations.resize(state_->collider_models.deforming.size());
-        state_->dirty = true;
-    }
+    state_->dirty |= result.has_value();
     return result;
 }
 
@@ -201,17 +194,19 @@ uint32_t Solver::stable_substeps(float duration, uint32_t max_substeps) const
     if (!validate(Step{.duration = duration}))
         return 0;
     uint32_t substeps = 1;
-    for (const ClothModel& cloth : state_->model.cloths)
-        substeps = std::max(substeps, voile::stable_substeps(cloth.record, static_cast<double>(duration)));
+    for (const auto [index, cloth] : state_->model.cloths)
+        if (cloth.enabled)
+            substeps = std::max(substeps, voile::stable_substeps(cloth.record, static_cast<double>(duration)));
     return std::min(substeps, std::max(max_substeps, 1u));
 }
 
 Stability Solver::stability(ClothId cloth, const Step& step) const
 {
     Stability result;
-    if (!state_->has(cloth) || !validate(step))
+    const ClothModel* model = state_->find(cloth);
+    if (model == nullptr || !validate(step))
         return result;
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
+    const shared::ClothRecord& record = model->record;
     result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
     const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
@@ -224,10 +219,11 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
 VertexStreams Solver::vertices(ClothId cloth) const
 {
     VertexStreams streams;
-    if (!state_->device || cloth.index >= state_->device->cloth_count)
+    const ClothModel* model = state_->find(cloth);
+    if (model == nullptr || !model->uploaded)
         return streams;
     const DeviceState& device = *state_->device;
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
+    const shared::ClothRecord& record = model->record;
     streams.positions = device[buffer::positions].handle();
     streams.velocities = device[buffer::velocities].handle();
     streams.normals = device[buffer::normals].handle();
@@ -238,17 +234,19 @@ VertexStreams Solver::vertices(ClothId cloth) const
 
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
-    return state_->has(cloth) ? cloth_triangles(state_->model.cloths[cloth.index]) : std::vector<glm::uvec3>{};
+    const ClothModel* model = state_->find(cloth);
+    return model != nullptr ? cloth_triangles(*model) : std::vector<glm::uvec3>{};
 }
 
 std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
 {
-    if (!state_->has(cloth))
+    const ClothModel* found = state_->find(cloth);
+    if (found == nullptr)
         return {};
-    const ClothModel& model = state_->model.cloths[cloth.index];
+    const ClothModel& model = *found;
     if (model.mesh)
         return {model.mesh->texture_coordinates.begin(), model.mesh->texture_coordinates.end()};
-    const shared::ClothRecord& record = state_->model.cloths[cloth.index].record;
+    const shared::ClothRecord& record = model.record;
     std::vector<glm::vec2> result;
     result.reserve(record.vertices);
     for (uint32_t row = 0; row < record.rows; ++row)
@@ -261,15 +259,14 @@ std::vector<glm::vec2> Solver::texture_coordinates(ClothId cloth) const
 const std::string& Solver::name(ClothId cloth) const
 {
     static const std::string k_none;
-    return state_->has(cloth) ? state_->model.cloths[cloth.index].name : k_none;
+    const ClothModel* model = state_->find(cloth);
+    return model != nullptr ? model->name : k_none;
 }
 
 MeshReport Solver::mesh_report(ClothId cloth) const
 {
-    if (!state_->has(cloth))
-        return {};
-    const ClothModel& model = state_->model.cloths[cloth.index];
-    return model.mesh ? model.mesh->report : MeshReport{};
+    const ClothModel* model = state_->find(cloth);
+    return model != nullptr && model->mesh ? model->mesh->report : MeshReport{};
 }
 
 const gpu::Context& Solver::context() const
@@ -279,13 +276,16 @@ const gpu::Context& Solver::context() const
 
 uint32_t Solver::vertex_count() const
 {
-    return state_->model.vertices;
+    uint32_t count = 0;
+    for (const auto [index, cloth] : state_->model.cloths)
+        count += cloth.record.vertices;
+    return count;
 }
 
 uint32_t Solver::triangle_count() const
 {
     size_t count = 0;
-    for (const ClothModel& cloth : state_->model.cloths)
+    for (const auto [index, cloth] : state_->model.cloths)
         count += cloth.mesh ? cloth.mesh->triangles.size()
                             : size_t{2} * (cloth.record.columns - 1) * (cloth.record.rows - 1);
     return static_cast<uint32_t>(count);

@@ -74,16 +74,15 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     if (!is_rigid(motion))
         return Error{"collider " + std::to_string(collider.index) +
                      (finite(motion) ? ": its motion is not rigid" : ": its motion is not finite")};
-    ColliderModel& model = s.collider_models.colliders[collider.index];
+    ColliderModel& model = *s.collider_models.colliders.find(collider);
     const glm::dvec4 center = glm::dmat4(model.placement) * glm::dvec4(model.origin, 1);
     const glm::vec3 moved(glm::dvec3(glm::dmat4(motion) * center));
     if (auto range = check("collider " + std::to_string(collider.index), "its center", moved, k_most_coordinate, " m");
         !range)
         return range;
-    ColliderPose& pose = s.colliders[collider.index];
-    pose.to = motion;
-    if (pose.anchor)
-        s.anchors[pose.anchor->index].to = motion;
+    model.pose.to = motion;
+    if (model.pose.anchor)
+        s.model.anchors.find(*model.pose.anchor)->to = motion;
     uint32_t& flags = model.record.flags;
     if ((flags & VOILE_COLLIDER_MOVED) == 0 && motion != glm::mat4(1))
     {
@@ -91,6 +90,65 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
         s.edits.colliders.push_back(collider.index);
         s.update_passes();
     }
+    return {};
+}
+
+Result<void> Solver::set_friction(ColliderId collider, const std::optional<Friction>& friction)
+{
+    State& s = *state_;
+    if (auto exists = s.check(collider); !exists)
+        return exists;
+    if (friction)
+        if (auto valid = check_friction("collider " + std::to_string(collider.index), friction->static_coefficient,
+                                        friction->kinetic_coefficient);
+            !valid)
+            return valid;
+    set_record_friction(s.collider_models.colliders.find(collider)->record, friction);
+    s.update_collider(collider, false);
+    return {};
+}
+
+Result<void> Solver::set_radius(ColliderId collider, float radius)
+{
+    State& s = *state_;
+    if (auto exists = s.check(collider); !exists)
+        return exists;
+    const std::string what = "collider " + std::to_string(collider.index);
+    ColliderModel& model = *s.collider_models.colliders.find(collider);
+    if (model.record.kind != VOILE_COLLIDER_SPHERE && model.record.kind != VOILE_COLLIDER_CAPSULE)
+        return Error{what + " has no radius: it is neither a sphere nor a capsule"};
+    if (auto valid = check(what, {"radius", radius, k_least_collider_size, k_most_collider_size, " m"}); !valid)
+        return valid;
+    model.record.shape.w = radius;
+    if (model.features)
+    {
+        const ColliderFeatures found = make_features(model, feature_scale(s.model, model.record.layers));
+        model.features_due = model.features->set.features > 0 || found.set.features > 0;
+    }
+    s.update_collider(collider, false);
+    return {};
+}
+
+Result<void> Solver::set_layers(ColliderId collider, uint32_t layers)
+{
+    State& s = *state_;
+    if (auto exists = s.check(collider); !exists)
+        return exists;
+    s.collider_models.colliders.find(collider)->record.layers = layers;
+    s.update_collider(collider, true);
+    return {};
+}
+
+Result<void> Solver::set_layers(ClothId cloth, uint32_t layers)
+{
+    State& s = *state_;
+    if (auto exists = s.check(cloth); !exists)
+        return exists;
+    s.model.cloths.find(cloth)->record.layers = layers;
+    s.edits.records.push_back(cloth.index);
+    s.edits.candidates = true;
+    for (const auto [index, collider] : s.collider_models.colliders)
+        s.dirty |= s.options.feature_contact && needs_features(collider, s.model);
     return {};
 }
 
@@ -104,7 +162,7 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
     if (!(distance >= 0) || !std::isfinite(distance))
         return Error{"attachments on a surface: the distance is " + std::to_string(distance) +
                      " m, must be finite and >= 0"};
-    const ColliderModel& model = s.collider_models.colliders[collider.index];
+    ColliderModel& model = *s.collider_models.colliders.find(collider);
     if ((model.record.flags & VOILE_COLLIDER_DEFORMS) != 0)
         return Error{"attachments on a surface: collider " + std::to_string(collider.index) +
                      " deforms, and attachments follow rigid motion only"};
@@ -113,7 +171,7 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
     const glm::dmat4 placement(model.placement);
     const glm::dmat4 back = glm::inverse(placement);
     const glm::dvec3 origin = model.origin;
-    const std::vector<glm::vec4>& start = s.model.cloths[cloth.index].start;
+    const std::vector<glm::vec4>& start = s.find(cloth)->start;
     std::vector<Attachment> attachments;
     for (uint32_t i = 0; i < start.size(); ++i)
     {
@@ -125,14 +183,14 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
     if (attachments.empty())
         return invalid("cloth", name(cloth),
                        "no vertex starts within " + std::to_string(distance) + " m of the collider");
-    ColliderPose& pose = s.colliders[collider.index];
+    ColliderPose& pose = model.pose;
     if (!pose.anchor)
     {
         auto anchor = add_anchor(pose.from);
         if (!anchor)
             return anchor.error();
         pose.anchor = anchor.value();
-        s.anchors[pose.anchor->index].to = pose.to;
+        s.model.anchors.find(*pose.anchor)->to = pose.to;
     }
     for (Attachment& attachment : attachments)
         attachment.anchor = pose.anchor;

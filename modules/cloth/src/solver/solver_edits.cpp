@@ -44,7 +44,7 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
         return exists;
-    ClothModel& model = s.model.cloths[cloth.index];
+    ClothModel& model = *s.model.cloths.find(cloth);
     if (auto valid = check_kind(model, material); !valid)
         return valid;
     const bool heavier = density(material) != density(model.material);
@@ -60,7 +60,8 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
 const ClothMaterial& Solver::material(ClothId cloth) const
 {
     static const ClothMaterial k_none;
-    return state_->has(cloth) ? state_->model.cloths[cloth.index].material : k_none;
+    const ClothModel* model = state_->find(cloth);
+    return model != nullptr ? model->material : k_none;
 }
 
 Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> attachments)
@@ -68,14 +69,14 @@ Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> 
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
         return exists;
-    if (auto valid = validate_attachments(s.model, cloth.index, attachments); !valid)
+    ClothModel& model = *s.model.cloths.find(cloth);
+    if (auto valid = validate_attachments(s.model, model, attachments); !valid)
         return valid;
-    ClothModel& model = s.model.cloths[cloth.index];
     std::vector<Attachment> before =
         std::exchange(model.attachments, std::vector<Attachment>(attachments.begin(), attachments.end()));
     if (model.tether_options)
     {
-        auto tethers = make_tethers(s.model, cloth.index, *model.tether_options);
+        auto tethers = make_tethers(model, cloth.index, *model.tether_options);
         if (!tethers)
         {
             model.attachments = std::move(before);
@@ -96,7 +97,8 @@ Result<void> Solver::set_attachments(ClothId cloth, std::initializer_list<Attach
 const std::vector<Attachment>& Solver::attachments(ClothId cloth) const
 {
     static const std::vector<Attachment> k_none;
-    return state_->has(cloth) ? state_->model.cloths[cloth.index].attachments : k_none;
+    const ClothModel* model = state_->find(cloth);
+    return model != nullptr ? model->attachments : k_none;
 }
 
 Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& tethers)
@@ -104,11 +106,11 @@ Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& te
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
         return exists;
-    ClothModel& model = s.model.cloths[cloth.index];
+    ClothModel& model = *s.model.cloths.find(cloth);
     std::vector<shared::TetherRecord> records;
     if (tethers)
     {
-        auto made = make_tethers(s.model, cloth.index, *tethers);
+        auto made = make_tethers(model, cloth.index, *tethers);
         if (!made)
             return made.error();
         records = std::move(made.value());
@@ -124,12 +126,10 @@ Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
     State& s = *state_;
     if (auto valid = check_frame("anchor", world_from_anchor); !valid)
         return valid.error();
-    s.model.anchors.push_back(world_from_anchor);
-    s.anchors.push_back({world_from_anchor, world_from_anchor});
-    if (!s.fits())
-        s.dirty = true;
+    const AnchorId id = s.model.anchors.add({world_from_anchor, world_from_anchor, world_from_anchor});
+    s.dirty |= s.device && !s.attachments_fit();
     s.edits.pins = true;
-    return AnchorId{static_cast<uint32_t>(s.anchors.size() - 1)};
+    return id;
 }
 
 Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_anchor)
@@ -139,7 +139,7 @@ Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_an
         return exists;
     if (auto valid = check_frame("anchor " + std::to_string(anchor.index), world_from_anchor); !valid)
         return valid;
-    s.anchors[anchor.index].to = world_from_anchor;
+    s.model.anchors.find(anchor)->to = world_from_anchor;
     return {};
 }
 
@@ -147,7 +147,7 @@ Result<void> Solver::reset(ClothId cloth)
 {
     if (auto exists = state_->check(cloth); !exists)
         return exists;
-    add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->model.cloths[cloth.index].velocity);
+    add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->find(cloth)->velocity);
     return {};
 }
 

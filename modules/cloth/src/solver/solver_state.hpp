@@ -4,6 +4,7 @@
 #include "voile/solver.hpp"
 
 #include "colliders/collider_motion.hpp"
+#include "model/model.hpp"
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
 
@@ -14,16 +15,22 @@
 namespace voile
 {
 
-// What the host asked for since the last record; recorded at the beginning of the next one. Lists of holds and tethers
-// wait for an upload that is due, and so does what is asked of cloths and colliders that are not uploaded yet.
+// What the host asked for since the last record; recorded at the beginning of the next one. What is asked of cloths and
+// colliders that are not uploaded yet waits for their upload. Lists of attachments and tethers that do not fit their
+// buffers wait for larger ones.
 struct Edits
 {
     std::vector<uint32_t> records;        // cloths whose record changed
-    std::vector<uint32_t> colliders;      // colliders whose record changed
+    std::vector<uint32_t> colliders;      // colliders whose record changed, or that were removed
     std::vector<shared::EditPush> places; // in order
+    bool patches = false;
     bool attachments = false;
     bool tethers = false;
-    bool pins = false; // they must be set again
+    bool pins = false;       // they must be set again
+    bool candidates = false; // lists of near triangles must be made anew
+
+    // What concerns a cloth that was removed.
+    void forget(ClothId cloth);
 };
 
 // So many substeps are told apart by the lists of candidates before they must be made anew.
@@ -41,13 +48,8 @@ struct Passes
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
     bool commit = false;         // the contact pass
     bool recover = false;        // colliders with an inside, out of which vertices are brought
+    uint32_t colliders = 0;      // slots up to the last active collider's
     float mesh_extent = 0;       // m, that a collider's mesh has at most along an axis from its origin
-};
-
-struct Anchor
-{
-    glm::mat4 from{1.f}; // world from anchor, at the end of the last step
-    glm::mat4 to{1.f};   // at the end of the next one
 };
 
 // As the GPU sees it.
@@ -76,14 +78,11 @@ struct Solver::State
     Kernels kernels;
     Model model;
     ColliderModels collider_models;
-    std::vector<Anchor> anchors{Anchor{}}; // the first is the world
-    bool anchors_moved = false;            // in the last step
-    std::vector<ColliderPose> colliders;
-    bool colliders_moved = false;          // in the last step
-    std::vector<Deformation> deformations; // of collider_models.deforming
-    float farthest_motion = 0; // m, of anchors and colliders in the step that is recorded, if there are features
-    bool refit_due = false;    // boxes do not fit: after an upload, and after a mesh came to rest
+    bool anchors_moved = false;   // in the last step
+    bool colliders_moved = false; // in the last step
+    float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded, if there are features
     StepHistory history;
+    Patches patches; // of the active cloths
     AttachmentLists attachment_lists;
     gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
     Edits edits;
@@ -92,15 +91,15 @@ struct Solver::State
     bool dirty = false;
     LifetimeCheck lifetime; // the last member: it looks before anything is destroyed
 
-    [[nodiscard]] bool has(ClothId cloth) const { return cloth.index < model.cloths.size(); }
-    [[nodiscard]] bool has(ColliderId collider) const { return collider.index < collider_models.colliders.size(); }
-    [[nodiscard]] Result<void> check(ClothId cloth) const
+    [[nodiscard]] const ClothModel* find(ClothId cloth) const { return model.cloths.find(cloth); }
+    [[nodiscard]] const ColliderModel* find(ColliderId collider) const
     {
-        return check_id("cloth", cloth.index, model.cloths.size());
+        return collider_models.colliders.find(collider);
     }
+    [[nodiscard]] Result<void> check(ClothId cloth) const { return model.cloths.check("cloth", cloth); }
     [[nodiscard]] Result<void> check(ColliderId collider) const
     {
-        return check_id("collider", collider.index, collider_models.colliders.size());
+        return collider_models.colliders.check("collider", collider);
     }
 
     // Substeps that a step takes.
@@ -111,31 +110,34 @@ struct Solver::State
 
     // Whether the next record has edits to record.
     [[nodiscard]] bool changes_due() const;
-    // After holds, tethers or materials changed, or an upload: the passes over what is uploaded.
-    void update_passes();
+    // After a cloth was uploaded, removed, enabled or disabled.
+    void update_patches();
+    // Those of one cloth that follow an anchor.
+    void remove_attachments(ClothId cloth, AnchorId anchor);
+    // After the attachments or tethers of a cloth changed, and after the above.
     void update_attachments();
+    // After materials or colliders changed, and after the above: the passes over what takes part.
+    void update_passes();
+    // What an upload records after its copies.
+    void finish_upload(gpu::Recorder& recorder);
+    // A collider's record changed. `meets_others`: so may the triangles that are near a cloth.
+    void update_collider(ColliderId collider, bool meets_others);
     // Errors: a cloth of so many patches makes dispatches too large.
-    [[nodiscard]] Result<void> check_patches(const std::string& name, uint64_t patches) const
+    [[nodiscard]] Result<void> check_patches(const std::string& name, uint64_t added) const
     {
-        return check_dispatch(model.limits, "cloth", name, "with it the solver has", model.patches + patches);
+        return check_dispatch(model.limits, "cloth", name, "with it the solver has", model.patches + added);
     }
-    // After a cloth of so many patches was added.
-    void added(uint64_t patches)
-    {
-        model.patches += patches;
-        dirty = true;
-        update_attachments();
-    }
-    // What the next upload must have room for.
-    [[nodiscard]] bool fits() const;
+    // Whether the lists of attachments, with their anchors, and of tethers fit their buffers.
+    [[nodiscard]] bool attachments_fit() const;
+    [[nodiscard]] bool tethers_fit() const;
 };
 
 // Takes the vertices of deforming meshes into their positions: first the copies, then, once these are visible to
 // compute, the passes. Both do nothing where no mesh deforms.
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
-// After an upload: boxes of each mesh where it is, for statistics that are recorded before the next step.
-void record_uploaded_boxes(gpu::Recorder& recorder, Solver::State& solver);
+// The boxes of deforming meshes that do not move, for statistics that are recorded before the next step.
+void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, std::span<const ColliderId> colliders);
 
 // Sets the size of an indirect dispatch, at a word of its buffer, to nothing; what is added to x comes in so many
 // workgroups each. A buffer of other counts, if any, becomes 0 too. Between barriers of its own.
@@ -155,6 +157,9 @@ void publish_dispatch(gpu::Recorder& recorder);
 // makes lists anew. Between barriers of its own.
 void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 
+// Writes the list of patches. Between barriers of the caller's.
+void record_patches(gpu::Recorder& recorder, Solver::State& solver);
+
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);
 
@@ -166,8 +171,8 @@ bool checks_lifetime(const SolverOptions& options);
 
 struct Upload::Contents
 {
-    std::vector<gpu::Buffer> staging;
-    std::optional<DeviceState> replaced;
+    gpu::Buffer staging;
+    DeviceState replaced;
     LifetimeCheck lifetime; // the last member, as the solver's
 };
 

@@ -46,8 +46,8 @@ uint32_t limit_passes(uint32_t widest_spacing)
 SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& solver, const StepHistory& history,
                                  const Step& step, uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), history_(history), kernels_(solver.kernels), device_(*solver.device),
-      step_(step), group_(solver.options.tuning.workgroup_size), substeps_(substeps), first_substep_(first_substep),
-      h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
+      patches_(solver.patches.count()), step_(step), group_(solver.options.tuning.workgroup_size), substeps_(substeps),
+      first_substep_(first_substep), h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
       // Rays along normals look at what neighbors propose, which must not change meanwhile.
       swaps_(commits_ && solver.options.tuning.contact_method == ContactMethod::nearest_point)
 {
@@ -101,18 +101,18 @@ void SubstepRecorder::record_rk4(uint32_t substep)
         shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
         push.stage = stage;
         recorder_.dispatch(kernels_.stage, stage == 4 && !commits_ ? device_.sets.last_stage_alone : sets[stage - 1],
-                           device_.rk4_patches * group_, group_, push);
+                           solver_.patches.rk4 * group_, group_, push);
     }
 }
 
 uint32_t SubstepRecorder::verlet_threads() const
 {
-    return (device_.patch_count - device_.rk4_patches) * group_;
+    return (patches_ - solver_.patches.rk4) * group_;
 }
 
 void SubstepRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 {
-    push.first_patch = device_.rk4_patches;
+    push.first_patch = solver_.patches.rk4;
     push.kick = substep == 0 ? 0.5f * h_ : h_;
     push.drift = h_;
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
@@ -123,7 +123,7 @@ void SubstepRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 
 void SubstepRecorder::finish_verlet(shared::StagePush push)
 {
-    push.first_patch = device_.rk4_patches;
+    push.first_patch = solver_.patches.rk4;
     push.kick = 0.5f * h_;
     recorder_.dispatch(kernels_.verlet,
                        in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
@@ -160,10 +160,9 @@ void SubstepRecorder::record_collider_reach(uint32_t substep)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
     const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
-                                         1 / static_cast<float>(substeps_),       device_.collider_count,
+                                         1 / static_cast<float>(substeps_),       solver_.passes.colliders,
                                          solver_.passes.features ? 1u : 0u,       device_.near_stride};
-    recorder_.dispatch(kernels_.collider_reach, device_.sets.collider_reach, device_.patch_count * group_, group_,
-                       push);
+    recorder_.dispatch(kernels_.collider_reach, device_.sets.collider_reach, patches_ * group_, group_, push);
 }
 
 void SubstepRecorder::record_feature_reach(uint32_t substep)
@@ -174,10 +173,10 @@ void SubstepRecorder::record_feature_reach(uint32_t substep)
                                         sudden_speed(),
                                         progress(substep),
                                         progress(next),
-                                        device_.collider_count,
+                                        solver_.passes.colliders,
                                         device_.near_stride};
     recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
-                       device_.sets.feature_reach, device_.patch_count * group_, group_, push);
+                       device_.sets.feature_reach, patches_ * group_, group_, push);
     publish_dispatch(recorder_);
 }
 
@@ -186,7 +185,7 @@ void SubstepRecorder::record_features(uint32_t substep)
     const shared::FeaturePush push{h_,
                                    progress(substep),
                                    progress(substep + 1),
-                                   device_.collider_count,
+                                   solver_.passes.colliders,
                                    first_substep_ + substep,
                                    device_.near_stride};
     recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
@@ -198,7 +197,7 @@ void SubstepRecorder::record_contact(uint32_t substep)
 {
     shared::ContactPush push{};
     push.step = h_;
-    push.colliders = device_.collider_count;
+    push.colliders = solver_.passes.colliders;
     push.renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
     push.renewal_time = VOILE_RENEWAL * h_;
     push.progress_from = progress(substep);
@@ -206,15 +205,15 @@ void SubstepRecorder::record_contact(uint32_t substep)
     push.progress_a_substep = 1 / static_cast<float>(substeps_);
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
-    push.vertices = device_.vertices;
+    push.vertices = static_cast<uint32_t>(device_.capacities.vertices);
     push.features = solver_.passes.features ? 1 : 0;
     push.recovers = solver_.passes.recover ? 1 : 0;
     push.near_stride = device_.near_stride;
     push.recovery = recovery_word(history_.recovery_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
-    recorder_.dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0],
-                       device_.patch_count * group_, group_, push);
+    recorder_.dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], patches_ * group_, group_,
+                       push);
 }
 
 const gpu::Kernel& SubstepRecorder::contact_kernel() const
@@ -258,7 +257,7 @@ void SubstepRecorder::keep_state(const StateBuffers& kept)
 
 void SubstepRecorder::record_limit_guard()
 {
-    const uint32_t threads = device_.patch_count * group_;
+    const uint32_t threads = patches_ * group_;
     shared::StagePush push{};
     push.gravity = step_.gravity;
     push.step = h_;
@@ -269,7 +268,7 @@ void SubstepRecorder::record_limit_guard()
         if (look > 0) // at what is left of the limit's changes
             recorder_.dispatch(kernels_.limit_work, device_.sets.limit_work[3], threads, group_, push);
         recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, threads, group_,
-                           shared::LimitScalePush{device_.patch_count, 1 / step_.duration, look});
+                           shared::LimitScalePush{patches_, 1 / step_.duration, look});
         recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads, group_,
                            std::span<const std::byte>{});
     }
@@ -289,7 +288,7 @@ void SubstepRecorder::record_limit_passes()
         ++pass;
         const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
                                       pass == passes ? 1u : 0u};
-        recorder_.dispatch(kernels_.limit_strain, set, device_.patch_count * group_, group_, push);
+        recorder_.dispatch(kernels_.limit_strain, set, patches_ * group_, group_, push);
     };
     for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
     {

@@ -53,6 +53,7 @@ private:
     const StepHistory& history_;
     const Kernels& kernels_;
     const DeviceState& device_;
+    uint32_t patches_;
     const Step& step_;
     uint32_t group_;
     uint32_t substeps_;

@@ -1,0 +1,494 @@
+// Removing, disabling and changing what a solver has, at any time.
+#include "support/close_to.hpp"
+#include "support/cloth_harness.hpp"
+#include "support/cloth_meshes.hpp"
+#include "support/collider_scenes.hpp"
+
+#include "voile/engine/assets/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace
+{
+
+using tests::ClothHarness;
+using tests::flat_sheet;
+using tests::moved;
+using tests::reason;
+using voile::engine::take;
+
+constexpr float k_frame = 1.f / 60; // s
+constexpr float k_gravity = 9.81f;  // m/s^2
+
+bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
+}
+
+// Cloths of all kinds in places of their own, far from each other, each above a ball. Layers keep the features of a
+// ball from depending on the other cloths.
+class Park
+{
+public:
+    explicit Park(ClothHarness& harness) : harness_(harness) {}
+
+    void add(uint32_t place)
+    {
+        const auto x = static_cast<float>(10 * place);
+        const glm::mat4 transform = moved({x, 1, 0});
+        const auto integrator = place % 2 == 0 ? voile::Integrator::verlet : voile::Integrator::rk4;
+        Entry entry{.place = place};
+        if (place % 3 == 2)
+        {
+            const tests::ClothMesh mesh = tests::jittered_sheet(11, 9);
+            voile::MeshCloth cloth = mesh.cloth();
+            cloth.transform = transform;
+            cloth.integrator = integrator;
+            cloth.layers = 1u << place;
+            cloth.pins = {0};
+            entry.cloth = take(harness_.solver.add_cloth(cloth));
+        }
+        else
+        {
+            voile::GridCloth cloth = flat_sheet(9 + place, 0.5f, 0);
+            cloth.transform = transform;
+            cloth.integrator = integrator;
+            cloth.layers = 1u << place;
+            cloth.pins = {0, 5};
+            entry.cloth = take(harness_.solver.add_cloth(cloth));
+        }
+        entry.ball = take(harness_.solver.add_collider(
+            voile::SphereCollider{.center = {x, 0.85f, 0}, .radius = 0.1f, .layers = 1u << place}));
+        entries.push_back(entry);
+    }
+
+    void remove(uint32_t place)
+    {
+        const auto entry = std::ranges::find(entries, place, &Entry::place);
+        take(harness_.solver.remove(entry->cloth));
+        take(harness_.solver.remove(entry->ball));
+        entries.erase(entry);
+    }
+
+    struct Entry
+    {
+        uint32_t place = 0;
+        voile::ClothId cloth{};
+        voile::ColliderId ball{};
+    };
+    std::vector<Entry> entries;
+
+private:
+    ClothHarness& harness_;
+};
+
+constexpr voile::Step k_step{.duration = k_frame, .substeps = 40};
+
+} // namespace
+
+TEST_CASE("what remains after removals moves as if nothing had been there, to the bit")
+{
+    ClothHarness harness;
+    Park park(harness);
+    for (const uint32_t place : {0u, 1u, 2u, 3u, 4u, 5u})
+        park.add(place);
+    harness.upload();
+    harness.step(k_step, 4);
+    for (const uint32_t place : {1u, 2u, 4u})
+        park.remove(place);
+    CHECK_FALSE(harness.solver.needs_upload());
+    harness.step(k_step, 2);
+    for (const uint32_t place : {2u, 7u}) // in what the others left, and in what grows
+        park.add(place);
+    harness.step(k_step, 2); // before they are uploaded
+    harness.upload();
+    harness.step(k_step, 6);
+
+    for (const Park::Entry& entry : park.entries)
+    {
+        CAPTURE(entry.place);
+        ClothHarness alone;
+        Park single(alone);
+        single.add(entry.place);
+        alone.upload();
+        alone.step(k_step, entry.place == 2 || entry.place == 7 ? 6 : 14);
+        const voile::ClothId id = single.entries.front().cloth;
+        CHECK(same_bits(harness.positions(entry.cloth), alone.positions(id)));
+        CHECK(same_bits(harness.velocities(entry.cloth), alone.velocities(id)));
+        CHECK(same_bits(harness.normals(entry.cloth), alone.normals(id)));
+    }
+    CHECK(harness.statistics().contacts > 10);
+}
+
+TEST_CASE("random additions, removals and pauses leave a cloth as it is alone, to the bit")
+{
+    std::mt19937 random(11);
+    ClothHarness harness;
+    Park park(harness);
+    park.add(0);
+    park.add(5);
+    harness.upload();
+    std::set<uint32_t> disabled;
+    const voile::ClothId watched[] = {park.entries[0].cloth, park.entries[1].cloth};
+    constexpr uint32_t k_steps = 60;
+    for (uint32_t i = 0; i < k_steps; ++i)
+    {
+        const uint32_t place = 1 + random() % 4;
+        const auto entry = std::ranges::find(park.entries, place, &Park::Entry::place);
+        const bool exists = entry != park.entries.end();
+        switch (random() % 4)
+        {
+        case 0:
+            if (!exists && park.entries.size() < 7) // with 8 colliders at most the walk over them is the same
+                park.add(place);
+            break;
+        case 1:
+            if (exists)
+                park.remove(place);
+            break;
+        case 2:
+            if (exists)
+            {
+                take(harness.solver.set_enabled(entry->cloth, random() % 2 == 0));
+                take(harness.solver.set_enabled(entry->ball, random() % 2 == 0));
+            }
+            break;
+        default:
+            break;
+        }
+        if (harness.solver.needs_upload() && random() % 3 > 0)
+            harness.upload();
+        harness.step(k_step);
+    }
+    const uint32_t places[] = {0, 5};
+    for (size_t i = 0; i < 2; ++i)
+    {
+        CAPTURE(i);
+        ClothHarness alone;
+        Park single(alone);
+        single.add(places[i]);
+        alone.upload();
+        alone.step(k_step, k_steps);
+        CHECK(same_bits(harness.positions(watched[i]), alone.positions(single.entries.front().cloth)));
+        CHECK(same_bits(harness.velocities(watched[i]), alone.velocities(single.entries.front().cloth)));
+    }
+    CHECK(harness.statistics().nan_vertices == 0);
+}
+
+TEST_CASE("ids of what was removed are errors, also when their index is used again")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    const voile::ClothId cloth = take(solver.add_cloth(flat_sheet(4, 1, 0)));
+    const voile::ColliderId ball = take(solver.add_collider(voile::SphereCollider{}));
+    const voile::AnchorId anchor = take(solver.add_anchor(glm::mat4(1)));
+    harness.upload();
+    take(solver.remove(cloth));
+    take(solver.remove(ball));
+    take(solver.remove(anchor));
+    for (const bool again : {false, true})
+    {
+        CAPTURE(again);
+        if (again)
+        {
+            CHECK(take(solver.add_cloth(flat_sheet(5, 1, 0))).index == cloth.index);
+            CHECK(take(solver.add_collider(voile::PlaneCollider{.offset = -5})).index == ball.index);
+            CHECK(take(solver.add_anchor(glm::mat4(1))).index == anchor.index);
+            harness.upload();
+        }
+        CHECK(reason(solver.remove(cloth)) == "cloth 0 was removed");
+        CHECK(reason(solver.set_enabled(cloth, false)) == "cloth 0 was removed");
+        CHECK(reason(solver.set_material(cloth, voile::Fabric{})) == "cloth 0 was removed");
+        CHECK(reason(solver.set_layers(cloth, 3)) == "cloth 0 was removed");
+        CHECK(reason(solver.reset(cloth)) == "cloth 0 was removed");
+        CHECK(solver.vertices(cloth).vertices == 0);
+        CHECK(solver.triangles(cloth).empty());
+        CHECK_FALSE(solver.enabled(cloth));
+        CHECK(reason(solver.remove(ball)) == "collider 0 was removed");
+        CHECK(reason(solver.set_enabled(ball, true)) == "collider 0 was removed");
+        CHECK(reason(solver.set_radius(ball, 1)) == "collider 0 was removed");
+        CHECK(reason(solver.set_friction(ball, std::nullopt)) == "collider 0 was removed");
+        CHECK(reason(solver.set_layers(ball, 3)) == "collider 0 was removed");
+        CHECK(reason(solver.move_collider(ball, glm::mat4(1))) == "collider 0 was removed");
+        CHECK_FALSE(solver.enabled(ball));
+        CHECK(reason(solver.remove(anchor)) == "anchor 1 was removed");
+        CHECK(reason(solver.move_anchor(anchor, glm::mat4(1))) == "anchor 1 was removed");
+    }
+    CHECK(reason(solver.remove(voile::ClothId{})) == "cloth: the id is a default-constructed one");
+    CHECK(reason(solver.remove(voile::ColliderId{7})) == "collider 7 does not exist");
+    CHECK(reason(solver.remove(voile::AnchorId{0})) == "anchor 0 does not exist"); // the world
+    CHECK(solver.vertex_count() == 25);
+    harness.step({}, 2);
+}
+
+TEST_CASE("cloth falls when what it lies on is removed, disabled or given other layers")
+{
+    for (const int how : {0, 1, 2, 3})
+    {
+        CAPTURE(how);
+        ClothHarness harness;
+        voile::Solver& solver = harness.solver;
+        voile::GridCloth grid = flat_sheet(6, 0.5f, 0);
+        grid.transform = moved({0, tests::fabric_of(grid).thickness, 0});
+        const voile::ClothId sheet = take(solver.add_cloth(grid));
+        const voile::engine::Mesh table = voile::engine::make_ground(1);
+        const voile::ColliderId top = how < 3 ? take(solver.add_collider(tests::collider(table)))
+                                              : take(solver.add_collider(tests::deforming(table)));
+        harness.upload();
+        harness.step({}, 20);
+        const auto lying = harness.positions(sheet);
+        CHECK(harness.statistics().contacts == 36);
+        switch (how)
+        {
+        case 1:
+            take(solver.set_enabled(top, false));
+            break;
+        case 2:
+            take(solver.set_layers(top, 0));
+            break;
+        default:
+            take(solver.remove(top));
+            break;
+        }
+        CHECK_FALSE(solver.needs_upload());
+        constexpr int k_steps = 10;
+        harness.step({}, k_steps);
+        const float time = k_steps * k_frame;
+        const float fallen = lying[14].y - harness.positions(sheet)[14].y;
+        CHECK(fallen == tests::close_to(0.5f * k_gravity * time * time, 1e-4));
+        CHECK(harness.statistics().contacts == 0);
+        if (how == 1)
+        {
+            take(solver.set_enabled(top, true)); // 12 cm above the sheet: it falls on
+            harness.step({}, k_steps);
+            CHECK(lying[14].y - harness.positions(sheet)[14].y == tests::close_to(2 * k_gravity * time * time, 1e-4));
+        }
+    }
+}
+
+TEST_CASE("a disabled cloth rests to the bit, continues with its velocity, and the others do not notice")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    voile::GridCloth falling = flat_sheet(8, 0.5f, 3);
+    voile::GridCloth other = flat_sheet(7, 0.5f, 9);
+    other.integrator = voile::Integrator::verlet;
+    const voile::ClothId paused = take(solver.add_cloth(falling));
+    const voile::ClothId free = take(solver.add_cloth(other));
+    harness.upload();
+    harness.step({}, 5);
+    const auto before = harness.positions(paused);
+    const float speed = harness.velocities(paused)[9].y;
+    const uint32_t dispatches = solver.dispatches({});
+    take(solver.set_enabled(paused, false));
+    CHECK_FALSE(solver.enabled(paused));
+    CHECK(solver.dispatches({}) < dispatches); // no stage of RK4
+    harness.step({}, 7);
+    CHECK(same_bits(harness.positions(paused), before));
+    const float energy = harness.statistics().kinetic_energy;
+    take(solver.set_enabled(paused, true));
+    CHECK(harness.statistics().kinetic_energy == energy); // the next step enables it
+    harness.step({});
+    CHECK(harness.statistics().kinetic_energy > energy);
+    CHECK(harness.velocities(paused)[9].y == tests::close_to(speed - k_gravity * k_frame, 1e-5));
+    CHECK(harness.velocities(free)[9].y == tests::close_to(-k_gravity * 13 * k_frame, 1e-5));
+
+    take(solver.set_enabled(paused, false));
+    take(solver.set_enabled(free, false));
+    CHECK(solver.dispatches({}) == 0);
+    const auto last = harness.positions(free);
+    harness.step({}, 3);
+    CHECK(same_bits(harness.positions(free), last));
+    CHECK(harness.statistics().kinetic_energy == 0);
+    take(solver.remove(free));
+    take(solver.remove(paused));
+    harness.step({}, 2);
+    CHECK(harness.statistics().kinetic_energy == 0);
+    CHECK(solver.vertex_count() == 0);
+}
+
+TEST_CASE("a stiff cloth that is disabled or removed asks for no substeps")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    voile::GridCloth stiff = flat_sheet(8, 0.05f, 3);
+    for (float& stiffness : tests::fabric_of(stiff).stretch_stiffness)
+        stiffness *= 50;
+    (void)take(solver.add_cloth(flat_sheet(8, 0.5f, 9)));
+    const uint32_t few = solver.stable_substeps(k_frame);
+    const voile::ClothId id = take(solver.add_cloth(stiff));
+    CHECK(solver.stable_substeps(k_frame) > 2 * few);
+    take(solver.set_enabled(id, false));
+    CHECK(solver.stable_substeps(k_frame) == few);
+    take(solver.set_enabled(id, true));
+    take(solver.remove(id));
+    CHECK(solver.stable_substeps(k_frame) == few);
+}
+
+TEST_CASE("friction of a collider changes while cloth slides on it")
+{
+    const auto slide = [](bool rough)
+    {
+        ClothHarness harness;
+        voile::GridCloth grid = flat_sheet(6, 0.5f, 0);
+        grid.transform = moved({0, tests::fabric_of(grid).thickness, 0});
+        grid.velocity = {1, 0, 0};
+        tests::fabric_of(grid).static_friction = tests::fabric_of(grid).kinetic_friction = 0.5f;
+        const voile::ClothId sheet = take(harness.solver.add_cloth(grid));
+        const voile::ColliderId ground =
+            take(harness.solver.add_collider(voile::PlaneCollider{.friction = voile::Friction{0, 0}}));
+        harness.upload();
+        harness.step({}, 5);
+        CHECK(harness.velocities(sheet)[14].x == tests::close_to(1, 1e-3));
+        if (rough)
+            take(harness.solver.set_friction(ground, voile::Friction{0.5f, 0.5f}));
+        harness.step({}, 6);
+        return harness.velocities(sheet)[14].x;
+    };
+    CHECK(slide(false) == tests::close_to(1, 1e-3));
+    CHECK(slide(true) == tests::close_to(1 - 0.5f * k_gravity * 6 * k_frame, 5e-3));
+    ClothHarness harness;
+    const voile::ColliderId plane = take(harness.solver.add_collider(voile::PlaneCollider{}));
+    CHECK(reason(harness.solver.set_friction(plane, voile::Friction{-1, 0})).starts_with("collider 0: "));
+    CHECK(reason(harness.solver.set_radius(plane, 1)) ==
+          "collider 0 has no radius: it is neither a sphere nor a capsule");
+}
+
+TEST_CASE("a ball and a capsule that grow lift the cloth on them, and shrink away from it")
+{
+    for (const bool capsule : {false, true})
+    {
+        CAPTURE(capsule);
+        ClothHarness harness;
+        voile::Solver& solver = harness.solver;
+        const voile::ClothId sheet = take(solver.add_cloth(flat_sheet(12, 0.6f, 0.25f)));
+        const voile::ColliderId body = capsule ? take(solver.add_collider(voile::CapsuleCollider{
+                                                     .from = {-0.2f, 0, 0}, .to = {0.2f, 0, 0}, .radius = 0.2f}))
+                                               : take(solver.add_collider(voile::SphereCollider{.radius = 0.2f}));
+        harness.upload();
+        harness.step({}, 20);
+        const auto top = [&]
+        {
+            float highest = -1;
+            for (const glm::vec4& p : harness.positions(sheet))
+                highest = std::max(highest, p.y);
+            return highest;
+        };
+        const float before = top();
+        for (int i = 1; i <= 10; ++i)
+        {
+            take(solver.set_radius(body, 0.2f + 0.005f * static_cast<float>(i)));
+            if (solver.needs_upload())
+                harness.upload();
+            harness.step({});
+        }
+        harness.step({}, 10);
+        CHECK(top() - before > 0.045f);
+        CHECK(harness.statistics().penetrating_vertices == 0);
+        take(solver.set_radius(body, 0.1f));
+        if (solver.needs_upload())
+            harness.upload();
+        harness.step({}, 2);
+        CHECK(harness.statistics().contacts == 0);
+        CHECK(reason(solver.set_radius(body, -1)).starts_with("collider 0: radius is -1"));
+    }
+}
+
+TEST_CASE("vertices attached to an anchor or a collider are free when it is removed")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    voile::GridCloth grid = flat_sheet(6, 0.5f, 1);
+    const voile::ClothId sheet = take(solver.add_cloth(grid));
+    const voile::AnchorId rod = take(solver.add_anchor(glm::mat4(1)));
+    const voile::ColliderId ball =
+        take(solver.add_collider(voile::SphereCollider{.center = {0.25f, 1, 0.25f}, .radius = 0.05f}));
+    std::vector<voile::Attachment> attachments = take(solver.attachments_on_surface(sheet, ball, 0.1f));
+    const uint32_t on_ball = attachments.front().vertex;
+    REQUIRE(on_ball != 0);
+    attachments.push_back(voile::pin(0, rod));
+    attachments.push_back(voile::pin(5));
+    take(solver.set_attachments(sheet, attachments));
+    take(solver.set_tethers(sheet, voile::Tethers{}));
+    harness.upload();
+    harness.step({}, 3);
+    CHECK(harness.positions(sheet)[0].w == 0);
+    CHECK(harness.positions(sheet)[on_ball].w == 0);
+    take(solver.remove(rod));
+    CHECK(solver.attachments(sheet).size() == attachments.size() - 1);
+    harness.step({}, 2);
+    CHECK(harness.positions(sheet)[0].w > 0);
+    CHECK(harness.positions(sheet)[on_ball].w == 0);
+    take(solver.remove(ball));
+    CHECK_FALSE(solver.needs_upload());
+    harness.step({}, 2);
+    CHECK(harness.positions(sheet)[on_ball].w > 0);
+    CHECK(harness.positions(sheet)[5].w == 0);
+    CHECK(solver.attachments(sheet).size() == 1);
+    // The last pin: the tethers end with it, and a new pin brings them back.
+    take(solver.set_attachments(sheet, {voile::pin(5, take(solver.add_anchor(glm::mat4(1))))}));
+    harness.step({}, 2);
+    take(solver.remove(*solver.attachments(sheet).front().anchor));
+    harness.step({}, 20);
+    const float low = harness.positions(sheet)[5].y;
+    harness.step({}, 5);
+    CHECK(harness.positions(sheet)[5].y < low - 0.2f);
+}
+
+TEST_CASE("removed places are used again, and buffers grow a few times for many additions")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    std::vector<voile::ClothId> ids;
+    for (int i = 0; i < 4; ++i)
+        ids.push_back(take(solver.add_cloth(flat_sheet(8, 0.5f, static_cast<float>(i)))));
+    harness.upload();
+    const VkBuffer buffer = solver.vertices(ids[0]).positions;
+    const VkDeviceSize place = solver.vertices(ids[2]).offset;
+    take(solver.remove(ids[2]));
+    CHECK(solver.vertices(ids[2]).positions == VK_NULL_HANDLE);
+    const voile::ClothId other = take(solver.add_cloth(flat_sheet(7, 0.5f, 7)));
+    harness.upload();
+    CHECK(solver.vertices(other).offset == place);
+    CHECK(solver.vertices(other).positions == buffer);
+    std::set<VkBuffer> buffers;
+    for (int i = 0; i < 60; ++i)
+    {
+        (void)take(solver.add_cloth(flat_sheet(8, 0.5f, static_cast<float>(10 + i))));
+        harness.upload();
+        harness.step({.substeps = 1});
+        buffers.insert(solver.vertices(ids[0]).positions);
+    }
+    CHECK(buffers.size() <= 8); // 256 to 4,096 vertices, by half each
+    CHECK(harness.statistics().nan_vertices == 0);
+}
+
+TEST_CASE("a snapshot is for the cloths that it was made for")
+{
+    ClothHarness harness;
+    voile::Solver& solver = harness.solver;
+    const voile::ClothId first = take(solver.add_cloth(flat_sheet(6, 0.5f, 0)));
+    const voile::ClothId second = take(solver.add_cloth(flat_sheet(6, 0.5f, 3)));
+    const voile::ClothId third = take(solver.add_cloth(flat_sheet(5, 0.5f, 6)));
+    harness.upload();
+    take(solver.remove(second)); // a gap in the middle
+    harness.step({}, 3);
+    const voile::Snapshot snapshot = take(solver.create_snapshot());
+    harness.run([&](VkCommandBuffer cmd) { take(solver.record_save(cmd, snapshot)); });
+    const auto saved = harness.positions(third);
+    harness.step({}, 3);
+    harness.run([&](VkCommandBuffer cmd) { take(solver.record_restore(cmd, snapshot)); });
+    CHECK(same_bits(harness.positions(third), saved));
+    (void)take(solver.add_cloth(flat_sheet(6, 0.5f, 3))); // as many vertices as the one removed
+    harness.upload();
+    take(solver.remove(first));
+    harness.run(
+        [&](VkCommandBuffer cmd)
+        {
+            CHECK(reason(solver.record_restore(cmd, snapshot)) ==
+                  "snapshot: it was made for other cloths: some were uploaded or removed since");
+        });
+}
