@@ -56,7 +56,7 @@ double mean_height(const Positions& x)
     return sum / static_cast<double>(x.size());
 }
 
-double share_deeper(const Positions& x, const voile::MeshCollider& heart, double depth)
+double fraction_deeper(const Positions& x, const voile::MeshCollider& heart, double depth)
 {
     const voile::MeshDistance distance = voile::engine::take(voile::MeshDistance::create(heart));
     size_t deep = 0;
@@ -146,7 +146,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     }
     const std::vector<double> stretches = structural_stretches(x, item.side);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
-    result.deep_fraction = share_deeper(x, heart, 0.005);
+    result.deep_fraction = fraction_deeper(x, heart, 0.005);
     result.gpu_median = quantile(times, 0.5);
     result.gpu_p95 = quantile(times, 0.95);
     return result;

@@ -32,8 +32,8 @@ constexpr float k_frame = 1.f / 60; // s
 //   contact   reads proposed x and v, earlier x    nothing, in free fall             3
 //   normals   reads positions                      writes normals        1.5 + 1   = 2.5, once per frame
 // A mesh vertex also reads its record and its list of springs, 16 bytes each, in every evaluation of the forces. Edits,
-// holds, tethers and the strain limit are not counted. Data that fits a cache need not reach memory, so the fraction of
-// the copy bandwidth can exceed 100 %.
+// attachments, tethers and the strain limit are not counted. Data that fits a cache need not reach memory, so the
+// fraction of the copy bandwidth can exceed 100 %.
 constexpr double k_value = 16;
 constexpr double k_rk4 = (5 + 7.5 + 7.5 + 9.5) * k_value;
 constexpr double k_verlet = 7 * k_value;

@@ -125,7 +125,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
     const voile::PaddedTree tree = voile::build_padded_tree(start, sheet.triangles);
     const Clock::time_point end = Clock::now();
     const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context, item.workgroup_size));
-    const voile::RefitPlace where{voile::aligned_first_box(0), 0, 0, vertices, tree.triangles};
+    const voile::RefitTree where{voile::aligned_first_box(0), 0, 0, vertices, tree.triangles};
 
     voile::engine::UploadBatch batch(context);
     const voile::gpu::Buffer leaves = batch.buffer("leaves", tree.leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -162,7 +162,7 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
             .build = std::chrono::duration<double, std::milli>(end - begin).count(),
             .gpu_median = quantile(times, 0.5),
             .gpu_p95 = quantile(times, 0.95),
-            .bytes = bytes_moved(tree, sheet, kernels.levels_a_dispatch)};
+            .bytes = bytes_moved(tree, sheet, kernels.levels_per_dispatch)};
 }
 
 } // namespace bench

@@ -15,7 +15,7 @@ namespace
 constexpr const char* k_columns =
     "device,driver,copy_bytes_per_second,empty_dispatch_us,case,vertices,triangles,substeps_per_frame,"
     "dispatches_per_frame,substeps_measured,repetitions,contacts,gpu_us_per_substep_median,gpu_us_per_substep_p95,"
-    "bytes_per_substep,bandwidth_share,record_us_per_frame_median,record_allocations";
+    "bytes_per_substep,bandwidth_fraction,record_us_per_frame_median,record_allocations";
 
 // RFC 4180: the text is quoted and quotes are doubled. Device names contain commas.
 std::string quoted(const std::string& text)

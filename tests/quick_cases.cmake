@@ -91,7 +91,7 @@ quick(test_moving_colliders
 quick(test_physics
     "a spring pair swings with its exact period under either integrator"
     "a falling plate reaches its terminal speed all over")
-quick(test_recovery
+quick(test_depenetration
     "a small cloth leaves the inside of a ball of 20,736 triangles"
     "the inside test is right at edges, at corners and in slivers")
 quick(test_model)

@@ -23,18 +23,18 @@ struct Vertices
     uint32_t rows = 0;
 };
 
-std::vector<glm::vec3> grid_places(const voile::GridCloth& grid)
+std::vector<glm::vec3> grid_positions(const voile::GridCloth& grid)
 {
-    std::vector<glm::vec3> places;
-    places.reserve(size_t{grid.columns} * grid.rows);
+    std::vector<glm::vec3> positions;
+    positions.reserve(size_t{grid.columns} * grid.rows);
     for (uint32_t row = 0; row < grid.rows; ++row)
         for (uint32_t column = 0; column < grid.columns; ++column)
         {
             const float x = (static_cast<float>(column) / static_cast<float>(grid.columns - 1) - 0.5f) * grid.width;
             const float z = (static_cast<float>(row) / static_cast<float>(grid.rows - 1) - 0.5f) * grid.depth;
-            places.emplace_back(grid.transform * glm::vec4(x, 0, z, 1));
+            positions.emplace_back(grid.transform * glm::vec4(x, 0, z, 1));
         }
-    return places;
+    return positions;
 }
 
 uint32_t corner_vertex(const Vertices& vertices, uint32_t corner)
@@ -97,17 +97,18 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
         {
             auto id = solver.add_anchor(matrix(*pin.motion, 0));
             if (!id)
-                return error_at(scene, pin.place, id.error().message);
+                return error_at(scene, pin.location, id.error().message);
             anchor = id.value();
             added.moving_pins.push_back({id.value(), *pin.motion});
         }
         const std::vector<uint32_t> pinned = pinned_vertices(vertices, pin);
         if (pinned.empty())
-            return error_at(scene, pin.place, "cloth " + in_quotes(entry.name) + ": no vertex lies in the pin's box");
+            return error_at(scene, pin.location,
+                            "cloth " + in_quotes(entry.name) + ": no vertex lies in the pin's box");
         for (const uint32_t vertex : pinned)
         {
             if (vertex >= vertices.start.size())
-                return error_at(scene, pin.place,
+                return error_at(scene, pin.location,
                                 "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
                                     ", but it has " + std::to_string(vertices.start.size()) + " vertices");
             voile::Attachment attachment = make_attachment(pin, vertex);
@@ -121,11 +122,11 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
     for (const auto& [vertex, attachment] : attached)
         attachments.push_back(attachment);
     if (auto set = solver.set_attachments(added.id, attachments); !set)
-        return error_at(scene, entry.place, set.error().message);
+        return error_at(scene, entry.location, set.error().message);
     if (!entry.tethers)
         return {};
     if (auto set = solver.set_tethers(added.id, voile::Tethers{*entry.tethers}); !set)
-        return error_at(scene, entry.place, set.error().message);
+        return error_at(scene, entry.location, set.error().message);
     return {};
 }
 
@@ -148,9 +149,9 @@ voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& s
     if (!material)
         return material.error();
     grid.material = material.value();
-    vertices = {grid_places(grid), grid.columns, grid.rows};
+    vertices = {grid_positions(grid), grid.columns, grid.rows};
     auto id = solver.add_cloth(grid);
-    return id ? id : error_at(scene, entry.place, id.error().message);
+    return id ? id : error_at(scene, entry.location, id.error().message);
 }
 
 void tell(const voile::MeshReport& report, const std::string& name)
@@ -176,7 +177,7 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
     voile::engine::MeshReport changes;
     auto loaded = voile::engine::load_mesh(file, &changes, voile::engine::MeshVertices::positions);
     if (!loaded)
-        return error_at(scene, entry.place, loaded.error().message);
+        return error_at(scene, entry.location, loaded.error().message);
     const voile::engine::Mesh& mesh = loaded.value();
     auto material = make_cloth_material(scene, entry.material, std::nullopt);
     if (!material)
@@ -194,7 +195,7 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
         vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
     auto id = solver.add_cloth(cloth);
     if (!id)
-        return error_at(scene, entry.place, voile::engine::path_text(file) + ": " + id.error().message);
+        return error_at(scene, entry.location, voile::engine::path_text(file) + ": " + id.error().message);
     voile::MeshReport report = solver.mesh_report(id.value());
     report.degenerate_triangles += changes.degenerate_triangles;
     tell(report, entry.name);

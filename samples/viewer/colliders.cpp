@@ -72,7 +72,8 @@ voile::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entr
     const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
     if (spin.x + spin.y + spin.z < 180 * scene.step.rate)
         return {};
-    return error_at(scene, {entry.place.line, entry.place.path + ".motion.spin"}, "is half a turn per frame or more");
+    return error_at(scene, {entry.location.line, entry.location.path + ".motion.spin"},
+                    "is half a turn per frame or more");
 }
 
 voile::Result<Solid> load_sequence(const ColliderEntry& entry)
@@ -115,14 +116,14 @@ voile::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& ent
         return spin.error();
     auto solid = entry.frames ? load_sequence(entry) : load_shape(entry);
     if (!solid && entry.frames)
-        return error_at(scene, {entry.place.line, entry.place.path + ".frames"}, solid.error().message);
+        return error_at(scene, {entry.location.line, entry.location.path + ".frames"}, solid.error().message);
     if (!solid)
         return solid;
     solid.value().friction = entry.friction;
     solid.value().motion = entry.motion;
     solid.value().sides = entry.sides;
     solid.value().layers = entry.layers;
-    solid.value().place = entry.place;
+    solid.value().location = entry.location;
     return solid;
 }
 

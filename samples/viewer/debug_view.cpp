@@ -33,11 +33,11 @@ void add_edges(const voile::BoundingBox& box, std::vector<glm::vec4>& from, std:
             }
 }
 
-float longest_side(const std::vector<glm::vec3>& places)
+float longest_side(const std::vector<glm::vec3>& positions)
 {
-    glm::vec3 low = places.front();
+    glm::vec3 low = positions.front();
     glm::vec3 high = low;
-    for (const glm::vec3& p : places)
+    for (const glm::vec3& p : positions)
     {
         low = glm::min(low, p);
         high = glm::max(high, p);

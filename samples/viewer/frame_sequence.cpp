@@ -82,14 +82,14 @@ double MeshSequence::duration() const
 void MeshSequence::positions_at(double seconds, std::vector<glm::vec3>& positions) const
 {
     const auto last = static_cast<double>(frames_.size() - 1);
-    const double place = std::clamp(seconds * rate_, 0.0, last);
-    const auto from = static_cast<size_t>(place);
+    const double frame = std::clamp(seconds * rate_, 0.0, last);
+    const auto from = static_cast<size_t>(frame);
     const std::vector<glm::vec3>& a = frames_[from];
     const std::vector<glm::vec3>& b = frames_[std::min(from + 1, frames_.size() - 1)];
-    const auto share = static_cast<float>(place - std::floor(place));
+    const auto fraction = static_cast<float>(frame - std::floor(frame));
     positions.resize(a.size());
     for (size_t i = 0; i < a.size(); ++i)
-        positions[i] = glm::mix(a[i], b[i], share);
+        positions[i] = glm::mix(a[i], b[i], fraction);
 }
 
 } // namespace viewer

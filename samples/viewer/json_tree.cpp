@@ -21,7 +21,7 @@ constexpr size_t k_deepest_nesting = 64;
 constexpr size_t k_longest_reason = 200; // bytes; the parser quotes the token, which may be a whole file
 
 // "LINE:COLUMN" of a byte, both from 1.
-std::string place_text(std::string_view text, size_t offset)
+std::string location_text(std::string_view text, size_t offset)
 {
     const std::string_view before = text.substr(0, offset);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -115,7 +115,7 @@ public:
         if (const size_t at = reason.find(": "); at != std::string::npos)
             reason = reason.substr(at + 2);
         const size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
-        error = file_ + ":" + place_text(text_, offset) + ": " + voile::gpu::printable(reason, k_longest_reason);
+        error = file_ + ":" + location_text(text_, offset) + ": " + voile::gpu::printable(reason, k_longest_reason);
         return false;
     }
 
@@ -235,7 +235,7 @@ voile::Result<JsonNode> parse_json(std::string_view text, const std::string& fil
         return voile::Error{file + ": the file is empty"};
     // The parser would take it for the end of the text.
     if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
-        return voile::Error{file + ":" + place_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
+        return voile::Error{file + ":" + location_text(text, zero) + ": byte " + std::to_string(zero) + " is zero"};
     size_t consumed = 0;
     TreeBuilder builder(text, file, &consumed);
     const CountingIterator begin(text.data(), &consumed);

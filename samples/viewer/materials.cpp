@@ -82,7 +82,7 @@ std::string raw_names()
 voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
                                                         const std::optional<glm::vec2>& spacing)
 {
-    const auto bad = [&](const std::string& reason) { return error_at(scene, entry.place, reason); };
+    const auto bad = [&](const std::string& reason) { return error_at(scene, entry.location, reason); };
     if (const std::string twice = given_twice(entry); !twice.empty())
         return bad(twice + "; leave one out");
     voile::ClothMaterial result;

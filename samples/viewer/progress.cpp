@@ -23,7 +23,7 @@ double steady_seconds()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-uint32_t share(uint32_t done, uint32_t frames, uint32_t parts)
+uint32_t parts_done(uint32_t done, uint32_t frames, uint32_t parts)
 {
     if (frames == 0)
         return parts;
@@ -85,7 +85,8 @@ void Progress::update(uint32_t done)
         drawn_ = now;
         draw_bar(done_, now - start_);
     }
-    else if (const uint32_t tenths = share(done_, frames_, 10); tenths > tenths_ || now - drawn_ >= k_silent_seconds)
+    else if (const uint32_t tenths = parts_done(done_, frames_, 10);
+             tenths > tenths_ || now - drawn_ >= k_silent_seconds)
     {
         tenths_ = tenths;
         drawn_ = now;
@@ -107,9 +108,9 @@ void Progress::finish()
 
 void Progress::draw_bar(uint32_t done, double seconds)
 {
-    const uint32_t cells = share(done, frames_, k_bar_cells);
+    const uint32_t cells = parts_done(done, frames_, k_bar_cells);
     std::string line = '[' + std::string(cells, '#') + std::string(k_bar_cells - cells, '.') + "] " +
-                       std::to_string(share(done, frames_, 100)) + " %, " + std::to_string(done) + "/" +
+                       std::to_string(parts_done(done, frames_, 100)) + " %, " + std::to_string(done) + "/" +
                        std::to_string(frames_);
     if (done > 0 && seconds > 0)
     {
@@ -125,7 +126,7 @@ void Progress::draw_bar(uint32_t done, double seconds)
 
 void Progress::write_line(uint32_t done, double seconds)
 {
-    *settings_.stream << "frame " << done << " of " << frames_ << " (" << share(done, frames_, 100) << " %), "
+    *settings_.stream << "frame " << done << " of " << frames_ << " (" << parts_done(done, frames_, 100) << " %), "
                       << duration_text(seconds) << " elapsed\n"
                       << std::flush;
 }

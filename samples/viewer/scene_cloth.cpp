@@ -104,7 +104,7 @@ void parse_pin_box(SceneReader& reader, const Field& field, PinEntry& pin)
     pin.at = box;
 }
 
-void parse_pin_place(SceneReader& reader, const Field& field, const GridEntry* grid, PinEntry& pin)
+void parse_pin_position(SceneReader& reader, const Field& field, const GridEntry* grid, PinEntry& pin)
 {
     if (!field || reader.failed())
         return;
@@ -132,7 +132,7 @@ void check_name(SceneReader& reader, const Field& field, const std::string& name
 PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid)
 {
     PinEntry pin;
-    pin.place = place_of(field);
+    pin.location = location_of(field);
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
     if (is_object && (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance")))
@@ -144,7 +144,7 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         }
         if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
             return pin;
-        parse_pin_place(reader, reader.required(field, "at"), grid, pin);
+        parse_pin_position(reader, reader.required(field, "at"), grid, pin);
         reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness),
                     pin.stiffness);
         reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_attachment_damping), pin.damping);
@@ -157,7 +157,7 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     }
     if (is_object && !reader.object(field, {"box", "at", "motion", "stiffness", "damping", "max_distance"}))
         return pin;
-    parse_pin_place(reader, field, grid, pin);
+    parse_pin_position(reader, field, grid, pin);
     return pin;
 }
 
@@ -165,7 +165,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
 {
     SceneReader& reader = context.reader;
     ClothEntry cloth;
-    cloth.place = place_of(field);
+    cloth.location = location_of(field);
     if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
                                "integrator", "self_collision", "layers"}))
         return cloth;

@@ -213,7 +213,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
 {
     SceneReader& reader = context.reader;
     ColliderEntry collider;
-    collider.place = place_of(field);
+    collider.location = location_of(field);
     if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames",
                                "rate", "sides", "layers"}))
         return collider;

@@ -98,7 +98,7 @@ glm::mat4 rotation(const glm::vec3& degrees)
     return glm::rotate(result, glm::radians(degrees.x), glm::vec3(1.f, 0.f, 0.f));
 }
 
-voile::Result<void> check_file(const SceneFile& scene, const Place& entry, const fs::path& file)
+voile::Result<void> check_file(const SceneFile& scene, const Location& entry, const fs::path& file)
 {
     std::error_code problem;
     const fs::file_type type = fs::status(file, problem).type();
@@ -116,7 +116,7 @@ voile::Result<void> check_files(const SceneFile& scene)
     {
         if (const auto* mesh = std::get_if<fs::path>(&cloth.form))
         {
-            if (auto result = check_file(scene, cloth.place, *mesh); !result)
+            if (auto result = check_file(scene, cloth.location, *mesh); !result)
                 return result;
         }
     }
@@ -125,13 +125,13 @@ voile::Result<void> check_files(const SceneFile& scene)
         const auto* mesh = std::get_if<MeshShape>(&collider.shape);
         if (mesh != nullptr && !mesh->file.empty())
         {
-            if (auto result = check_file(scene, collider.place, mesh->file); !result)
+            if (auto result = check_file(scene, collider.location, mesh->file); !result)
                 return result;
         }
         if (!collider.frames)
             continue;
         if (auto files = frame_files(*collider.frames); !files)
-            return error_at(scene, {collider.place.line, collider.place.path + ".frames"}, files.error().message);
+            return error_at(scene, {collider.location.line, collider.location.path + ".frames"}, files.error().message);
     }
     return {};
 }
@@ -144,7 +144,7 @@ std::vector<StepKey> find_step_keys(const Field& root)
     const auto add = [&](const char* member, const Field& field)
     {
         if (field)
-            keys.push_back({member, place_of(field)});
+            keys.push_back({member, location_of(field)});
     };
     add("gravity", SceneReader::child(root, "gravity"));
     add("wind", SceneReader::child(wind, "velocity"));
@@ -236,17 +236,17 @@ voile::Result<SceneFile> load_scene(const fs::path& path)
     return scene;
 }
 
-voile::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason)
+voile::Error error_at(const SceneFile& scene, const Location& location, const std::string& reason)
 {
-    return voile::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(place.line) + ": " + place.path +
-                        ": " + reason};
+    return voile::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(location.line) + ": " +
+                        location.path + ": " + reason};
 }
 
 voile::Error step_error(const SceneFile& scene, const std::string& reason)
 {
     for (const StepKey& key : scene.step_keys)
         if (reason.starts_with("step: " + key.member + " "))
-            return error_at(scene, key.place, reason);
+            return error_at(scene, key.location, reason);
     return voile::Error{voile::engine::path_text(scene.path) + ": " + reason};
 }
 

@@ -25,7 +25,7 @@ constexpr uint32_t k_most_grid_vertices = 8192; // along a side
 constexpr uint32_t k_most_substeps = 1000;      // of a frame
 
 // Where an entry stands in the file, for messages about it.
-struct Place
+struct Location
 {
     uint32_t line = 0;
     std::string path; // "cloths[0].pins[2]"
@@ -96,7 +96,7 @@ struct MaterialEntry
     std::optional<std::string> preset; // silk, cotton, wool, denim, leather or reference
     std::vector<MaterialValue> values;
     std::optional<voile::BendingModel> bending_model;
-    Place place;
+    Location location;
 
     [[nodiscard]] const MaterialValue* find(std::string_view name) const; // null: not written
 };
@@ -134,7 +134,7 @@ struct PinEntry
     std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
     float damping = 0.f;                                    // N·s/m, >= 0, of that spring
     std::optional<float> max_distance;                      // m, >= 0, from the place
-    Place place;
+    Location location;
 };
 
 struct ClothEntry
@@ -149,7 +149,7 @@ struct ClothEntry
     voile::Integrator integrator = voile::Integrator::rk4;
     bool self_collision = true;
     uint32_t layers = 1; // bits; it meets the colliders that share one
-    Place place;
+    Location location;
 };
 
 struct MeshShape
@@ -201,7 +201,7 @@ struct ColliderEntry
     std::optional<FrictionEntry> friction;
     std::optional<MotionEntry> motion;
     std::optional<FrameSequence> frames; // with a mesh only
-    Place place;
+    Location location;
 };
 
 struct CameraEntry
@@ -215,7 +215,7 @@ struct CameraEntry
 struct StepKey
 {
     std::string member;
-    Place place;
+    Location location;
 };
 
 struct SceneFile
@@ -239,7 +239,7 @@ voile::Result<SceneFile> parse_scene(std::string_view text, const std::filesyste
 voile::Result<SceneFile> load_scene(const std::filesystem::path& path);
 
 // "FILE:LINE: PATH: REASON"
-voile::Error error_at(const SceneFile& scene, const Place& place, const std::string& reason);
+voile::Error error_at(const SceneFile& scene, const Location& location, const std::string& reason);
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
 voile::Error step_error(const SceneFile& scene, const std::string& reason);
 

@@ -76,7 +76,7 @@ const MaterialValue* MaterialEntry::find(std::string_view name) const
 MaterialEntry parse_material(SceneReader& reader, const Field& field)
 {
     MaterialEntry material;
-    material.place = place_of(field);
+    material.location = location_of(field);
     if (!field || reader.failed())
         return material;
     if (field.node->kind == JsonNode::Kind::string)

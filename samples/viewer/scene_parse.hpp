@@ -13,7 +13,7 @@ struct ParseContext
     std::filesystem::path folder; // that paths are relative to
 };
 
-inline Place place_of(const Field& field)
+inline Location location_of(const Field& field)
 {
     return {field.line(), field.path};
 }

@@ -25,9 +25,9 @@ std::string percent(float fraction)
 
 void note_softening(const std::string& cloth, const voile::Stability& stability)
 {
-    std::string left = percent(stability.stiffness_share) + " of its stiffness";
-    if (stability.damping_share < 1)
-        left += " and " + percent(stability.damping_share) + " of its damping";
+    std::string left = percent(stability.stiffness_scale) + " of its stiffness";
+    if (stability.damping_scale < 1)
+        left += " and " + percent(stability.damping_scale) + " of its damping";
     note("cloth " + in_quotes(cloth) + " needs " + std::to_string(stability.needed) + " substeps a frame and gets " +
          std::to_string(stability.used) + ": it has " + left);
 }
@@ -49,7 +49,7 @@ void SofteningNotes::check(const Stage& stage, float duration)
         if (noted_[i])
             continue;
         const voile::Stability stability = solver.stability(stage.cloths[i].id, step);
-        if (stability.stiffness_share >= 1 && stability.damping_share >= 1)
+        if (stability.stiffness_scale >= 1 && stability.damping_scale >= 1)
             continue;
         noted_[i] = true;
         if (++count_ <= k_most_notes)

@@ -47,8 +47,8 @@ std::shared_ptr<const voile::engine::MeshBuffers> SolidMeshes::unit(Unit unit, u
 // Of a sphere of 48, whose outline looks round where it fills a picture.
 uint32_t SolidMeshes::rings(float radius) const
 {
-    const float share = radius / extent_;
-    return share > 1.f / 40 ? 48 : share > 1.f / 160 ? 24 : 12;
+    const float fraction = radius / extent_;
+    return fraction > 1.f / 40 ? 48 : fraction > 1.f / 160 ? 24 : 12;
 }
 
 std::vector<SolidPart> SolidMeshes::capsule_parts(const CapsuleShape& capsule, const glm::mat4& transform)

@@ -91,7 +91,7 @@ voile::Result<voile::ColliderId> add_to_solver(voile::Solver& solver, const Scen
         collider);
     auto added = solver.add_collider(collider);
     if (!added)
-        return solid.place.line > 0 ? error_at(scene, solid.place, added.error().message) : added.error();
+        return solid.location.line > 0 ? error_at(scene, solid.location, added.error().message) : added.error();
     return added;
 }
 
@@ -129,10 +129,10 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
 }
 
 // What the camera looks at and the shadow map covers: cloths, solids above ground, and the ground below them.
-voile::engine::Bounds bounds_of(const std::vector<glm::vec3>& places)
+voile::engine::Bounds bounds_of(const std::vector<glm::vec3>& positions)
 {
-    voile::engine::Bounds box{places.front(), places.front()};
-    for (const glm::vec3& p : places)
+    voile::engine::Bounds box{positions.front(), positions.front()};
+    for (const glm::vec3& p : positions)
     {
         box.min = glm::min(box.min, p);
         box.max = glm::max(box.max, p);

@@ -100,15 +100,15 @@ public:
 
     void upload(const voile::PaddedTree& tree, const std::vector<glm::vec4>& from, const std::vector<glm::vec4>& to)
     {
-        place_ = {voile::aligned_first_box(2), k_first_leaf, k_first_from,
-                  k_first_from + static_cast<uint32_t>(from.size()), tree.triangles};
+        refit_tree_ = {voile::aligned_first_box(2), k_first_leaf, k_first_from,
+                       k_first_from + static_cast<uint32_t>(from.size()), tree.triangles};
         std::vector<voile::shared::PaddedLeaf> leaves(k_first_leaf);
         leaves.insert(leaves.end(), tree.leaves.begin(), tree.leaves.end());
         std::vector<glm::vec4> positions(k_first_from, glm::vec4(1e9f));
         positions.insert(positions.end(), from.begin(), from.end());
         positions.insert(positions.end(), to.begin(), to.end());
         const PaddedBox untouched{glm::vec3(7), 7, glm::vec3(7), 7};
-        const std::vector<PaddedBox> boxes(place_.first_box + tree.boxes() + 1, untouched);
+        const std::vector<PaddedBox> boxes(refit_tree_.first_box + tree.boxes() + 1, untouched);
         voile::engine::UploadBatch batch(context());
         leaves_ = batch.buffer("leaves", leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         positions_ = batch.buffer("positions", positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -129,18 +129,19 @@ public:
             [&](VkCommandBuffer cmd)
             {
                 voile::gpu::Recorder recorder(context(), cmd);
-                voile::record_refit(recorder, kernels, set, place_);
+                voile::record_refit(recorder, kernels, set, refit_tree_);
                 voile::gpu::Recorder dry(context());
-                voile::record_refit(dry, kernels, set, place_);
+                voile::record_refit(dry, kernels, set, refit_tree_);
                 CHECK(dry.dispatches() == recorder.dispatches());
                 const uint32_t levels = std::max(1u, voile::padded_levels(tree.triangles));
-                CHECK(recorder.dispatches() == (levels + kernels.levels_a_dispatch - 1) / kernels.levels_a_dispatch);
+                CHECK(recorder.dispatches() ==
+                      (levels + kernels.levels_per_dispatch - 1) / kernels.levels_per_dispatch);
             });
-        std::vector<PaddedBox> boxes = read<PaddedBox>(boxes_.handle(), place_.first_box + tree.boxes() + 1);
-        CHECK(boxes.at(place_.first_box - 1).min.x == 7); // data around the tree is untouched
+        std::vector<PaddedBox> boxes = read<PaddedBox>(boxes_.handle(), refit_tree_.first_box + tree.boxes() + 1);
+        CHECK(boxes.at(refit_tree_.first_box - 1).min.x == 7); // data around the tree is untouched
         CHECK(boxes.back().min.x == 7);
         boxes.pop_back();
-        boxes.erase(boxes.begin(), boxes.begin() + place_.first_box);
+        boxes.erase(boxes.begin(), boxes.begin() + refit_tree_.first_box);
         return boxes;
     }
 
@@ -149,7 +150,7 @@ public:
     {
         constexpr uint32_t k_group = 64;
         const auto count = static_cast<uint32_t>(queries.size());
-        const tests::shared::VisitPush push{place_.first_box, k_first_leaf, triangles, count, triangles + 2};
+        const tests::shared::VisitPush push{refit_tree_.first_box, k_first_leaf, triangles, count, triangles + 2};
         voile::engine::UploadBatch batch(context());
         const voile::gpu::Buffer asked = batch.buffer("queries", queries, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         const size_t words = size_t{count} * push.room;
@@ -179,7 +180,7 @@ public:
     }
 
 private:
-    voile::RefitPlace place_;
+    voile::RefitTree refit_tree_;
     voile::gpu::Buffer leaves_;
     voile::gpu::Buffer positions_;
     voile::gpu::Buffer boxes_;

@@ -26,13 +26,13 @@ voile::GridCloth sheet(uint32_t side)
     return grid;
 }
 
-glm::mat4 at(const glm::vec3& place, float degrees = 0)
+glm::mat4 at(const glm::vec3& position, float degrees = 0)
 {
     glm::mat4 m(1.f);
     const float angle = degrees * 3.14159265f / 180;
     m[0] = {std::cos(angle), 0, -std::sin(angle), 0};
     m[2] = {std::sin(angle), 0, std::cos(angle), 0};
-    m[3] = glm::vec4(place, 1);
+    m[3] = glm::vec4(position, 1);
     return m;
 }
 
@@ -65,8 +65,8 @@ TEST_CASE("pins follow an anchor exactly, move with its velocity, and stop with 
         harness.upload();
         for (int frame = 1; frame <= 30; ++frame)
         {
-            const glm::vec3 place(0.02f * static_cast<float>(frame), 2, -0.5f);
-            const glm::mat4 transform = at(place, 2 * static_cast<float>(frame));
+            const glm::vec3 position(0.02f * static_cast<float>(frame), 2, -0.5f);
+            const glm::mat4 transform = at(position, 2 * static_cast<float>(frame));
             voile::engine::take(harness.solver.move_anchor(rod, transform));
             const auto before = harness.positions(id);
             harness.step({});
@@ -212,13 +212,13 @@ TEST_CASE("a max-distance constraint keeps a vertex near a moving point, a backs
     for (int frame = 1; frame <= 60; ++frame)
     {
         const float t = static_cast<float>(frame) / 60;
-        const glm::vec3 place(0.3f * std::sin(6 * t), 2 + 0.2f * std::sin(9 * t), 0);
-        voile::engine::take(harness.solver.move_anchor(body, at(place)));
+        const glm::vec3 position(0.3f * std::sin(6 * t), 2 + 0.2f * std::sin(9 * t), 0);
+        voile::engine::take(harness.solver.move_anchor(body, at(position)));
         harness.step({});
         const auto x = harness.positions(id);
         for (uint32_t i = 0; i < 144; ++i)
         {
-            const glm::vec3 pose = glm::vec3(start[i]) - glm::vec3(0, 2, 0) + place;
+            const glm::vec3 pose = glm::vec3(start[i]) - glm::vec3(0, 2, 0) + position;
             CHECK(glm::distance(glm::vec3(x[i]), pose) < 0.1f + 1e-5f);
             CHECK(x[i].y - pose.y > -0.03f - 1e-5f);
             deepest = std::max(deepest, static_cast<double>(pose.y - x[i].y));

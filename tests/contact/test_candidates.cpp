@@ -30,7 +30,7 @@ struct Shot
 class Scene : public ClothHarness
 {
 public:
-    explicit Scene(const Shot& shot) : ClothHarness({.recovery = false}), mesh_(tests::lump_with_ears(shot.rings))
+    explicit Scene(const Shot& shot) : ClothHarness({.depenetration = false}), mesh_(tests::lump_with_ears(shot.rings))
     {
         voile::GridCloth grid = tests::flat_sheet(24, 0.45f, -0.325f); // under the lump: its ears are above
         grid.transform = grid.transform * glm::mat4_cast(glm::quat(glm::vec3(0.05f, 0.7f, 0.02f)));
@@ -134,7 +134,7 @@ TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists
 TEST_CASE("a list of near triangles ends when its collider moves by hundreds of meters in a step")
 {
     const voile::engine::Mesh lump = tests::lump_with_ears(160);
-    ClothHarness harness({.feature_contact = false, .recovery = false});
+    ClothHarness harness({.feature_contact = false, .depenetration = false});
     voile::GridCloth grid = tests::flat_sheet(24, 0.45f, -0.325f); // within the thickness, so that lists are narrow
     tests::fabric_of(grid).thickness = 0.03f;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));

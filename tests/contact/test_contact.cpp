@@ -139,7 +139,7 @@ TEST_CASE("a substep with contact equals the double-precision brute force")
                 const voile::engine::Mesh& mesh = closed ? sphere : ground;
                 const reference::TriangleMesh exact = mesh_of(mesh, closed);
                 ClothHarness harness(
-                    {.feature_contact = false, .recovery = false, .tuning = {.contact_method = method}});
+                    {.feature_contact = false, .depenetration = false, .tuning = {.contact_method = method}});
                 (void)voile::engine::take(harness.solver.add_collider(collider(mesh)));
                 const Comparison result =
                     compare(harness, falling_sheet(size.columns, size.rows), k_step,
@@ -164,7 +164,7 @@ TEST_CASE("a substep with planes and spheres equals their formulas")
     for (const bool plane : {true, false})
     {
         CAPTURE(plane);
-        ClothHarness harness({.recovery = false});
+        ClothHarness harness({.depenetration = false});
         if (plane)
             (void)voile::engine::take(
                 harness.solver.add_collider(voile::PlaneCollider{.normal = glm::vec3(normal), .offset = 0.42f}));

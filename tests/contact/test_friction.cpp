@@ -74,7 +74,7 @@ TEST_CASE("friction holds coarse cloth that a ball supports between its vertices
         int supported = 0;
         for (size_t i = 0; i < end.size(); ++i)
         {
-            if ((static_cast<uint32_t>(velocities[i].w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) == 0)
+            if ((static_cast<uint32_t>(velocities[i].w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TOUCHES_FEATURE)) == 0)
                 continue;
             moved += static_cast<double>(glm::distance(glm::vec3(start[i]), glm::vec3(end[i])));
             ++supported;

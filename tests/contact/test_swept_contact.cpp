@@ -112,7 +112,7 @@ struct Count
 constexpr double k_rounding = 2e-6;
 // The nearest surface counts if it is on the side where the path entered: a cosine.
 constexpr double k_same_side = 0.49;
-constexpr double k_recovery_speed = 0.75; // m/s
+constexpr double k_depenetration_speed = 0.75; // m/s
 // On a needle of 1 mm a rounding of the position rotates the plane by 2e-4, and the path ends some 0.2 m farther.
 constexpr double k_direction = 0.98;
 
@@ -127,7 +127,7 @@ void judge(const reference::SignedDistance& distance, double thickness, const gl
     if (path.deepest < -k_rounding)
     {
         ++count.entering;
-        const double least = std::min({thickness, start, k_recovery_speed * static_cast<double>(k_step)});
+        const double least = std::min({thickness, start, k_depenetration_speed * static_cast<double>(k_step)});
         count.under += distance(x) < k_direction * least - k_rounding;
         const auto normal = [&](const glm::dvec3& p) { return reference::normal_at(distance, p, k_rounding); };
         const bool same_side = glm::dot(normal(x), normal(from + path.entry * (to - from))) > k_same_side;
@@ -242,7 +242,7 @@ private:
         harness_.set_velocities(lane.cloth, v);
     }
 
-    ClothHarness harness_{voile::SolverOptions{.feature_contact = false, .recovery = false}};
+    ClothHarness harness_{voile::SolverOptions{.feature_contact = false, .depenetration = false}};
     std::vector<voile::ColliderId> colliders_;
     std::vector<Lane> lanes_;
 };

@@ -81,10 +81,10 @@ TEST_CASE("no cloth blows up, whatever its material and however few its substeps
         {
             const Motion start = motion_of(harness, s.id);
             const voile::Stability stability = harness.solver.stability(s.id, step);
-            const bool softened = stability.stiffness_share < 1 || stability.damping_share < 1;
+            const bool softened = stability.stiffness_scale < 1 || stability.damping_scale < 1;
             CHECK(softened == (stability.needed > step.max_substeps));
             CHECK(stability.used <= step.max_substeps);
-            s.bound = energy_bound(start, static_cast<double>(stability.stiffness_share) * s.elastic, step);
+            s.bound = energy_bound(start, static_cast<double>(stability.stiffness_scale) * s.elastic, step);
         }
         for (int i = 0; i < 30; ++i)
         {
@@ -128,7 +128,7 @@ TEST_CASE("damping of springs folded into one line is as stable as in a plane")
     }
     harness.upload();
     const voile::Step step{.max_substeps = 16};
-    CHECK(harness.solver.stability(ids[0], step).damping_share < 1);
+    CHECK(harness.solver.stability(ids[0], step).damping_scale < 1);
     for (const voile::ClothId id : ids)
         CHECK(motion_of(harness, id).energy > 0.1);
     harness.step(step, 60);

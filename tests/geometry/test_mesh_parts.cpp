@@ -73,15 +73,15 @@ std::string faces(const std::vector<Part>& parts)
 void shuffle(voile::engine::Mesh& mesh, uint32_t seed)
 {
     std::mt19937 random(seed);
-    std::vector<uint32_t> places(mesh.positions.size());
-    for (uint32_t i = 0; i < places.size(); ++i)
-        places[i] = i;
-    std::shuffle(places.begin(), places.end(), random);
+    std::vector<uint32_t> new_indices(mesh.positions.size());
+    for (uint32_t i = 0; i < new_indices.size(); ++i)
+        new_indices[i] = i;
+    std::shuffle(new_indices.begin(), new_indices.end(), random);
     const std::vector<glm::vec3> positions = mesh.positions;
-    for (uint32_t i = 0; i < places.size(); ++i)
-        mesh.positions[places[i]] = positions[i];
+    for (uint32_t i = 0; i < new_indices.size(); ++i)
+        mesh.positions[new_indices[i]] = positions[i];
     for (glm::uvec3& t : mesh.triangles)
-        t = {places[t.x], places[t.y], places[t.z]};
+        t = {new_indices[t.x], new_indices[t.y], new_indices[t.z]};
     std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
 }
 

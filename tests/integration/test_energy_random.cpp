@@ -115,7 +115,7 @@ Subject add_grid(ClothHarness& harness, Draw& draw, const voile::Step& step)
              std::to_string(tether) + " held " + std::to_string(grid.pins.size()) + " " + std::to_string(grid.columns) +
              " x " + std::to_string(grid.rows) + " scale " + std::to_string(glm::length(glm::vec3(grid.transform[0])));
     s.decays = fabric.damping_ratio > 0 && scale != 1;
-    s.stiffness = static_cast<double>(harness.solver.stability(s.id, step).stiffness_share);
+    s.stiffness = static_cast<double>(harness.solver.stability(s.id, step).stiffness_scale);
     s.energy = measure(tests::reference_of(grid), s.stiffness);
     return s;
 }
@@ -131,7 +131,7 @@ Subject add_mesh(ClothHarness& harness, Draw& draw, const voile::Step& step, con
     Subject s;
     s.id = voile::engine::take(harness.solver.add_cloth(mesh));
     s.text = "mesh " + tests::describe(mesh) + " limit " + std::to_string(fabric.strain_limit);
-    s.stiffness = static_cast<double>(harness.solver.stability(s.id, step).stiffness_share);
+    s.stiffness = static_cast<double>(harness.solver.stability(s.id, step).stiffness_scale);
     s.energy = measure(tests::reference_of(mesh), s.stiffness);
     return s;
 }
@@ -211,7 +211,7 @@ voile::ClothMaterial draw_wide_material(Draw& draw)
     voile::Material m;
     m.vertex_mass = draw.in(1e-5f, 10);
     m.springs = {spring(), spring(), spring(), spring(), spring(), spring()};
-    m.border_share = draw.uniform(0.1f, 1);
+    m.border_scale = draw.uniform(0.1f, 1);
     m.strain_limit = limit;
     return m;
 }
@@ -241,7 +241,7 @@ void run_free_grid(const voile::GridCloth& grid, uint32_t max_substeps, uint32_t
     harness.upload();
     const voile::Step step{.max_substeps = max_substeps, .gravity = glm::vec3(0)};
     auto reference = tests::reference_of(grid);
-    reference.soften(static_cast<double>(harness.solver.stability(id, step).stiffness_share));
+    reference.soften(static_cast<double>(harness.solver.stability(id, step).stiffness_scale));
     const auto energy = [&] { return tests::energy_of(harness, id, reference, glm::dvec3(0)); };
     const double start = energy();
     double most = start;

@@ -21,7 +21,7 @@ voile::GridCloth uneven_sheet(uint32_t columns, uint32_t rows)
     tests::raw(grid).springs.diagonal_bend = {30, 0.2f};
     tests::raw(grid).air_drag_normal = 1.28f;
     tests::raw(grid).air_drag_tangential = 0.1f;
-    tests::raw(grid).border_share = 0.7f;
+    tests::raw(grid).border_scale = 0.7f;
     return grid;
 }
 
@@ -256,7 +256,7 @@ TEST_CASE("counting the dispatches of a step changes nothing")
         ClothHarness harness;
         const voile::ClothId id =
             voile::engine::take(harness.solver.add_cloth(voile::GridCloth{.columns = 9, .rows = 7}));
-        // It is inside at first, so that recovery counts its steps.
+        // It is inside at first, so that depenetration counts its steps.
         (void)voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.radius = 0.3f}));
         harness.upload();
         for (int i = 0; i < 12; ++i)

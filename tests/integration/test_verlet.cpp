@@ -21,7 +21,7 @@ voile::GridCloth uneven_sheet(uint32_t columns, uint32_t rows)
     tests::raw(grid).springs.diagonal_bend = {30, 0.2f};
     tests::raw(grid).air_drag_normal = 1.28f;
     tests::raw(grid).air_drag_tangential = 0.1f;
-    tests::raw(grid).border_share = 0.7f;
+    tests::raw(grid).border_scale = 0.7f;
     grid.integrator = voile::Integrator::verlet;
     return grid;
 }

@@ -41,7 +41,7 @@ uint64_t hash_topology(const voile::MeshTopology& mesh)
     for (const voile::MembraneTriangle& t : mesh.membrane)
     {
         hash.add(t.corner);
-        hash.add(t.place);
+        hash.add(t.position);
         hash.add(t.area);
         hash.add(t.weight);
         std::array<uint32_t, 3> edges{t.edge[0], t.edge[1], t.edge[2]};

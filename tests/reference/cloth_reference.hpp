@@ -134,7 +134,7 @@ private:
 
     [[nodiscard]] double border(uint32_t i, uint32_t count) const
     {
-        return i == 0 || i + 1 == count ? double(material_.border_share) : 1;
+        return i == 0 || i + 1 == count ? double(material_.border_scale) : 1;
     }
 
     // The vertex takes a quarter of each of the four cells around it: half of the triangle that two sides span.

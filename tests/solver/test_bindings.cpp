@@ -58,7 +58,8 @@ TEST_CASE_FIXTURE(Bindings, "a wrong or missing name in a set is an error that n
     CHECK(tethers(buffer::residuals, buffer::positions, {earlier}) ==
           "kernel \"cloth tethers\": binding \"proposed_positions\" has entries of type vec4, buffer \"residuals\" of "
           "type uvec2");
-    CHECK(tethers(buffer::positions, buffer::residuals, {earlier, {binding::step_votes, buffer::recovery_votes_a}}) ==
+    CHECK(tethers(buffer::positions, buffer::residuals,
+                  {earlier, {binding::step_votes, buffer::depenetration_votes_even}}) ==
           "kernel \"cloth tethers\" has no binding \"step_votes\"");
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
             CHECK(std::get<voile::Fabric>(solver.material(none)).areal_density == voile::Fabric{}.areal_density);
             CHECK(solver.attachments(none).empty());
             CHECK(solver.stability(none, {}).needed == 0);
-            CHECK(solver.stability(none, {}).stiffness_share == 1);
+            CHECK(solver.stability(none, {}).stiffness_scale == 1);
             CHECK(solver.vertices(none).vertices == 0);
             CHECK(solver.vertices(none).positions == VK_NULL_HANDLE);
             CHECK(solver.triangles(none).empty());

@@ -29,7 +29,7 @@ inline double bending_energy(const voile::GridCloth& raw, const std::vector<glm:
     const double b = static_cast<double>(raw.depth) / (raw.rows - 1);
     const auto at = [&](uint32_t row, uint32_t column) { return x[size_t{row} * raw.columns + column]; };
     const auto border = [&](uint32_t i, uint32_t count)
-    { return i == 0 || i + 1 == count ? static_cast<double>(material.border_share) : 1; };
+    { return i == 0 || i + 1 == count ? static_cast<double>(material.border_scale) : 1; };
     double sum = 0;
     for (uint32_t r = 0; r < raw.rows; ++r)
         for (uint32_t c = 0; c < raw.columns; ++c)

@@ -43,17 +43,17 @@ inline ClothMesh rough_sheet(uint32_t columns, uint32_t rows)
 inline void shuffle(ClothMesh& mesh)
 {
     EvenRandom random;
-    std::vector<uint32_t> place(mesh.positions.size());
-    for (uint32_t i = 0; i < place.size(); ++i)
-        place[i] = i;
-    for (auto i = static_cast<uint32_t>(place.size()); i > 1; --i)
-        std::swap(place[i - 1], place[random.below(i)]);
-    std::vector<glm::vec3> positions(place.size());
-    for (uint32_t i = 0; i < place.size(); ++i)
-        positions[place[i]] = mesh.positions[i];
+    std::vector<uint32_t> new_index(mesh.positions.size());
+    for (uint32_t i = 0; i < new_index.size(); ++i)
+        new_index[i] = i;
+    for (auto i = static_cast<uint32_t>(new_index.size()); i > 1; --i)
+        std::swap(new_index[i - 1], new_index[random.below(i)]);
+    std::vector<glm::vec3> positions(new_index.size());
+    for (uint32_t i = 0; i < new_index.size(); ++i)
+        positions[new_index[i]] = mesh.positions[i];
     mesh.positions = positions;
     for (glm::uvec3& t : mesh.triangles)
-        t = {place[t.x], place[t.y], place[t.z]};
+        t = {new_index[t.x], new_index[t.y], new_index[t.z]};
     for (auto i = static_cast<uint32_t>(mesh.triangles.size()); i > 1; --i)
         std::swap(mesh.triangles[i - 1], mesh.triangles[random.below(i)]);
 }

@@ -63,7 +63,7 @@ inline voile::Material draw_material(Draw& draw)
     voile::Material m;
     m.vertex_mass = draw.in(1e-9f, 1e6f);
     m.springs = {spring(), spring(), spring(), spring(), spring(), spring()};
-    m.border_share = draw.in(0.1f, 1);
+    m.border_scale = draw.in(0.1f, 1);
     m.bending_stiffness = draw.from_zero(1e-8f, 1e3f);
     m.bending_time = draw.from_zero(1e-6f, 1);
     m.linear_drag = draw.from_zero(1e-4f, 1e6f);

@@ -74,8 +74,8 @@ def check_order(frame):
     expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step stands outside the label \"frame\"")
     dispatches = [labels[-1] for labels, action in frame.steps if action.flags & rd.ActionFlags.Dispatch]
     cloth = [labels[-1] for labels, _ in frame.steps if labels[1] == "cloth"]
-    expect(cloth[0] == "cloth recover", f"the first pass of the cloth is {cloth[0]}")
-    expect(cloth[1] == "cloth feature reach", f"the second pass of the cloth is {cloth[1]}")
+    expect(cloth[0] == "cloth depenetrate", f"the first pass of the cloth is {cloth[0]}")
+    expect(cloth[1] == "cloth near features", f"the second pass of the cloth is {cloth[1]}")
     substeps = cloth[2:-1]
     expect(len(cloth) > 6 and cloth[-1] == "cloth normals", f"passes of the cloth: {cloth[-8:]}")
     passes = STAGES + ["cloth feature contact", "cloth contact"]

@@ -37,13 +37,13 @@ TEST_CASE("vertices move along straight lines from file to file and stay at the 
     CHECK(sequence.first().normals[0] == glm::vec3(0, 1, 0));
     CHECK(sequence.bounds().min == glm::vec3(0));
     CHECK(sequence.bounds().max == glm::vec3(2, 0, 2));
-    std::vector<glm::vec3> places;
+    std::vector<glm::vec3> positions;
     const auto corner = [&](double seconds)
     {
-        sequence.positions_at(seconds, places);
-        CHECK(places.size() == 4);
-        CHECK(places[1] == glm::vec3(1, 0, 0));
-        return places[2].x;
+        sequence.positions_at(seconds, positions);
+        CHECK(positions.size() == 4);
+        CHECK(positions[1] == glm::vec3(1, 0, 0));
+        return positions[2].x;
     };
     CHECK(corner(-1) == 0.6f);
     CHECK(corner(0) == 0.6f);
@@ -56,8 +56,8 @@ TEST_CASE("vertices move along straight lines from file to file and stay at the 
     const auto one = viewer::MeshSequence::load({folder / "one_%d.obj", 10});
     REQUIRE(one);
     CHECK(one.value().duration() == 0);
-    one.value().positions_at(3, places);
-    CHECK(places[2].x == 1.f);
+    one.value().positions_at(3, positions);
+    CHECK(positions[2].x == 1.f);
 }
 
 TEST_CASE("a different mesh is refused with both counts and the files' names")
@@ -106,7 +106,7 @@ TEST_CASE("a folder may hold PLY files and files of other kinds")
     const auto loaded = viewer::MeshSequence::load({folder / "p%d.ply", 1});
     REQUIRE(loaded);
     CHECK(loaded.value().frames() == 12); // in the order of numbers, not of names
-    std::vector<glm::vec3> places;
-    loaded.value().positions_at(10.5, places);
-    CHECK(places[2].y == 10.5f);
+    std::vector<glm::vec3> positions;
+    loaded.value().positions_at(10.5, positions);
+    CHECK(positions[2].y == 10.5f);
 }

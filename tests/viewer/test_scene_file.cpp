@@ -87,8 +87,8 @@ TEST_CASE("every key of a cloth is read")
     REQUIRE(scene.cloths.size() == 2);
     const viewer::ClothEntry& sheet = scene.cloths[0];
     CHECK(sheet.name == "sheet");
-    CHECK(sheet.place.line == 5);
-    CHECK(sheet.place.path == "cloths[0]");
+    CHECK(sheet.location.line == 5);
+    CHECK(sheet.location.path == "cloths[0]");
     const auto& grid = std::get<viewer::GridEntry>(sheet.form);
     CHECK(grid.columns == 8);
     CHECK(grid.rows == 5);
@@ -123,7 +123,7 @@ TEST_CASE("every key of a material is read")
     CHECK(numbers("stretch_stiffness") == std::vector{900.f, 800.f});
     CHECK(numbers("air_drag_normal") == std::vector{1.28f});
     CHECK(numbers("linear_drag") == std::vector{0.1f});
-    CHECK(numbers("border_share").empty());
+    CHECK(numbers("border_scale").empty());
 }
 
 namespace
@@ -168,7 +168,7 @@ TEST_CASE("every parameter of a fabric and of a material can be written in a sce
 {
     check_every_parameter("silk", voile::k_fabric_parameters);
     check_every_parameter("reference", voile::k_material_parameters);
-    check_every_parameter("silk", std::array{*voile::find_parameter(voile::k_material_parameters, "border_share"),
+    check_every_parameter("silk", std::array{*voile::find_parameter(voile::k_material_parameters, "border_scale"),
                                              *voile::find_parameter(voile::k_material_parameters, "spring_damping")});
 }
 

@@ -155,10 +155,10 @@ private:
             if (!is_current(ear))
                 continue;
             // Different seeds, so that not all ears wait for the same corner and are retested together.
-            const auto in_its_way = tree_.find(flat_triangle(ear.corner), ear.corner);
-            if (!in_its_way)
+            const auto obstacle = tree_.find(flat_triangle(ear.corner), ear.corner);
+            if (!obstacle)
                 return ear.corner;
-            wait(ear, *in_its_way);
+            wait(ear, *obstacle);
         }
         // The polygon crosses itself or has no area.
         while (!convex_.empty() && !is_current(convex_.top()))

@@ -66,7 +66,7 @@ void Sheet::record_draw(VkCommandBuffer cmd, engine::View& view)
 engine::Surface fabric_surface(const glm::vec3& color, const glm::vec3& back_color, float size)
 {
     constexpr float k_repeats = 10;
-    constexpr float k_threads_a_repeat = 36;
+    constexpr float k_threads_per_repeat = 36;
 
     engine::Surface surface;
     surface.base_color = color;
@@ -75,7 +75,7 @@ engine::Surface fabric_surface(const glm::vec3& color, const glm::vec3& back_col
     surface.sheen = 0.35f;
     surface.two_sided = true;
     surface.pattern_scale = k_repeats / size;
-    surface.weave_scale = k_repeats * k_threads_a_repeat / size;
+    surface.weave_scale = k_repeats * k_threads_per_repeat / size;
     surface.kind = engine::Surface::Kind::fabric;
     return surface;
 }

@@ -122,7 +122,7 @@ std::span<const PassTime> Timestamps::read(uint32_t slot_index)
     if (status != VK_SUCCESS)
         return times_;
     const uint64_t mask = valid_bits_ >= 64 ? ~uint64_t{0} : (uint64_t{1} << valid_bits_) - 1;
-    const double milliseconds_a_tick = static_cast<double>(context_.limits.timestampPeriod) * 1e-6;
+    const double milliseconds_per_tick = static_cast<double>(context_.limits.timestampPeriod) * 1e-6;
     for (uint32_t pass = 0; pass < count; ++pass)
     {
         const uint64_t ticks = (ticks_[2 * size_t{pass} + 1] - ticks_[2 * size_t{pass}]) & mask;
@@ -131,7 +131,7 @@ std::span<const PassTime> Timestamps::read(uint32_t slot_index)
             std::find_if(times_.begin(), times_.end(), [&](const PassTime& time) { return time.name == name; });
         if (entry == times_.end())
             entry = times_.insert(times_.end(), PassTime{name, 0});
-        entry->milliseconds += static_cast<double>(ticks) * milliseconds_a_tick;
+        entry->milliseconds += static_cast<double>(ticks) * milliseconds_per_tick;
     }
     return times_;
 }

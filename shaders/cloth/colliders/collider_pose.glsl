@@ -29,7 +29,7 @@ Pose pose_at(uint collider, float progress)
     Pose pose;
     // mix() would round differently from step to step and shake a collider at rest.
     pose.rotation = normalize(motion.rotation_from + progress * (motion.rotation_to - motion.rotation_from));
-    pose.position = motion.place_from + progress * (motion.place_to - motion.place_from);
+    pose.position = motion.offset_from + progress * (motion.offset_to - motion.offset_from);
     return pose;
 }
 
@@ -53,7 +53,7 @@ PoseChange pose_change(uint collider, float from, float to)
     const float shortened = part * (1 - from - to) * dot(turn, turn) / (length_from + length_to); // length_from - length_to
     PoseChange change;
     change.rotation = (part * turn + shortened / length_from * chord_from) / length_to;
-    change.position = part * (motion.place_to - motion.place_from);
+    change.position = part * (motion.offset_to - motion.offset_from);
     return change;
 }
 

@@ -1,4 +1,4 @@
-// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (collider_reach.comp),
+// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (find_near_colliders.comp),
 // or all.
 //
 // A list holds inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed. The

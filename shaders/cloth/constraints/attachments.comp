@@ -13,7 +13,7 @@
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord holds[]; };
+layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord attachments[]; };
 layout(VOILE_BINDING(anchors)) readonly buffer Anchors { AnchorRecord anchors[]; };
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 positions[]; };
@@ -41,45 +41,45 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    const AttachmentRecord hold = holds[push.first + gl_GlobalInvocationID.x];
-    const vec4 position = positions[hold.vertex];
+    const AttachmentRecord attachment = attachments[push.first + gl_GlobalInvocationID.x];
+    const vec4 position = positions[attachment.vertex];
     if (position.w == 0)
         return;
-    const AnchorRecord anchor = anchors[hold.anchor];
-    const vec3 from = (anchor.from * vec4(hold.place, 1)).xyz;
-    const vec3 to = (anchor.to * vec4(hold.place, 1)).xyz;
+    const AnchorRecord anchor = anchors[attachment.anchor];
+    const vec3 from = (anchor.from * vec4(attachment.position, 1)).xyz;
+    const vec3 to = (anchor.to * vec4(attachment.position, 1)).xyz;
     const vec3 point = mix(from, to, push.progress);
     const float h = push.step;
-    const FinePosition here = FinePosition(position.xyz, unpack_residual(residuals[hold.vertex]));
+    const FinePosition here = FinePosition(position.xyz, unpack_residual(residuals[attachment.vertex]));
     const vec3 to_vertex = (position.xyz - point) + here.residual;
     vec3 shift = vec3(0); // m, of the vertex
-    const vec4 velocity = velocities[hold.vertex];
+    const vec4 velocity = velocities[attachment.vertex];
     vec3 v = velocity.xyz;
 
     const vec3 point_velocity = (to - from) * push.rate;
-    const float stiffness = hold.stiffness;
+    const float stiffness = attachment.stiffness;
     const float w = position.w;
-    const vec3 pull = stiffness * (h * v - to_vertex) + hold.damping * point_velocity;
-    const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (hold.damping + h * stiffness));
-    const bool verlet = is_verlet(cloths[hold.cloth].flags);
+    const vec3 pull = stiffness * (h * v - to_vertex) + attachment.damping * point_velocity;
+    const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (attachment.damping + h * stiffness));
+    const bool verlet = is_verlet(cloths[attachment.cloth].flags);
     shift += drift_time(verlet, h) * (spring_velocity - v);
     v = spring_velocity;
 
     const vec3 offset = to_vertex + shift;
     const float distance = length(offset);
     bool taut = false;
-    if (distance > hold.max_distance)
-        taut = keep_inside(shift, v, offset / distance, distance - hold.max_distance, point_velocity);
-    if ((hold.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
+    if (distance > attachment.max_distance)
+        taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity);
+    if ((attachment.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
     {
-        const vec3 n = normalize(mat3(anchor.to) * hold.normal);
-        taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - hold.backstop, point_velocity) || taut;
+        const vec3 n = normalize(mat3(anchor.to) * attachment.normal);
+        taut = keep_inside(shift, v, -n, -dot(to_vertex + shift, n) - attachment.backstop, point_velocity) || taut;
     }
     const FinePosition next = moved(here, shift);
-    positions[hold.vertex].xyz = next.x;
-    residuals[hold.vertex] = pack_residual(next);
+    positions[attachment.vertex].xyz = next.x;
+    residuals[attachment.vertex] = pack_residual(next);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
-    velocities[hold.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
+    velocities[attachment.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
     if (verlet)
-        predicted[hold.vertex].xyz += v - velocity.xyz;
+        predicted[attachment.vertex].xyz += v - velocity.xyz;
 }

@@ -109,7 +109,7 @@ LimitScale scale_of(float reserve, Energies e)
 // The second and later looks, at the displacements that are kept. Velocities are final.
 LimitScale rescaled(LimitScale s, Energies e)
 {
-    const bool last = push.look == VOILE_LIMIT_LOOKS;
+    const bool last = push.measurement == VOILE_LIMIT_MEASUREMENTS;
     const float available = max(s.saved + s.lost, 0);
     float x = 1;
     if (!(e.cost <= k_overdraft * available))
@@ -133,7 +133,7 @@ void main()
         return;
     const uint thread = gl_LocalInvocationID.x;
     const LimitScale scale = scales[cloth];
-    const float kept = push.look == 0 ? 1 : scale.kept;
+    const float kept = push.measurement == 0 ? 1 : scale.kept;
     Energies sum = Energies(0, 0, 0, 0, 0, 0, 0, 0, 0);
     for (uint c = first + thread; c < push.patches && patches[c].cloth == cloth; c += gl_WorkGroupSize.x)
         sum = add(sum, energies_of(c, kept));
@@ -146,5 +146,5 @@ void main()
         barrier();
     }
     if (thread == 0)
-        scales[cloth] = push.look == 0 ? scale_of(scale.saved, sums[0]) : rescaled(scale, sums[0]);
+        scales[cloth] = push.measurement == 0 ? scale_of(scale.saved, sums[0]) : rescaled(scale, sums[0]);
 }

@@ -135,7 +135,7 @@ float coarse_inverse_mass(uint cloth, ivec2 column_row, uint index, int spacing)
     const float inverse_mass = positions[index].w;
     if (spacing == 1 || inverse_mass == 0)
         return inverse_mass;
-    const float border = cloths[cloth].border_share;
+    const float border = cloths[cloth].border_scale;
     return 1 / (lines_with(column_row.x, int(cloths[cloth].columns), spacing, border) *
                 lines_with(column_row.y, int(cloths[cloth].rows), spacing, border));
 }

@@ -9,7 +9,7 @@
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
-layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord holds[]; };
+layout(VOILE_BINDING(attachments)) readonly buffer Attachments { AttachmentRecord attachments[]; };
 layout(VOILE_BINDING(anchors)) readonly buffer Anchors { AnchorRecord anchors[]; };
 layout(VOILE_BINDING(positions)) buffer Positions { vec4 positions[]; };
 layout(VOILE_BINDING(velocities)) writeonly buffer Velocities { vec4 velocities[]; };
@@ -21,14 +21,14 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    const AttachmentRecord hold = holds[push.first + gl_GlobalInvocationID.x];
-    const AnchorRecord anchor = anchors[hold.anchor];
-    const bool placed = (hold.flags & VOILE_ATTACHMENT_PLACED) != 0;
+    const AttachmentRecord attachment = attachments[push.first + gl_GlobalInvocationID.x];
+    const AnchorRecord anchor = anchors[attachment.anchor];
+    const bool placed = (attachment.flags & VOILE_ATTACHMENT_PLACED) != 0;
     const vec3 bound = vec3(VOILE_MOST_COORDINATE);
-    const vec3 from = placed ? clamp((anchor.from * vec4(hold.place, 1)).xyz, -bound, bound) : positions[hold.vertex].xyz;
-    const vec3 to = clamp((placed ? anchor.to * vec4(hold.place, 1) : anchor.motion * vec4(from, 1)).xyz, -bound, bound);
-    positions[hold.vertex] = vec4(from, 0);
+    const vec3 from = placed ? clamp((anchor.from * vec4(attachment.position, 1)).xyz, -bound, bound) : positions[attachment.vertex].xyz;
+    const vec3 to = clamp((placed ? anchor.to * vec4(attachment.position, 1) : anchor.motion * vec4(from, 1)).xyz, -bound, bound);
+    positions[attachment.vertex] = vec4(from, 0);
     if (placed)
-        residuals[hold.vertex] = uvec2(0);
-    velocities[hold.vertex] = vec4((to - from) / push.step, 0);
+        residuals[attachment.vertex] = uvec2(0);
+    velocities[attachment.vertex] = vec4((to - from) / push.step, 0);
 }

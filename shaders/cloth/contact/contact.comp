@@ -33,7 +33,7 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 proposed_predicted[]; };
 layout(VOILE_BINDING(earlier_predicted)) writeonly buffer EarlierPredicted { vec4 predicted[]; }; // of cloths that use Verlet
 
-layout(VOILE_BINDING(candidate_places)) buffer CandidatePlaces { vec4 candidate_places[]; };
+layout(VOILE_BINDING(candidate_centers)) buffer CandidateCenters { vec4 candidate_centers[]; };
 layout(VOILE_BINDING(candidate_triangles)) buffer CandidateTriangles { uint candidate_triangles[]; };
 layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
@@ -44,7 +44,7 @@ layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 propo
 layout(VOILE_BINDING(earlier_residuals)) buffer EarlierResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
 {
-    uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
+    uint dispatch_sizes[2 * VOILE_DISPATCH_WORDS];
     Depenetration depenetrations[];
 };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
@@ -125,7 +125,7 @@ vec3 world_direction(RelativeMotion relative, vec3 direction)
 // would load the springs.
 float lift_of(Contact contact, float thickness)
 {
-    const float lift = min(thickness, contact.start + VOILE_RECOVERY_SPEED * push.step) - contact.gap;
+    const float lift = min(thickness, contact.start + VOILE_DEPENETRATION_SPEED * push.step) - contact.gap;
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
@@ -173,7 +173,7 @@ void depenetrate(inout Motion motion, Depenetration depenetration)
     const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
     // Bounded, or a collider that jumps would throw the vertex.
     vec3 surface = surface_displacement(relative, relative.from, vec3(0)) / push.step;
-    surface *= min(1, VOILE_RECOVERY_SPEED / max(length(surface), 1e-30));
+    surface *= min(1, VOILE_DEPENETRATION_SPEED / max(length(surface), 1e-30));
     vec3 own = motion.v - surface;
     own *= min(max(1 - push.step / k_inside_time, 0), k_inside_speed / max(length(own), 1e-30));
     const float speed = length(depenetration.velocity);
@@ -287,7 +287,7 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
     {
         motion.displacement += corrections[i].shift;
         motion.v += corrections[i].change;
-        flags |= VOILE_VERTEX_MEETS;
+        flags |= VOILE_VERTEX_TOUCHES_FEATURE;
     }
     return motion;
 }
@@ -295,7 +295,7 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
 // Loaded only in steps in which any vertex is inside a collider.
 Depenetration depenetration_of(uint i)
 {
-    if (push.recovers == 0 || recovery_sizes[push.recovery] == 0)
+    if (push.depenetrates == 0 || dispatch_sizes[push.dispatch_word] == 0)
         return Depenetration(vec3(0), 0);
     return depenetrations[i];
 }

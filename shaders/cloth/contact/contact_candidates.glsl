@@ -4,12 +4,12 @@
 // margin. While the vertex stays within the margin, the next substeps test only these triangles, and skip those whose
 // stored distance is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal.
 // Therefore:
-//   - all lists are refreshed together, every VOILE_RENEWAL substeps, if half of their margin is used up;
+//   - all lists are refreshed together, every VOILE_REFRESH_PERIOD substeps, if half of their margin is used up;
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It holds until the end
 // of that step. So does the list of a deforming mesh, whose boxes cover the whole step.
-// The including kernel declares candidate_places[] and candidate_triangles[] and what mesh_query.glsl expects, and
+// The including kernel declares candidate_centers[] and candidate_triangles[] and what mesh_query.glsl expects, and
 // includes near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
@@ -31,8 +31,8 @@ const float k_lasting_margin = 0.03;
 // is a triangle, or a slot of an implicit BVH, with its distance from the ball's center as a level between both radii.
 // Levels are finest near the least radius: where many triangles are near, they decide which of them the ball must hold.
 const uint k_head_word = 0;
-const uint k_radius_word = 1;
-const uint k_least_word = 2;
+const uint k_max_radius_word = 1;
+const uint k_min_radius_word = 2;
 const uint k_first_entry = 3;
 const uint k_slot_bit = 0x80000000u; // the entry is a slot
 const uint k_levels = 31;
@@ -45,8 +45,8 @@ struct Candidates
     uint count;   // VOILE_CANDIDATES + 1: more than fit
     vec3 center;  // m, world: the query center, middle of the ball that the list covers
     float radius; // m, of the ball
-    float wished; // m, the largest radius
-    float least;  // m, the least radius
+    float max_radius; // m, the largest radius
+    float min_radius;  // m, the least radius
     float made;   // progress of the step when the list was made; < 0: in an earlier step
     // Of the mesh that is being traversed to collect.
     vec3 local_center;  // m, the query center in the mesh's space
@@ -60,21 +60,21 @@ uint candidate_word(Candidates list, uint word) { return word * push.vertices + 
 // Loaded only where the list is read or made. For most vertices it is neither.
 void load_radii(inout Candidates list)
 {
-    list.wished = uintBitsToFloat(candidate_triangles[candidate_word(list, k_radius_word)]);
-    list.least = uintBitsToFloat(candidate_triangles[candidate_word(list, k_least_word)]);
+    list.max_radius = uintBitsToFloat(candidate_triangles[candidate_word(list, k_max_radius_word)]);
+    list.min_radius = uintBitsToFloat(candidate_triangles[candidate_word(list, k_min_radius_word)]);
 }
 
 // m: a lower bound of an entry's distance from the query center.
 float entry_distance(Candidates list, uint entry)
 {
     const float level = float(entry >> VOILE_CANDIDATE_TRIANGLE_BITS & k_levels) / k_levels;
-    return level > 0 ? list.least + level * level * (list.wished - list.least) : 0;
+    return level > 0 ? list.min_radius + level * level * (list.max_radius - list.min_radius) : 0;
 }
 
 uint level_of(Candidates list, float distance)
 {
     const float at_least = 0.9999 * distance - rounding(list.local_center);
-    const float fraction = (at_least - list.least) / (list.wished - list.least);
+    const float fraction = (at_least - list.min_radius) / (list.max_radius - list.min_radius);
     return uint(sqrt(clamp(fraction, 0, 1)) * k_levels);
 }
 
@@ -82,14 +82,14 @@ uint level_of(Candidates list, float distance)
 // room or the levels of its entries differ no more.
 void shrink_ball(inout Candidates list)
 {
-    const float least_spare = (list.wished - list.least) / (k_levels * k_levels);
+    const float least_spare = (list.max_radius - list.min_radius) / (k_levels * k_levels);
     while (list.count >= k_aimed_count)
     {
-        const float spare = list.radius - list.least;
+        const float spare = list.radius - list.min_radius;
         const bool has_room = list.count < VOILE_CANDIDATES;
-        if (spare < (has_room ? k_lasting_margin * list.wished : least_spare))
+        if (spare < (has_room ? k_lasting_margin * list.max_radius : least_spare))
             return;
-        const float radius = list.least + 0.5 * spare;
+        const float radius = list.min_radius + 0.5 * spare;
         if (radius >= list.radius)
             return; // by rounding
         list.radius = radius;
@@ -266,19 +266,19 @@ void refresh_candidates(inout Candidates list, uint layers, float path, float ma
 {
     // If the last ball shrank, this one is only a little wider: what lies farther out would be dropped again.
     const float last = list.radius - query_radius;
-    const bool shrank = last >= 0 && list.radius < list.wished;
+    const bool shrank = last >= 0 && list.radius < list.max_radius;
     const float grown = max(k_margin_growth * last, 0.1 * k_candidate_margin * query_radius);
-    list.least = query_radius + path;
-    list.wished = list.least + (shrank ? min(margin, grown) : margin);
-    list.radius = list.wished;
+    list.min_radius = query_radius + path;
+    list.max_radius = list.min_radius + (shrank ? min(margin, grown) : margin);
+    list.radius = list.max_radius;
     collect_triangles(list, layers);
     if (list.count > VOILE_CANDIDATES)
-        list.radius = list.wished; // until the next refresh, which would find as many
-    candidate_places[list.vertex] = vec4(list.center, list.radius);
+        list.radius = list.max_radius; // until the next refresh, which would find as many
+    candidate_centers[list.vertex] = vec4(list.center, list.radius);
     candidate_triangles[candidate_word(list, k_head_word)] =
         push.substep << VOILE_CANDIDATE_COUNT_BITS | list.count;
-    candidate_triangles[candidate_word(list, k_radius_word)] = floatBitsToUint(list.wished);
-    candidate_triangles[candidate_word(list, k_least_word)] = floatBitsToUint(list.least);
+    candidate_triangles[candidate_word(list, k_max_radius_word)] = floatBitsToUint(list.max_radius);
+    candidate_triangles[candidate_word(list, k_min_radius_word)] = floatBitsToUint(list.min_radius);
 }
 
 // m: the longest distance of the vertex's path from the query center.
@@ -292,14 +292,14 @@ Candidates load_candidates(uint vertex)
 {
     Candidates list;
     list.vertex = vertex;
-    const vec4 ball = candidate_places[vertex]; // w: m, the radius; < 0: there is no list
+    const vec4 ball = candidate_centers[vertex]; // w: m, the radius; < 0: there is no list
     const uint head = candidate_triangles[candidate_word(list, k_head_word)];
     const uint made = head >> VOILE_CANDIDATE_COUNT_BITS;
     list.count = head & VOILE_CANDIDATE_COUNT_MASK;
     list.center = ball.xyz;
     list.radius = ball.w;
     list.made = made < push.first_substep ? -1
-                                          : min(float(made - push.first_substep + 1) * push.progress_a_substep, 1);
+                                          : min(float(made - push.first_substep + 1) * push.progress_per_substep, 1);
     return list;
 }
 
@@ -309,13 +309,13 @@ Candidates find_candidates(uint vertex, Motion motion, float thickness, uint lay
     Candidates list = load_candidates(vertex);
     const float query_radius = k_query_radius * thickness + rounding(vec3(push.mesh_extent));
     const float margin = list.radius - query_radius; // below 0 if the cloth has become thicker
-    const float usable = push.renew == 1 ? 0.5 * margin : margin;
+    const float usable = push.refresh == 1 ? 0.5 * margin : margin;
     const bool covers = path_distance(list.center, motion) <= usable;
     const MovingMeshes meshes = moving_meshes(list, motion, layers, query_radius);
     const float speed = length(motion.v) + meshes.carried / push.step;
-    const float wanted = max(k_candidate_margin * thickness, 2 * speed * push.renewal_time);
+    const float wanted = max(k_candidate_margin * thickness, 2 * speed * push.refresh_time);
     // A list that overflowed when the vertex was fast, or too close, may fit when it rests.
-    const bool may_fit = push.renew == 1 && list.count > VOILE_CANDIDATES;
+    const bool may_fit = push.refresh == 1 && list.count > VOILE_CANDIDATES;
     if (covers && meshes.covered && !may_fit)
         return list;
     list.center = motion.from.x + 0.5 * motion.displacement;

@@ -10,7 +10,7 @@
 // fast, and on the vertex if that is slow. Pieces with a pinned vertex are skipped. The contact of vertices comes after
 // and overrides.
 //
-// Features of a collider that a cloth is being brought out of (recover.comp) do not hold the cloth back. A sheet that
+// Features of a collider that a cloth is being brought out of (depenetrate.comp) do not hold the cloth back. A sheet that
 // the collider protrudes through would be stretched across its edges until it snaps free.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"

@@ -9,7 +9,7 @@ const float k_parallel = 0.03;
 // A cosine: a direction this far beyond the limit is certainly inside.
 const float k_certain = 0.2;
 // m/s: the speed at which cloth closer than the thickness is lifted.
-const float k_recovery = 0.2;
+const float k_lift_speed = 0.2;
 // m/s^2: a velocity below one substep of this acceleration is slow, up to twice that partly. Cloth at rest presses with
 // a few times its weight.
 const float k_slow = 100;
@@ -94,7 +94,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     const bool passed = gap_before > 0 && result.gap < 0;
     result.found = result.gap < self.thickness && (passed || result.gap > -self.thickness);
     // What was too close before is lifted slowly, or one contact's push would make the next one miss.
-    result.wanted = min(self.thickness, gap_before + k_recovery * push.step);
+    result.wanted = min(self.thickness, gap_before + k_lift_speed * push.step);
     result.time = passed ? gap_before / (gap_before - result.gap) : 1;
     return result;
 }

@@ -141,7 +141,7 @@ LineBending line_bending(AdjacentLines line, float c)
 // Scales of the stiffness along the row and along the column, which differ from 1 at the grid's border.
 vec2 border_scales(uint cloth, PatchVertex self)
 {
-    const float border = cloths[cloth].border_share;
+    const float border = cloths[cloth].border_scale;
     return vec2(self.column_row.y == 0 || self.column_row.y + 1 == int(self.rows) ? border : 1,
                 self.column_row.x == 0 || self.column_row.x + 1 == int(self.columns) ? border : 1);
 }
@@ -222,7 +222,7 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
 void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 {
     const uint first_vertex = cloths[cloth].first_vertex;
-    const bool alike = (cloths[cloth].flags & VOILE_CLOTH_ALIKE) != 0;
+    const bool uniform_springs = (cloths[cloth].flags & VOILE_CLOTH_UNIFORM_SPRINGS) != 0;
     const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
     // The next entry is loaded while the current one is computed.
     MeshSpring next;
@@ -235,7 +235,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const uint other = first_vertex + (entry.neighbor & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbor & VOILE_OPPOSITE_BIT) != 0;
         const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
-        const float weight = alike && entry.weight > 0 ? 1 : entry.weight;
+        const float weight = uniform_springs && entry.weight > 0 ? 1 : entry.weight;
         const float stiffness = scales.stiffness * weight * spring.stiffness;
         const float damping = scales.damping * weight * spring.damping;
         const bool pulls = stiffness + damping > 0;
@@ -248,7 +248,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         g.bending -= entry.bending * (g.bending_scale * delta + g.bending_damping * relative_velocity);
     }
     g.bending *= cloths[cloth].bending.x;
-    if (alike && !feels_air(cloth))
+    if (uniform_springs && !feels_air(cloth))
         return;
     SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
     for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
@@ -265,7 +265,7 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const uint c = first_vertex + corner.c;
         const FinePosition x_b = position_of(b);
         const FinePosition x_c = position_of(c);
-        if (!alike)
+        if (!uniform_springs)
             add_membrane(g, membrane, membrane_corners[entry], TriangleCorner(x_b, stage_velocities[b].xyz),
                          TriangleCorner(x_c, stage_velocities[c].xyz));
         if (feels_air(cloth))

@@ -29,7 +29,7 @@ Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float d
 float air_scale(bool verlet, float decay, float h)
 {
     const float reach = verlet ? 1 - VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN
-                               : VOILE_RK4_REACH * (1 - VOILE_STABILITY_MARGIN);
+                               : VOILE_RK4_RADIUS * (1 - VOILE_STABILITY_MARGIN);
     return min(1, 0.5 * reach / max(decay * h, 1e-30));
 }
 

@@ -45,7 +45,7 @@ void main()
     // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
-    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_MEETS);
+    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
     const vec3 v = before.xyz + kick * a;
     const FinePosition next = moved(x, push.drift * v);

@@ -1,4 +1,4 @@
-// Anchors, holds and tethers, as the GPU reads them.
+// Anchors, attachments and tethers, as the GPU reads them.
 #ifndef VOILE_ATTACHMENT_LAYOUT_H
 #define VOILE_ATTACHMENT_LAYOUT_H
 
@@ -21,7 +21,7 @@ struct AnchorRecord
 // An attachment of a vertex. Pins come first, then the others.
 struct AttachmentRecord
 {
-    vec3 place;  // m, in the anchor's space
+    vec3 position;  // m, in the anchor's space
     uint vertex; // in the solver's buffers
     vec3 normal; // of the backstop, in the anchor's space
     uint anchor;

@@ -70,11 +70,11 @@ VOILE_BUFFER(31, padded_boxes, PaddedBox, padded_boxes, "boxes of their hierarch
 VOILE_SCRATCH_BUFFER(32, near_colliders, uint, near_words, "per patch the box in which its list holds, the first and the last word that is not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
 
 // Contact.
-VOILE_SCRATCH_BUFFER(33, candidate_places, vec4, vertices, "where the list of triangles near a vertex holds")
+VOILE_SCRATCH_BUFFER(33, candidate_centers, vec4, vertices, "where the list of triangles near a vertex holds")
 VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list: its length, two radii, the triangles")
 VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that it is inside of, and the velocity at which it leaves")
-VOILE_BUFFER(36, recovery_votes_a, uint, cloths * VOILE_VOTE_WORDS, "of even steps, per cloth: on which side of its normals it leaves colliders, the sum of all directions, which colliders (VOILE_VOTE_*)")
-VOILE_BUFFER(37, recovery_votes_b, uint, cloths * VOILE_VOTE_WORDS, "the same of odd steps")
+VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "of even steps, per cloth: on which side of its normals it leaves colliders, the sum of all directions, which colliders (VOILE_VOTE_*)")
+VOILE_BUFFER(37, depenetration_votes_odd, uint, cloths * VOILE_VOTE_WORDS, "the same of odd steps")
 VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and vertices of a collider")
 VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features")
 VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and where it faces")
@@ -120,9 +120,9 @@ VOILE_ROLE(81, earlier_positions, vec4, "the positions before the substep")
 VOILE_ROLE(82, earlier_residuals, uvec2, "the residuals before the substep")
 VOILE_ROLE(83, earlier_velocities, vec4, "the velocities before the substep")
 VOILE_ROLE(84, earlier_predicted, vec4, "Verlet: the velocities predicted for the earlier positions")
-VOILE_ROLE(85, step_votes, uint, "votes of this step's recovery")
-VOILE_ROLE(86, last_votes, uint, "votes of the last step's recovery")
-VOILE_ROLE(87, next_votes, uint, "votes that recovery casts")
+VOILE_ROLE(85, step_votes, uint, "votes of this step's depenetration")
+VOILE_ROLE(86, last_votes, uint, "votes of the last step's depenetration")
+VOILE_ROLE(87, next_votes, uint, "votes that depenetration casts")
 
 // The strain limit: the states before and after what is measured.
 VOILE_ROLE(88, step_positions, vec4, "the positions that the strain limit starts from")

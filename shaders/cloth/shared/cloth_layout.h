@@ -26,14 +26,14 @@
 // Flags of a cloth.
 #define VOILE_CLOTH_VERLET 1u    // velocity Verlet; else RK4
 #define VOILE_CLOTH_ISOMETRIC 2u // bends by the isometric model; its bend springs are slack
-#define VOILE_CLOTH_ALIKE 4u     // a mesh whose springs all have the class's constants, whatever their weight
+#define VOILE_CLOTH_UNIFORM_SPRINGS 4u     // a mesh whose springs all have the class's constants, whatever their weight
 // Set in MeshSpring.neighbor: no edge joins the two; a spring between them crosses one.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
 // What a velocity's w says of its vertex, as a sum of these.
 #define VOILE_VERTEX_TOUCHES 1 // it touches a collider
 #define VOILE_VERTEX_TAUT 2    // a tether, a max-distance constraint or a backstop limits it
-#define VOILE_VERTEX_MEETS 4   // a triangle or an edge around it meets a corner or an edge of a collider
+#define VOILE_VERTEX_TOUCHES_FEATURE 4   // a triangle or an edge around it meets a corner or an edge of a collider
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -59,7 +59,7 @@ struct ClothRecord
     float linear_drag;     // N s/m a vertex: force = linear_drag * (wind - velocity)
     float drag_normal;     // C_n of the quadratic law
     float drag_tangential; // C_t
-    float border_share;    // of masses and of springs along a grid's border
+    float border_scale;    // of masses and of springs along a grid's border
     uint flags;
     float omega_squared;     // 1/s^2, of the fastest mode in any shape, bending included
     float decay;             // 1/s, of the fastest decay in any shape
@@ -121,7 +121,7 @@ struct Patch
     uint first;        // counted within the cloth
     uint row;
     uint tile_shift;
-    uint near_features; // 1: it may meet corners and edges of colliders before the next look (feature_reach.comp)
+    uint near_features; // 1: it may meet corners and edges of colliders before the next look (find_near_features.comp)
 };
 
 #ifdef __cplusplus

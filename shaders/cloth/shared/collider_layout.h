@@ -18,7 +18,7 @@
 #define VOILE_COLLIDER_MOVED 8u     // it is, or was, somewhere else than where it was added: see its ColliderMotion
 #define VOILE_COLLIDER_DEFORMS 16u  // a mesh whose vertices move: its hierarchy is a padded tree (padded_layout.h)
 
-// The colliders near a patch (collider_reach.comp), in words: the box in which the list holds, where its bits begin and
+// The colliders near a patch (find_near_colliders.comp), in words: the box in which the list holds, where its bits begin and
 // end that are not 0, in words of them, and then the bits, one per collider.
 #define VOILE_NEAR_MIN 0
 #define VOILE_NEAR_FIRST 3
@@ -28,7 +28,7 @@
 // How many substeps lie between two looks at which colliders are near,
 #define VOILE_NEAR_PERIOD 16
 // and how many colliders there are at most without.
-#define VOILE_NEAR_FEW 8
+#define VOILE_NEAR_LISTS_ABOVE 8
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -61,14 +61,14 @@ struct ColliderMotion
     vec4 rotation_to;
     vec3 origin;     // m, in the world at the step's start, rounded
     uint first_from; // of a mesh that deforms: its first vertex at the start of the step
-    vec3 place_from; // m, of the origin, from there
+    vec3 offset_from; // m, of the origin, from there
     uint first_to;   // and at its end
-    vec3 place_to;
+    vec3 offset_to;
     uint padding;
 };
 
 // Push constants of the look at which colliders are near.
-struct ColliderReachPush
+struct NearCollidersPush
 {
     float time;   // s, to the next look
     float sudden; // m/s, that a vertex at rest may come to have until then
@@ -95,7 +95,7 @@ static_assert(sizeof(ColliderRecord) == 96);
 static_assert(offsetof(ColliderRecord, box_min) == 16);
 static_assert(offsetof(ColliderRecord, origin) == 80);
 static_assert(sizeof(ColliderMotion) == 80);
-static_assert(offsetof(ColliderMotion, place_to) == 64);
+static_assert(offsetof(ColliderMotion, offset_to) == 64);
 static_assert(offsetof(DeformPush, origin) == 64);
 #endif
 

@@ -6,8 +6,8 @@
 
 // m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at
 // twice that speed.
-#define VOILE_RECOVERY_SPEED 0.75f
-// The buffer of depenetrations begins with the sizes of two dispatches of the recovery, one of which the step writes,
+#define VOILE_DEPENETRATION_SPEED 0.75f
+// The buffer of depenetrations begins with the sizes of two dispatches of depenetration, one of which the step writes,
 // of so many words each.
 #define VOILE_DISPATCH_WORDS 4
 
@@ -18,7 +18,7 @@
 // how many bits of a word tell the triangle,
 #define VOILE_CANDIDATE_TRIANGLE_BITS 26
 // and how many substeps lie between the renewals of these lists.
-#define VOILE_RENEWAL 16
+#define VOILE_REFRESH_PERIOD 16
 // The number of the substep in which a list of candidates was made, and their count: one word.
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
@@ -43,29 +43,29 @@ struct ContactPush
 {
     float step; // s
     uint colliders;
-    uint renew;          // 1: lists of candidates are renewed in this substep
-    float renewal_time;  // s, from one renewal to the next
+    uint refresh;          // 1: lists of candidates are renewed in this substep
+    float refresh_time;  // s, from one renewal to the next
     float progress_from; // 0..1, of the step at the substep's start
     float progress_to;   // and at its end
-    float progress_a_substep;
+    float progress_per_substep;
     uint substep;       // counted through all steps
     uint first_substep; // of the step
     uint vertices;      // of all cloths
     uint features;      // 1: colliders have corners or edges that may have met vertices
-    uint recovers;      // 1: colliders have an inside, from which vertices are brought out
+    uint depenetrates;      // 1: colliders have an inside, from which vertices are brought out
     uint near_stride;   // words per patch of near colliders; 0: there are no lists
-    uint recovery;      // the word of the dispatch's size that tells whether any vertex is inside
+    uint dispatch_word;      // the word of the dispatch's size that tells whether any vertex is inside
     uint in_place;      // 1: what contact changes it writes into the proposed state; 0: all goes into the earlier one
     float mesh_extent;  // m, that a mesh has at most along an axis from its origin
 };
 
 // Push constants of the pass that finds the way out of colliders.
-struct RecoverPush
+struct DepenetrationPush
 {
     float step; // s, of the whole step
     uint colliders;
     uint near_stride;
-    uint recovery; // the word of the size that is written
+    uint dispatch_word; // the word of the size that is written
 };
 
 #ifdef __cplusplus

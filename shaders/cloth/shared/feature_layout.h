@@ -1,5 +1,5 @@
 // Corners and edges of colliders as the GPU reads them. Written by modules/cloth/src/collider_features.cpp, read by
-// feature_reach.comp and feature_contact.comp.
+// find_near_features.comp and feature_contact.comp.
 #ifndef VOILE_FEATURE_LAYOUT_H
 #define VOILE_FEATURE_LAYOUT_H
 
@@ -49,7 +49,7 @@ struct FeatureCorrection
 };
 
 // Push constants of the look at which patches are near.
-struct FeatureReachPush
+struct NearFeaturesPush
 {
     float time;          // s, to the next look
     float sudden;        // m/s, that a vertex at rest may come to have until then

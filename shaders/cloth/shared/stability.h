@@ -6,7 +6,7 @@
 
 // The radius of RK4's stability region in the left half plane. It reaches 2.83 along the imaginary axis and 2.78 along
 // the negative real axis, and is nowhere closer to the origin than this.
-#define VOILE_RK4_REACH 2.6
+#define VOILE_RK4_RADIUS 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
 
@@ -47,10 +47,10 @@ VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real 
 
 VOILE_INLINE StabilityScales rk4_scales(real omega_squared, real decay, real h)
 {
-    const real reach = VOILE_STABILITY_MARGIN * VOILE_RK4_REACH / h;
+    const real radius = VOILE_STABILITY_MARGIN * VOILE_RK4_RADIUS / h;
     StabilityScales scales;
-    scales.stiffness = min(1.0, reach * reach / max(omega_squared, 1e-30));
-    scales.damping = min(1.0, reach / max(decay, 1e-30));
+    scales.stiffness = min(1.0, radius * radius / max(omega_squared, 1e-30));
+    scales.damping = min(1.0, radius / max(decay, 1e-30));
     scales.load = 0;
     return scales;
 }

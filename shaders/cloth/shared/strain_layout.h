@@ -44,13 +44,13 @@ struct LimitScale
 };
 
 // How often the energy of what is kept is measured.
-#define VOILE_LIMIT_LOOKS 2
+#define VOILE_LIMIT_MEASUREMENTS 2
 
 struct LimitScalePush
 {
     uint patches;
     float rate; // 1/s, the largest shift_rate
-    uint look;  // 0: at all of the displacements; then, up to VOILE_LIMIT_LOOKS, at what is kept of them
+    uint measurement;  // 0: at all of the displacements; then, up to VOILE_LIMIT_MEASUREMENTS, at what is kept of them
 };
 
 #ifdef __cplusplus

@@ -155,7 +155,7 @@ void main()
             if (push.colliders > 0)
                 count_candidates(i, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
-            record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_MEETS)) != 0 ? 1 : 0;
+            record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TOUCHES_FEATURE)) != 0 ? 1 : 0;
         }
     }
     const StatisticsRecord merged = merge_workgroup(record);

@@ -58,12 +58,12 @@ struct Fabric
 
 // A material by masses and spring constants of the mesh. The reference scene is given this way. On a mesh, edges are
 // structural_warp springs, and bend_warp springs connect the two vertices opposite an edge. The other families are a
-// grid's, and so is border_share.
+// grid's, and so is border_scale.
 struct Material
 {
     float vertex_mass = 0.01f;
     SpringSet springs{};
-    float border_share = 1;
+    float border_scale = 1;
     float bending_stiffness = 0;
     float bending_time = 0;
     float thickness = 0.005f;

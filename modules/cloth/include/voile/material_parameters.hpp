@@ -51,7 +51,7 @@ inline constexpr auto k_own_material_parameters = std::to_array<MaterialParamete
       {"bend_weft", k_member<&Material::springs, &SpringSet::bend_weft, &Spring::damping>},
       {"diagonal_bend", k_member<&Material::springs, &SpringSet::diagonal_bend, &Spring::damping>}},
      "N s/m", 0, 1e6f, "of each family of springs"},
-    {"border_share", k_member<&Material::border_share>, "", 0.1f, 1,
+    {"border_scale", k_member<&Material::border_scale>, "", 0.1f, 1,
      "scale of masses, and of springs along the border, at the border of a grid; squared in a corner. "
      "1: all are alike. 0.5: a vertex has the mass of the area around it"},
     {"bending_stiffness", k_member<&Material::bending_stiffness>, "N m", 0, 1e3f,

@@ -103,8 +103,8 @@ struct SolverOptions
     bool feature_contact = true;   // corners and edges of colliders meet the triangles and edges of cloths, at moderate
                                  // speed (see descriptions.hpp). Where vertices alone do not feel one, a substep has a
                                  // pass more
-    bool recovery = true; // what is inside a collider at the start of a step is brought out along a smooth field;
-                          // without, straight to the nearest surface, and out of meshes not at all
+    bool depenetration = true; // what is inside a collider at the start of a step is brought out along a smooth field;
+                               // without, straight to the nearest surface, and out of meshes not at all
     // None: vertex input reads the streams. A queue without graphics has no vertex input: there give the host's own
     // stages on that queue, or HostScopes{}, and let semaphores order other queues.
     std::optional<HostScopes> host_scopes{};
@@ -145,8 +145,8 @@ struct Stability
 {
     uint32_t needed = 0;       // substeps that bear all of its stiffness and damping
     uint32_t used = 0;         // substeps that the step takes
-    float stiffness_share = 1; // of its stiffness that it has in this step, 0..1
-    float damping_share = 1;   // likewise
+    float stiffness_scale = 1; // of its stiffness that it has in this step, 0..1
+    float damping_scale = 1;   // likewise
     float load = 0; // fraction of what the integrator bears that the step takes up, 0..0.95; 1 would be its bound
 };
 

@@ -89,11 +89,11 @@ BvhCache::Counts BvhCache::counts() const
 std::shared_ptr<const Bvh> BvhCache::find(const MeshKey& key)
 {
     const std::lock_guard lock(mutex_);
-    const auto place = places_.find(key);
-    if (place == places_.end())
+    const auto found = index_.find(key);
+    if (found == index_.end())
         return nullptr;
-    entries_.splice(entries_.begin(), entries_, place->second);
-    return place->second->bvh;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->bvh;
 }
 
 void BvhCache::insert(const MeshKey& key, const std::shared_ptr<const Bvh>& bvh)
@@ -102,10 +102,10 @@ void BvhCache::insert(const MeshKey& key, const std::shared_ptr<const Bvh>& bvh)
     ++counts_.builds;
     if (size_in_bytes(*bvh) > limit_) // all others would go for it, and it would go too
         return;
-    if (const auto place = places_.find(key); place != places_.end()) // another thread's, or another mesh
-        erase(place->second);
+    if (const auto found = index_.find(key); found != index_.end()) // another thread's, or another mesh
+        erase(found->second);
     entries_.push_front({key, bvh});
-    places_[key] = entries_.begin();
+    index_[key] = entries_.begin();
     counts_.bytes += size_in_bytes(*bvh);
     shrink();
 }
@@ -113,7 +113,7 @@ void BvhCache::insert(const MeshKey& key, const std::shared_ptr<const Bvh>& bvh)
 void BvhCache::erase(std::list<Entry>::iterator entry)
 {
     counts_.bytes -= size_in_bytes(*entry->bvh);
-    places_.erase(entry->key);
+    index_.erase(entry->key);
     entries_.erase(entry);
 }
 

@@ -67,7 +67,7 @@ private:
     uint64_t limit_;
     Counts counts_;
     std::list<Entry> entries_; // the one used last first
-    std::unordered_map<MeshKey, std::list<Entry>::iterator, Hash> places_;
+    std::unordered_map<MeshKey, std::list<Entry>::iterator, Hash> index_;
 };
 
 // The one that all solvers of the process share.

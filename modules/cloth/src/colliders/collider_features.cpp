@@ -18,7 +18,7 @@ using shared::Feature;
 // Whether a chord between two vertices on something round of this radius sinks towards it by more than is allowed.
 bool is_thin(float radius, const FeatureScale& scale)
 {
-    return 8 * k_allowed_share * scale.thickness * radius < scale.edge * scale.edge;
+    return 8 * k_allowed_fraction * scale.thickness * radius < scale.edge * scale.edge;
 }
 
 std::vector<Feature> box_features(const shared::ColliderRecord& record)
@@ -28,17 +28,17 @@ std::vector<Feature> box_features(const shared::ColliderRecord& record)
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        const glm::vec3 place = sign * half;
-        features.push_back({place, 0, place, std::sqrt(1 / 3.f), glm::normalize(sign), 0});
+        const glm::vec3 position = sign * half;
+        features.push_back({position, 0, position, std::sqrt(1 / 3.f), glm::normalize(sign), 0});
         for (int axis = 0; axis < 3; ++axis)
         {
             if (sign[axis] > 0)
                 continue; // an edge from each corner at the lower end of its axis
-            glm::vec3 other = place;
+            glm::vec3 other = position;
             other[axis] += 2 * half[axis];
             glm::vec3 outwards = sign;
             outwards[axis] = 0;
-            features.push_back({place, 0, other, std::sqrt(0.5f), glm::normalize(outwards), 0});
+            features.push_back({position, 0, other, std::sqrt(0.5f), glm::normalize(outwards), 0});
         }
     }
     return features;

@@ -27,7 +27,7 @@ struct FeatureScale
 
 // The share of the thickness that an edge, or a mesh that bends within an edge's length, may take away from what
 // vertices keep. At 1 the cloth would lie on the surface itself, at rest and not stretched.
-constexpr float k_allowed_share = 0.75f;
+constexpr float k_allowed_fraction = 0.75f;
 
 // Of the cloths that meet colliders of these layers, as they were added. edge == 0: there is none.
 FeatureScale feature_scale(const Model& model, uint32_t layers);

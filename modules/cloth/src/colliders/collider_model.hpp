@@ -134,7 +134,7 @@ private:
 };
 
 // Puts the origin of a plane where it is nearest to `point`, m, both before its placement.
-void place_plane(ColliderModel& plane, const glm::dvec3& point);
+void set_plane_origin(ColliderModel& plane, const glm::dvec3& point);
 
 // Friction of its own, or none.
 void set_record_friction(shared::ColliderRecord& record, const std::optional<Friction>& friction);

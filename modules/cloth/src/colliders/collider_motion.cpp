@@ -77,10 +77,10 @@ shared::ColliderMotion make_motion(const ColliderModel& collider)
     motion.rotation_from = glm::vec4(rotation_from);
     motion.rotation_to = glm::vec4(rotation_to);
     const glm::dvec4 origin(collider.origin, 1);
-    const glm::dvec3 place_from(from * origin);
-    motion.origin = rounded(place_from);
-    motion.place_from = place_from - glm::dvec3(motion.origin);
-    motion.place_to = glm::dvec3(to * origin) - glm::dvec3(motion.origin);
+    const glm::dvec3 origin_from(from * origin);
+    motion.origin = rounded(origin_from);
+    motion.offset_from = origin_from - glm::dvec3(motion.origin);
+    motion.offset_to = glm::dvec3(to * origin) - glm::dvec3(motion.origin);
     if (collider.deforming)
     {
         motion.first_from = collider.deforming->first_from();

@@ -108,7 +108,7 @@ void ColliderModels::remove(ColliderId id)
     colliders.remove(id);
 }
 
-void place_plane(ColliderModel& plane, const glm::dvec3& point)
+void set_plane_origin(ColliderModel& plane, const glm::dvec3& point)
 {
     shared::ColliderRecord& record = plane.record;
     const glm::dvec3 normal(record.shape);
@@ -129,7 +129,7 @@ Result<ColliderId> ColliderModels::add(const PlaneCollider& collider)
     auto record = make_collider_record(VOILE_COLLIDER_PLANE, collider.layers, collider.friction);
     record.shape = glm::vec4(glm::normalize(collider.normal), 0);
     const ColliderId id = append({.record = record, .plane_offset = collider.offset});
-    place_plane(*colliders.find(id), glm::dvec3(0));
+    set_plane_origin(*colliders.find(id), glm::dvec3(0));
     return id;
 }
 

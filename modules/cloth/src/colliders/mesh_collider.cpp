@@ -59,8 +59,8 @@ Result<void> check_box(const MeshCollider& description, const ColliderModel& col
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::bvec3 upper((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
-        const glm::dvec3 place = collider.origin + glm::dvec3(glm::mix(min, max, upper));
-        const glm::vec3 world(glm::dmat4(collider.placement) * glm::dvec4(place, 1));
+        const glm::dvec3 point = collider.origin + glm::dvec3(glm::mix(min, max, upper));
+        const glm::vec3 world(glm::dmat4(collider.placement) * glm::dvec4(point, 1));
         if (auto range =
                 check(subject("collider", description.name), "a corner of its box", world, k_most_coordinate, " m");
             !range)

@@ -48,8 +48,8 @@ public:
     MeshFeatures(const MeshTree& tree, uint32_t flags, const FeatureScale& scale)
         : tree_(tree), scale_(scale), two_sided_((flags & VOILE_COLLIDER_ONE_SIDED) == 0),
           closed_((flags & VOILE_COLLIDER_CLOSED) != 0),
-          bend_(std::atan(4 * k_allowed_share * scale.thickness / scale.edge)),
-          crease_(std::atan(2 * k_allowed_share * scale.thickness / scale.edge)),
+          bend_(std::atan(4 * k_allowed_fraction * scale.thickness / scale.edge)),
+          crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)),
           spacing_(std::max(scale.edge, scale.thickness) / 4)
     {
     }
@@ -86,8 +86,8 @@ private:
             const shared::BvhTriangle& triangle = tree_.triangles[t];
             corners.insert(corners.end(), {triangle.a, triangle.b, triangle.c});
         }
-        places_ = std::move(corners);
-        vertices_ = weld(places_);
+        positions_ = std::move(corners);
+        vertices_ = weld(positions_);
         for (uint32_t i = 0; i < chosen_.size(); ++i)
             for (uint32_t corner = 0; corner < 3; ++corner)
             {
@@ -110,7 +110,7 @@ private:
     // Normals by angle: Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal facets".
     void add_normals()
     {
-        corners_.resize(places_.size());
+        corners_.resize(positions_.size());
         const auto for_each_corner = [&](const auto& visit)
         {
             for (uint32_t i = 0; i < chosen_.size(); ++i)
@@ -130,17 +130,17 @@ private:
 
     [[nodiscard]] float angle_at(uint32_t first, uint32_t corner) const
     {
-        const glm::vec3 p = places_[first + corner];
-        const glm::vec3 a = glm::normalize(places_[first + (corner + 1) % 3] - p);
-        const glm::vec3 b = glm::normalize(places_[first + (corner + 2) % 3] - p);
+        const glm::vec3 p = positions_[first + corner];
+        const glm::vec3 a = glm::normalize(positions_[first + (corner + 1) % 3] - p);
+        const glm::vec3 b = glm::normalize(positions_[first + (corner + 2) % 3] - p);
         return std::acos(std::clamp(glm::dot(a, b), -1.f, 1.f));
     }
 
     void add_edge(std::span<const Side> sides)
     {
         const Side& first = sides.front();
-        const glm::vec3 a = places_[first.low];
-        const glm::vec3 b = places_[first.high];
+        const glm::vec3 a = positions_[first.low];
+        const glm::vec3 b = positions_[first.high];
         if (sides.size() == 1 && closed_)
             return; // its other triangle lies where the mesh is flat
         if (sides.size() != 2)
@@ -149,7 +149,7 @@ private:
         const bool agree = first.upwards != sides[1].upwards; // on which side is outside
         const glm::vec3 m = (agree ? 1.f : -1.f) * unit_normal(tree_.triangles[sides[1].triangle]);
         const float turn = std::acos(std::clamp(glm::dot(n, m), -1.f, 1.f));
-        const bool convex = glm::dot(n, places_[sides[1].opposite] - a) < 0;
+        const bool convex = glm::dot(n, positions_[sides[1].opposite] - a) < 0;
         if (turn < k_flat || (!convex && !two_sided_))
             return;
         if (turn / 2 < crease_ && !((bends(first.triangle) || bends(sides[1].triangle)) && bends_across(a, b)))
@@ -180,7 +180,7 @@ private:
         {
             if (!corners_[v].stands_out)
                 continue;
-            const auto [cell, is_new] = cells.emplace(cell_of(places_[v]), v);
+            const auto [cell, is_new] = cells.emplace(cell_of(positions_[v]), v);
             if (!is_new && sharpness(v) > sharpness(cell->second))
                 cell->second = v;
         }
@@ -192,7 +192,7 @@ private:
         {
             const Corner& corner = corners_[v];
             const bool any = corner.any_direction || two_sided_;
-            features_.push_back({places_[v], 0, places_[v], any ? -1 : corner.cosine, corner.normal, 0});
+            features_.push_back({positions_[v], 0, positions_[v], any ? -1 : corner.cosine, corner.normal, 0});
         }
     }
 
@@ -214,11 +214,11 @@ private:
     float crease_;  // rad: half of the angle of an edge that counts by itself
     float spacing_; // m, of corners, and the length of edges
     std::vector<Surroundings> surroundings_;
-    std::vector<uint32_t> chosen_;   // triangles
-    std::vector<glm::vec3> places_;  // three a chosen triangle
-    std::vector<uint32_t> vertices_; // and the first at the same place
+    std::vector<uint32_t> chosen_;     // triangles
+    std::vector<glm::vec3> positions_; // three a chosen triangle
+    std::vector<uint32_t> vertices_;   // and the first at the same place
     std::vector<Side> sides_;
-    std::vector<Corner> corners_; // of the places; those that are not the first at theirs are empty
+    std::vector<Corner> corners_; // of the positions; those that are not the first at theirs are empty
     std::vector<Feature> features_;
 };
 

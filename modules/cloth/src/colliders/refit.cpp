@@ -20,7 +20,7 @@ Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t 
     kernels.group = std::max(2u, std::bit_floor(std::min(workgroup_size, most)));
     kernels.run = std::min(kernels.group / 2, static_cast<uint32_t>(VOILE_REFIT_RUN)); // two threads a box
     const uint32_t rows = kernels.group / (2 * kernels.run);
-    kernels.levels_a_dispatch = static_cast<uint32_t>(std::countr_zero(VOILE_REFIT_ITEMS * rows));
+    kernels.levels_per_dispatch = static_cast<uint32_t>(std::countr_zero(VOILE_REFIT_ITEMS * rows));
     const auto create = [&](const char* name, uint32_t from_leaves)
     {
         const Specialization specialization{.workgroup_size = kernels.group, .from_leaves = from_leaves};
@@ -37,16 +37,16 @@ Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t 
     return kernels;
 }
 
-void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitPlace& place)
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree)
 {
-    if (place.triangles == 0)
+    if (tree.triangles == 0)
         return;
-    shared::RefitPush push{place.first_box, place.first_leaf, place.first_from, place.first_to, 0, 0};
-    push.bottom = padded_levels(place.triangles);
+    shared::RefitPush push{tree.first_box, tree.first_leaf, tree.first_from, tree.first_to, 0, 0};
+    push.bottom = padded_levels(tree.triangles);
     const gpu::Kernel* kernel = &kernels.leaves;
     do
     {
-        push.levels = std::min(push.bottom, kernels.levels_a_dispatch);
+        push.levels = std::min(push.bottom, kernels.levels_per_dispatch);
         const uint32_t roots = 1u << (push.bottom - push.levels);
         const uint32_t groups = (roots + kernels.run - 1) / kernels.run;
         recorder.dispatch(*kernel, set, groups * kernels.group, kernels.group, push);

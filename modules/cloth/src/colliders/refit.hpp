@@ -15,14 +15,14 @@ struct RefitKernels
     gpu::Kernel levels; // goes on from boxes
     uint32_t group = 0;
     uint32_t run = 0; // neighboring subtrees a workgroup takes
-    uint32_t levels_a_dispatch = 0;
+    uint32_t levels_per_dispatch = 0;
 };
 
 // `workgroup_size`: a power of two, 2 to the device's limit; what the device does not take is lowered to what it does.
 Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
 
 // Where a tree stands in its buffers.
-struct RefitPlace
+struct RefitTree
 {
     uint32_t first_box = 0;
     uint32_t first_leaf = 0;
@@ -42,6 +42,6 @@ constexpr uint32_t aligned_first_box(uint32_t first)
 // Records a refit in the dispatches that it takes, each with its barrier to what follows. Positions
 // must have been made visible to compute reads, and earlier reads of the boxes must be done. All boxes of the tree are
 // written.
-void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitPlace& place);
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree);
 
 } // namespace voile

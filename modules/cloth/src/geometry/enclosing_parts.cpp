@@ -85,9 +85,9 @@ int winding(const Axes& axes, const Corners& corners, const glm::dvec3& p)
         if (upwards == (a[axes.sorted] > p[axes.sorted]))
             continue;
         const glm::dvec3& low = upwards ? a : b;
-        const glm::dvec3 way = (upwards ? b : a) - low;
-        const double share = (p[axes.sorted] - low[axes.sorted]) / way[axes.sorted];
-        if (low[axes.across] + share * way[axes.across] > p[axes.across])
+        const glm::dvec3 edge = (upwards ? b : a) - low;
+        const double fraction = (p[axes.sorted] - low[axes.sorted]) / edge[axes.sorted];
+        if (low[axes.across] + fraction * edge[axes.across] > p[axes.across])
             result += upwards ? 1 : -1;
     }
     return result;

@@ -86,13 +86,13 @@ private:
             if (!child.exists())
                 continue;
             if (child.is_leaf() || diagonal(child.box) <= width_ / 2)
-                mark(child, look_around(child));
+                mark(child, find_surroundings(child));
             else
                 visit_node(child.reference);
         }
     }
 
-    [[nodiscard]] Surroundings look_around(const Child& child) const
+    [[nodiscard]] Surroundings find_surroundings(const Child& child) const
     {
         const glm::vec3 margin(width_ / 4);
         Cone cone = cones_[child.cone];
@@ -161,14 +161,14 @@ private:
 class Fan
 {
 public:
-    Fan(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float reach, float enough)
-        : tree_(tree), origin_(a), direction_(glm::normalize(b - a)), length_(glm::distance(a, b)), reach_(reach),
+    Fan(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float radius, float enough)
+        : tree_(tree), origin_(a), direction_(glm::normalize(b - a)), length_(glm::distance(a, b)), radius_(radius),
           enough_(enough)
     {
         box_.add(a);
         box_.add(b);
-        box_.min -= reach;
-        box_.max += reach;
+        box_.min -= radius;
+        box_.max += radius;
     }
 
     float run()
@@ -220,14 +220,14 @@ private:
             const float t = std::clamp(-glm::dot(from, side) / std::max(glm::dot(side, side), 1e-30f), 0.f, 1.f);
             nearest = std::min(nearest, glm::length(from + t * side));
         }
-        return nearest < reach_;
+        return nearest < radius_;
     }
 
     MeshTree tree_;
     glm::vec3 origin_;
     glm::vec3 direction_;
     float length_;
-    float reach_;
+    float radius_;
     float enough_;
     Box box_;
     Cone cone_;
@@ -235,9 +235,9 @@ private:
 
 } // namespace
 
-float turn_about(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float reach, float enough)
+float turn_about(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float radius, float enough)
 {
-    return Fan(tree, a, b, reach, enough).run();
+    return Fan(tree, a, b, radius, enough).run();
 }
 
 glm::vec3 unit_normal(const shared::BvhTriangle& triangle)

@@ -40,8 +40,8 @@ struct Surroundings
 std::vector<Surroundings> surroundings(const MeshTree& tree, float width, float enough);
 
 // How far the mesh turns about an edge: rad, half the angle of the fan of the normals across it, of all triangles that
-// come nearer to its line than `reach` (m) beside it. What lies beyond its ends, or faces along it, does not count.
+// come nearer to its line than `radius` (m) beside it. What lies beyond its ends, or faces along it, does not count.
 // Beyond `enough`: some value beyond it.
-float turn_about(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float reach, float enough);
+float turn_about(const MeshTree& tree, const glm::vec3& a, const glm::vec3& b, float radius, float enough);
 
 } // namespace voile

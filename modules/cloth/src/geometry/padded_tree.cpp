@@ -27,10 +27,10 @@ void halve(Range range, int axis)
     std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(middle(range)), range.end(),
                      [axis](const Primitive& a, const Primitive& b)
                      {
-                         const float place_a = a.min[axis] + a.max[axis];
-                         const float place_b = b.min[axis] + b.max[axis];
+                         const float center_a = a.min[axis] + a.max[axis];
+                         const float center_b = b.min[axis] + b.max[axis];
                          // The order is total, so that the halves do not depend on the library's algorithm.
-                         return place_a != place_b ? place_a < place_b : a.triangle < b.triangle;
+                         return center_a != center_b ? center_a < center_b : a.triangle < b.triangle;
                      });
 }
 

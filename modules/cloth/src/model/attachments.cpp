@@ -67,8 +67,8 @@ shared::AttachmentRecord make_record(const Model& model, const ClothModel& cloth
     if (attachment.position || !is_pin(attachment))
         record.flags |= VOILE_ATTACHMENT_PLACED;
     const glm::vec4 start(glm::vec3(cloth.start[attachment.vertex]), 1);
-    record.place = attachment.position ? *attachment.position
-                                       : glm::vec3(glm::inverse(model.anchors.at(record.anchor)->added) * start);
+    record.position = attachment.position ? *attachment.position
+                                          : glm::vec3(glm::inverse(model.anchors.at(record.anchor)->added) * start);
     return record;
 }
 

@@ -89,7 +89,7 @@ Rates grid_rates(const shared::ClothRecord& record, const glm::vec2& spacing, do
             largest.flat_omega_squared = std::max(largest.flat_omega_squared, rates.flat_omega_squared);
             largest.decay = std::max(largest.decay, rates.decay);
         }
-    const double border = static_cast<double>(record.border_share);
+    const double border = static_cast<double>(record.border_scale);
     const double lighter = std::max(1.0, 0.25 / (border * border));
     largest.omega_squared *= lighter / inner_mass;
     largest.flat_omega_squared *= lighter / inner_mass;
@@ -100,12 +100,12 @@ Rates grid_rates(const shared::ClothRecord& record, const glm::vec2& spacing, do
 
 // Verlet heats up where modes of the flat cloth, whose springs lie along the way, take up nearly all of its reach: they
 // may take up this share of it (bench/NOTES.md has the energies).
-constexpr double k_flat_share = 0.75;
+constexpr double k_flat_fraction = 0.75;
 
 // 1/s^2, for the substeps.
 double with_verlet_margin(const shared::ClothRecord& record, double omega_squared, double flat_omega_squared)
 {
-    return (record.flags & VOILE_CLOTH_VERLET) != 0 ? std::max(omega_squared, flat_omega_squared / k_flat_share)
+    return (record.flags & VOILE_CLOTH_VERLET) != 0 ? std::max(omega_squared, flat_omega_squared / k_flat_fraction)
                                                     : omega_squared;
 }
 
@@ -130,7 +130,7 @@ double apply_grid(const glm::vec2& spacing, const Material& m, shared::ClothReco
     const auto a = static_cast<double>(spacing.x);
     const auto b = static_cast<double>(spacing.y);
     const double diagonal = std::hypot(a, b);
-    record.border_share = m.border_share;
+    record.border_scale = m.border_scale;
     record.springs[0] = spring_class(m.springs.structural_warp, a);
     record.springs[1] = spring_class(m.springs.structural_weft, b);
     record.springs[2] = record.springs[3] = spring_class(m.springs.shear, diagonal);
@@ -196,7 +196,7 @@ void apply_mesh_fabric(const MeshTopology& mesh, const Fabric& f, shared::ClothR
 void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::ClothRecord& record)
 {
     const auto mass = static_cast<double>(m.vertex_mass);
-    record.flags |= VOILE_CLOTH_ALIKE;
+    record.flags |= VOILE_CLOTH_UNIFORM_SPRINGS;
     record.springs[VOILE_CLASS_EDGE] = spring_class(m.springs.structural_warp, std::sqrt(mesh.mean_area));
     record.springs[VOILE_CLASS_OPPOSITE] = spring_class(m.springs.bend_warp, 0);
     record.bending = glm::vec3(m.bending_stiffness, 0, 0);

@@ -75,7 +75,7 @@ struct ClothInput
 Result<void> validate(const ClothInput& cloth, uint64_t vertices);
 
 // Errors: the transform of the cloth takes one of them out of range.
-Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world);
+Result<void> check_world_positions(const std::string& cloth, std::span<const glm::dvec3> world);
 // A rotation in floats stretches by some 1e-7, which stiff springs feel. What is that near to a rigid transform is made
 // one exactly.
 glm::dmat4 without_rounding(const glm::mat4& transform);
@@ -90,7 +90,7 @@ bool bends_isometrically(const ClothMaterial& material);
 void apply_material(ClothModel& cloth);
 
 // Fills the start of a cloth whose record is complete: masses from the material unless they are given.
-void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> places);
+void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions);
 
 // Triangles of a cloth, a grid's cut as Solver::triangles says.
 std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth);

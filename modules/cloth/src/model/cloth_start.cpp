@@ -16,22 +16,22 @@ namespace
 {
 
 // Of a vertex on a line of `count`, whatever the line across it is.
-double border_scale(const shared::ClothRecord& record, int index, uint32_t count)
+double border_factor(const shared::ClothRecord& record, int index, uint32_t count)
 {
-    return index == 0 || index + 1 == static_cast<int>(count) ? static_cast<double>(record.border_share) : 1;
+    return index == 0 || index + 1 == static_cast<int>(count) ? static_cast<double>(record.border_scale) : 1;
 }
 
 double vertex_scale(const shared::ClothRecord& record, int row, int column)
 {
-    return border_scale(record, row, record.rows) * border_scale(record, column, record.columns);
+    return border_factor(record, row, record.rows) * border_factor(record, column, record.columns);
 }
 
 // What a float position leaves of a place, as fine_position.glsl packs it.
-glm::uvec2 residual_of(const glm::dvec3& place)
+glm::uvec2 residual_of(const glm::dvec3& position)
 {
-    const glm::vec3 x = rounded(place);
+    const glm::vec3 x = rounded(position);
     const uint32_t unit = shared::residual_unit(x);
-    const glm::dvec3 units = (place - glm::dvec3(x)) / double{std::bit_cast<float>(unit)};
+    const glm::dvec3 units = (position - glm::dvec3(x)) / double{std::bit_cast<float>(unit)};
     const glm::dvec3 fraction = glm::min(glm::round(units), 32767.0) + 32768.0;
     return shared::pack_fraction(glm::uvec3(fraction), unit);
 }
@@ -44,9 +44,9 @@ double mass_measure(const ClothModel& cloth, uint32_t vertex)
     const bool fabric = std::holds_alternative<Fabric>(cloth.material);
     if (cloth.mesh)
         return fabric ? cloth.mesh->areas[vertex] : cloth.mesh->areas[vertex] > 0 ? 1 : 0;
-    const double share =
+    const double scale =
         vertex_scale(record, static_cast<int>(vertex / record.columns), static_cast<int>(vertex % record.columns));
-    return fabric ? share * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : share;
+    return fabric ? scale * static_cast<double>(cloth.spacing.x) * static_cast<double>(cloth.spacing.y) : scale;
 }
 
 // m, at the start.
@@ -64,11 +64,11 @@ float longest_edge(const ClothModel& cloth)
 
 } // namespace
 
-void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> places)
+void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions)
 {
-    cloth.start.reserve(places.size());
-    cloth.residuals.reserve(places.size());
-    for (uint32_t i = 0; i < places.size(); ++i)
+    cloth.start.reserve(world_positions.size());
+    cloth.residuals.reserve(world_positions.size());
+    for (uint32_t i = 0; i < world_positions.size(); ++i)
     {
         const double measure = mass_measure(cloth, i);
         double inverse = measure > 0 ? 1 / measure : 0;
@@ -77,24 +77,24 @@ void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::
             inverse = measure > 0 ? static_cast<double>(input.inverse_masses[i]) : 0;
             cloth.own_inverse_mass = std::max(cloth.own_inverse_mass, inverse * measure);
         }
-        cloth.start.emplace_back(glm::vec3(places[i]), static_cast<float>(inverse));
-        cloth.residuals.push_back(residual_of(places[i]));
+        cloth.start.emplace_back(glm::vec3(world_positions[i]), static_cast<float>(inverse));
+        cloth.residuals.push_back(residual_of(world_positions[i]));
     }
     if (cloth.own_inverse_mass > 0)
         apply_material(cloth);
     cloth.velocity = input.velocity;
-    cloth.positions.reserve(places.size());
-    cloth.velocities.reserve(places.size());
+    cloth.positions.reserve(world_positions.size());
+    cloth.velocities.reserve(world_positions.size());
     for (const glm::vec4& start : cloth.start)
     {
         const float inverse_mass = start.w * cloth.record.inverse_density;
         cloth.positions.emplace_back(glm::vec3(start), inverse_mass);
         cloth.velocities.emplace_back(inverse_mass > 0 ? input.velocity : glm::vec3(0), 0);
-        const glm::dvec3 place(start);
-        cloth.extent.join({place, place});
+        const glm::dvec3 position(start);
+        cloth.extent.join({position, position});
     }
     cloth.longest_edge = longest_edge(cloth);
-    std::vector<bool> pinned(places.size());
+    std::vector<bool> pinned(world_positions.size());
     for (const uint32_t vertex : input.pins)
     {
         if (pinned[vertex])

@@ -64,7 +64,7 @@ bool membrane_fits(const MembraneTriangle& triangle, size_t vertices)
     for (int i = 0; i < 3; ++i)
     {
         fits &= triangle.corner[i] < vertices;
-        fits &= std::abs(triangle.place[i].x) <= 1e9 && std::abs(triangle.place[i].y) <= 1e9;
+        fits &= std::abs(triangle.position[i].x) <= 1e9 && std::abs(triangle.position[i].y) <= 1e9;
     }
     return fits;
 }

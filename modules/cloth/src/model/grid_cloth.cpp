@@ -30,7 +30,7 @@ glm::vec2 spacing_of(const GridCloth& grid)
     return {grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)};
 }
 
-std::vector<glm::dvec3> places(const GridCloth& grid)
+std::vector<glm::dvec3> world_positions(const GridCloth& grid)
 {
     const glm::dmat4 transform = without_rounding(grid.transform);
     const glm::vec2 spacing = spacing_of(grid); // as the springs' rest lengths have it
@@ -57,8 +57,8 @@ Result<ClothId> Model::add(const GridCloth& grid)
     const size_t count = size_t{grid.columns} * grid.rows;
     if (auto valid = validate(input, count); !valid)
         return valid.error();
-    const std::vector<glm::dvec3> world = places(grid);
-    if (auto range = check_places(grid.name, world); !range)
+    const std::vector<glm::dvec3> world = world_positions(grid);
+    if (auto range = check_world_positions(grid.name, world); !range)
         return range.error();
 
     ClothModel cloth;

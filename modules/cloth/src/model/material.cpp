@@ -94,7 +94,7 @@ Material make_material(const Fabric& fabric, float spacing_along_row, float spac
     const double held = 0.5 * (warp + std::sqrt(warp * warp + 4 * shear * shear * warp / weft));
     Material material;
     material.vertex_mass = static_cast<float>(static_cast<double>(fabric.areal_density) * a * b);
-    material.border_share = 0.5f;
+    material.border_scale = 0.5f;
     const auto spring = [&](double stiffness)
     { return damped_spring(static_cast<float>(std::max(stiffness, 0.0)), fabric.damping_ratio, material.vertex_mass); };
     const auto structural = [&](double all, double of_diagonals, double sides) {

@@ -58,7 +58,7 @@ std::array<glm::dvec2, 3> gradients(const MembraneTriangle& triangle)
     std::array<glm::dvec2, 3> result;
     for (size_t i = 0; i < 3; ++i)
     {
-        const glm::dvec2 opposite = triangle.place[(i + 2) % 3] - triangle.place[(i + 1) % 3];
+        const glm::dvec2 opposite = triangle.position[(i + 2) % 3] - triangle.position[(i + 1) % 3];
         result[i] = glm::dvec2(-opposite.y, opposite.x) / (2 * triangle.area);
     }
     return result;
@@ -80,7 +80,7 @@ MembraneTriangle make_membrane_triangle(std::span<const glm::dvec3> positions, c
     for (int i = 0; i < 3; ++i)
     {
         triangle.corner[i] = corners[i];
-        triangle.place[i] = {glm::dot(x[i] - x[0], warp), glm::dot(x[i] - x[0], weft)};
+        triangle.position[i] = {glm::dot(x[i] - x[0], warp), glm::dot(x[i] - x[0], weft)};
     }
     return triangle;
 }

@@ -27,11 +27,11 @@ struct FabricCoordinates
 // of the fabric.
 struct MembraneTriangle
 {
-    uint32_t corner[3];  // counter-clockwise from the one with the largest angle
-    uint32_t edge[3];    // in no order
-    glm::dvec2 place[3]; // m, of the corners along warp and weft
-    double area;         // m^2
-    double weight;       // m^2, the area; less if softened
+    uint32_t corner[3];     // counter-clockwise from the one with the largest angle
+    uint32_t edge[3];       // in no order
+    glm::dvec2 position[3]; // m, of the corners along warp and weft
+    double area;            // m^2
+    double weight;          // m^2, the area; less if softened
 };
 static_assert(sizeof(MembraneTriangle) == 88); // without padding: it is cooked as it is
 

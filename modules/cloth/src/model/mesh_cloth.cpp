@@ -34,7 +34,7 @@ Result<void> validate_shape(const MeshCloth& cloth)
     return {};
 }
 
-std::vector<glm::dvec3> places(std::span<const glm::vec3> positions, const glm::mat4& transform)
+std::vector<glm::dvec3> world_positions(std::span<const glm::vec3> positions, const glm::mat4& transform)
 {
     const glm::dmat4 exact = without_rounding(transform);
     std::vector<glm::dvec3> result;
@@ -69,8 +69,8 @@ Projection project(const MeshCloth& cloth)
     result.coordinates.reserve(cloth.positions.size());
     for (const glm::vec3& p : cloth.positions)
     {
-        const glm::dvec3 place = scale * (glm::dvec3(p) - low);
-        result.coordinates.emplace_back(place[along == 0 ? 1 : 0], place[along == 2 ? 1 : 2]);
+        const glm::dvec3 offset = scale * (glm::dvec3(p) - low);
+        result.coordinates.emplace_back(offset[along == 0 ? 1 : 0], offset[along == 2 ? 1 : 2]);
     }
     return result;
 }
@@ -126,8 +126,8 @@ Result<Shape> make_shape(const MeshCloth& cloth)
     const std::span<const glm::vec3> positions = cooked ? std::span(cooked->positions) : cloth.positions;
     if (auto valid = validate(input_of(cloth), positions.size()); !valid)
         return valid.error();
-    Shape shape{places(positions, cloth.transform), cooked ? cooked->mesh : nullptr};
-    if (auto range = check_places(cloth.name, shape.world); !range)
+    Shape shape{world_positions(positions, cloth.transform), cooked ? cooked->mesh : nullptr};
+    if (auto range = check_world_positions(cloth.name, shape.world); !range)
         return range.error();
     if (cooked)
         return shape;

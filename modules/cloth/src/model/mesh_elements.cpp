@@ -71,7 +71,7 @@ double rate_of(const MembraneTriangle& t, std::span<const double> areas)
     double rate = 0;
     for (int i = 0; i < 3; ++i)
     {
-        const double opposite = glm::distance(t.place[(i + 1) % 3], t.place[(i + 2) % 3]);
+        const double opposite = glm::distance(t.position[(i + 1) % 3], t.position[(i + 2) % 3]);
         rate = std::max(rate, opposite * opposite / (4 * t.area * areas[t.corner[i]]));
     }
     return rate;
@@ -108,14 +108,14 @@ double rate_of(const Hinge& hinge, std::span<const double> areas)
     return rate * (1 / hinge.areas[0] + 1 / hinge.areas[1]) / 4;
 }
 
-void soften(ElementSpring& spring, double share)
+void soften(ElementSpring& spring, double scale)
 {
-    spring.weight *= share;
+    spring.weight *= scale;
 }
 
-void soften(MembraneTriangle& triangle, double share)
+void soften(MembraneTriangle& triangle, double scale)
 {
-    triangle.weight *= share;
+    triangle.weight *= scale;
 }
 
 void add_edges(const MembraneTriangle& triangle, std::vector<uint32_t>& edges)
@@ -129,10 +129,10 @@ void add_edges(const Element& element, std::vector<uint32_t>& edges)
     edges.push_back(element.edge);
 }
 
-void soften(Hinge& hinge, double share)
+void soften(Hinge& hinge, double scale)
 {
     for (double& factor : hinge.factor)
-        factor *= std::sqrt(share);
+        factor *= std::sqrt(scale);
 }
 
 // Adds the edges of what it softens to `edges`.

@@ -21,7 +21,7 @@ Result<void> check_room(const DeviceLimits& limits, const std::string& what, con
                        std::to_string(limits.max_buffer_bytes >> 20) + " MiB");
 }
 
-Result<void> check_places(const std::string& cloth, std::span<const glm::dvec3> world)
+Result<void> check_world_positions(const std::string& cloth, std::span<const glm::dvec3> world)
 {
     const std::vector<glm::vec3> rounded(world.begin(), world.end());
     return check_positions(subject("cloth", cloth), rounded, "its transform takes vertex ", " to ");
@@ -56,13 +56,13 @@ Result<void> check_dispatch(const DeviceLimits& limits, const std::string& what,
                        std::to_string(limits.max_workgroups) + "; a larger Tuning::workgroup_size needs fewer");
 }
 
-Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> places)
+Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions)
 {
-    if (vertices.end_with(places.size()) > UINT32_MAX / 2)
+    if (vertices.end_with(world_positions.size()) > UINT32_MAX / 2)
         return invalid("cloth", cloth.name, "more than 2 147 483 647 vertices in one solver");
     shared::ClothRecord& record = cloth.record;
-    record.vertices = static_cast<uint32_t>(places.size());
-    record.first_vertex = static_cast<uint32_t>(vertices.allocate(places.size()));
+    record.vertices = static_cast<uint32_t>(world_positions.size());
+    record.first_vertex = static_cast<uint32_t>(vertices.allocate(world_positions.size()));
     if (cloth.lists)
     {
         const MeshLists& mesh = *cloth.lists;
@@ -71,7 +71,7 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
         record.first_list = static_cast<uint32_t>(placement.first[k_list_vertices]);
     }
     apply_material(cloth);
-    set_start(cloth, input, places);
+    set_start(cloth, input, world_positions);
     patches += count_patches(record, limits.workgroup_size);
     return cloths.add(std::move(cloth));
 }

@@ -54,7 +54,7 @@ struct Model
 private:
     // A mesh's lists as this solver uploads them; instances share them.
     std::shared_ptr<const MeshLists> uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh);
-    Result<ClothId> append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> places);
+    Result<ClothId> append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions);
 
     std::unordered_map<const MeshTopology*, std::weak_ptr<const MeshLists>> lists_of_;
 };

@@ -27,7 +27,7 @@ shared::StabilityScales stability_scales(const shared::ClothRecord& record, doub
     shared::StabilityScales scales = shared::stability_scales(verlet, omega_squared, decay, substep);
     if (!verlet)
         scales.load =
-            std::max(std::sqrt(scales.stiffness * omega_squared), scales.damping * decay) * substep / VOILE_RK4_REACH;
+            std::max(std::sqrt(scales.stiffness * omega_squared), scales.damping * decay) * substep / VOILE_RK4_RADIUS;
     return scales;
 }
 
@@ -46,7 +46,7 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     }
     else
     {
-        longest = VOILE_STABILITY_MARGIN * VOILE_RK4_REACH;
+        longest = VOILE_STABILITY_MARGIN * VOILE_RK4_RADIUS;
         fastest = std::max(omega, decay);
     }
     const double substeps = std::ceil(duration * fastest / longest * (1 - 1e-6)); // a whole number stays one in float

@@ -1,4 +1,4 @@
-// Tethers: the way from each vertex to the nearest pins over the cloth.
+// Tethers: the path from each vertex to the nearest pins over the cloth.
 #include "model/model.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace
 // The triangles around each vertex of a cloth at rest, and the pins.
 struct Surface
 {
-    std::vector<glm::dvec3> places; // m
+    std::vector<glm::dvec3> positions; // m
     std::vector<glm::uvec3> triangles;
     std::vector<std::vector<uint32_t>> around; // triangles, one list a vertex
     std::vector<uint32_t> pins;
@@ -26,16 +26,16 @@ Surface make_surface(const ClothModel& cloth)
     const shared::ClothRecord& record = cloth.record;
     Surface surface;
     surface.triangles = cloth_triangles(cloth);
-    surface.places.reserve(record.vertices);
+    surface.positions.reserve(record.vertices);
     const glm::vec2 spacing = cloth.spacing;
     for (uint32_t i = 0; i < record.vertices; ++i)
     {
         // A grid may start stretched by its transform; its shape at rest is flat.
         const glm::vec3 start(cloth.start[i]);
-        surface.places.emplace_back(record.columns > 0
-                                        ? glm::vec3(static_cast<float>(i % record.columns) * spacing.x,
-                                                    static_cast<float>(i / record.columns) * spacing.y, 0)
-                                        : start);
+        surface.positions.emplace_back(record.columns > 0
+                                           ? glm::vec3(static_cast<float>(i % record.columns) * spacing.x,
+                                                       static_cast<float>(i / record.columns) * spacing.y, 0)
+                                           : start);
     }
     surface.around.resize(record.vertices);
     for (uint32_t t = 0; t < surface.triangles.size(); ++t)
@@ -47,58 +47,58 @@ Surface make_surface(const ClothModel& cloth)
     return surface;
 }
 
-struct Way
+struct Path
 {
     double length = std::numeric_limits<double>::infinity(); // m
     uint32_t pin = 0;
 };
 
-// The way to a triangle's third corner from what is known at the two others, as if the front between them were straight
-// (Kimmel and Sethian 1998, "Computing geodesic paths on manifolds"); along an edge where that would come from outside
-// the triangle.
+// The path to a triangle's third corner from what is known at the two others, as if the front between them were
+// straight (Kimmel and Sethian 1998, "Computing geodesic paths on manifolds"); along an edge where that would come from
+// outside the triangle.
 double front_length(const Surface& surface, uint32_t at, uint32_t a, double length_a, uint32_t b, double length_b)
 {
-    const glm::dvec3 to_a = surface.places[a] - surface.places[at];
-    const glm::dvec3 to_b = surface.places[b] - surface.places[at];
+    const glm::dvec3 to_a = surface.positions[a] - surface.positions[at];
+    const glm::dvec3 to_b = surface.positions[b] - surface.positions[at];
     const double edge_a = glm::length(to_a);
     const double edge_b = glm::length(to_b);
     const double along_edges = std::min(length_a + edge_a, length_b + edge_b);
     // The virtual source: at distances length_a and length_b from a and b, on the far side of their edge.
-    const double base = glm::distance(surface.places[a], surface.places[b]);
+    const double base = glm::distance(surface.positions[a], surface.positions[b]);
     if (base <= 0 || length_a > length_b + base || length_b > length_a + base)
         return along_edges;
     const double source_x = (length_a * length_a - length_b * length_b + base * base) / (2 * base);
     const double source_y = -std::sqrt(std::max(length_a * length_a - source_x * source_x, 0.0));
     const double x = (edge_a * edge_a - edge_b * edge_b + base * base) / (2 * base);
     const double y = std::sqrt(std::max(edge_a * edge_a - x * x, 0.0));
-    // The straight way must cross the edge between a and b.
+    // The straight path must cross the edge between a and b.
     const double crossing = y > source_y ? source_x + (x - source_x) * -source_y / (y - source_y) : -1;
     if (crossing < 0 || crossing > base)
         return along_edges;
     return std::min(along_edges, std::hypot(x - source_x, y - source_y));
 }
 
-// The shortest ways from a group of pins to every vertex.
-std::vector<Way> ways_from(const Surface& surface, std::span<const uint32_t> pins)
+// The shortest paths from a group of pins to every vertex.
+std::vector<Path> paths_from(const Surface& surface, std::span<const uint32_t> pins)
 {
-    std::vector<Way> ways(surface.places.size());
+    std::vector<Path> paths(surface.positions.size());
     using Entry = std::pair<double, uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    const auto reach = [&](uint32_t vertex, double length, uint32_t pin)
+    const auto relax = [&](uint32_t vertex, double length, uint32_t pin)
     {
-        if (length < ways[vertex].length * (1 - 1e-12))
+        if (length < paths[vertex].length * (1 - 1e-12))
         {
-            ways[vertex] = {length, pin};
+            paths[vertex] = {length, pin};
             front.emplace(length, vertex);
         }
     };
     for (const uint32_t pin : pins)
-        reach(pin, 0, pin);
+        relax(pin, 0, pin);
     while (!front.empty())
     {
         const auto [length, vertex] = front.top();
         front.pop();
-        if (length > ways[vertex].length)
+        if (length > paths[vertex].length)
             continue;
         for (const uint32_t t : surface.around[vertex])
             for (int corner = 0; corner < 3; ++corner)
@@ -109,20 +109,21 @@ std::vector<Way> ways_from(const Surface& surface, std::span<const uint32_t> pin
                 if (at == vertex)
                     continue;
                 const uint32_t other = b == vertex ? c : b;
-                // Ways from two pins have no common source: there the way goes along the edge, never too short.
-                const bool same_pin = std::isfinite(ways[other].length) && ways[other].pin == ways[vertex].pin;
-                const double found = same_pin ? front_length(surface, at, vertex, length, other, ways[other].length)
-                                              : length + glm::distance(surface.places[at], surface.places[vertex]);
-                reach(at, found, ways[vertex].pin);
+                // Paths from two pins have no common source: there the path goes along the edge, never too short.
+                const bool same_pin = std::isfinite(paths[other].length) && paths[other].pin == paths[vertex].pin;
+                const double found = same_pin
+                                         ? front_length(surface, at, vertex, length, other, paths[other].length)
+                                         : length + glm::distance(surface.positions[at], surface.positions[vertex]);
+                relax(at, found, paths[vertex].pin);
             }
     }
-    return ways;
+    return paths;
 }
 
 // Pins that hang together by edges, group by group, the largest first.
 std::vector<std::vector<uint32_t>> pin_groups(const Surface& surface)
 {
-    std::vector<bool> waiting(surface.places.size());
+    std::vector<bool> waiting(surface.positions.size());
     for (const uint32_t pin : surface.pins)
         waiting[pin] = true;
     std::vector<std::vector<uint32_t>> groups;
@@ -174,15 +175,15 @@ Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, 
     if (surface.pins.empty())
         return invalid("cloth", name, "tethers need a pin, and it has none");
     const uint32_t first = cloth.record.first_vertex;
-    std::vector<shared::TetherRecord> records(surface.places.size());
+    std::vector<shared::TetherRecord> records(surface.positions.size());
     for (const std::vector<uint32_t>& group : pin_groups(surface))
     {
-        const std::vector<Way> ways = ways_from(surface, group);
-        for (uint32_t i = 0; i < ways.size(); ++i)
+        const std::vector<Path> paths = paths_from(surface, group);
+        for (uint32_t i = 0; i < paths.size(); ++i)
         {
-            if (!std::isfinite(ways[i].length) || ways[i].length == 0)
+            if (!std::isfinite(paths[i].length) || paths[i].length == 0)
                 continue;
-            add_tether(records[i], first + ways[i].pin, static_cast<float>(ways[i].length) * (1 + tethers.stretch));
+            add_tether(records[i], first + paths[i].pin, static_cast<float>(paths[i].length) * (1 + tethers.stretch));
         }
     }
     for (uint32_t i = 0; i < records.size(); ++i)

@@ -45,11 +45,11 @@ struct DescriptorSets
     VkDescriptorSet limit_guard{};
     VkDescriptorSet edit{};
     std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
-    VkDescriptorSet collider_reach{};
-    VkDescriptorSet feature_reach{};
+    VkDescriptorSet near_colliders{};
+    VkDescriptorSet near_features{};
     // Corrections of stage B, of the state; with the votes of an even step, of an odd one.
     std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
-    std::array<VkDescriptorSet, 2> recover{}; // each writes one of the sizes
+    std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
     VkDescriptorSet normals{};

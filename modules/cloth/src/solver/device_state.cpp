@@ -50,7 +50,7 @@ uint32_t near_stride(uint64_t colliders, const BufferCounts& capacities, uint64_
 {
     const auto stride = static_cast<uint32_t>(VOILE_NEAR_WORDS + (capacities.colliders + 31) / 32);
     const bool fits = capacities.patches * stride * sizeof(uint32_t) <= max_bytes;
-    return colliders > VOILE_NEAR_FEW && fits ? stride : 0;
+    return colliders > VOILE_NEAR_LISTS_ABOVE && fits ? stride : 0;
 }
 
 Result<gpu::Buffer> create(const gpu::Context& context, const BufferDeclaration& declared, uint64_t entries)

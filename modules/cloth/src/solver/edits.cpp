@@ -88,7 +88,7 @@ void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved&
 }
 
 // m, at most: how far a pose takes what lies within `radius` of `center`.
-float way_of(const glm::mat4& from, const glm::mat4& to, const glm::dvec3& center, double radius)
+float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::dvec3& center, double radius)
 {
     const glm::dmat4 change = glm::dmat4(to) - glm::dmat4(from);
     double squares = 0;
@@ -102,14 +102,14 @@ float farthest_motion(const Solver::State& solver)
 {
     float farthest = 0;
     for (const auto [index, anchor] : solver.model.anchors)
-        farthest = std::max(farthest, way_of(anchor.from, anchor.to, glm::dvec3(0), 1));
+        farthest = std::max(farthest, displacement_bound(anchor.from, anchor.to, glm::dvec3(0), 1));
     for (const auto [index, collider] : solver.collider_models.colliders)
     {
         const shared::ColliderRecord& record = collider.record;
         const bool has_box = record.kind == VOILE_COLLIDER_MESH;
         const glm::dvec3 center = has_box ? collider.origin : glm::dvec3(0);
         const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
-        farthest = std::max(farthest, way_of(collider.pose.from, collider.pose.to, center, radius));
+        farthest = std::max(farthest, displacement_bound(collider.pose.from, collider.pose.to, center, radius));
     }
     return farthest;
 }
@@ -162,12 +162,12 @@ void finish_edits(Solver::State& solver)
 size_t record_places(gpu::Recorder& recorder, Solver::State& solver)
 {
     const auto uploaded = [&](const shared::EditPush& edit) { return is_uploaded(solver, edit); };
-    for (const shared::EditPush& edit : solver.edits.places)
+    for (const shared::EditPush& edit : solver.edits.state_edits)
         if (uploaded(edit))
             recorder.dispatch(solver.kernels.edit, solver.device->sets.edit,
                               solver.model.cloths.at(edit.cloth)->record.vertices, solver.options.tuning.workgroup_size,
                               edit);
-    return std::erase_if(solver.edits.places, uploaded);
+    return std::erase_if(solver.edits.state_edits, uploaded);
 }
 
 } // namespace
@@ -189,7 +189,8 @@ bool Solver::State::changes_due() const
     const bool lists = (edits.attachments && attachments_fit()) || (edits.tethers && tethers_fit());
     return lists || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
            !edits.colliders.empty() ||
-           std::ranges::any_of(edits.places, [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });
+           std::ranges::any_of(edits.state_edits,
+                               [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });
 }
 
 void record_patches(gpu::Recorder& recorder, Solver::State& solver)

@@ -31,10 +31,10 @@ BoundingBox placed(const BoundingBox& box, const glm::mat4& placement)
         return box;
     const glm::vec3 middle(placement * glm::vec4(0.5f * (box.min + box.max), 1));
     const glm::vec3 half = 0.5f * (box.max - box.min);
-    glm::vec3 reach(0);
+    glm::vec3 extent(0);
     for (int axis = 0; axis < 3; ++axis)
-        reach += glm::abs(glm::vec3(placement[axis])) * half[axis];
-    return {middle - reach, middle + reach};
+        extent += glm::abs(glm::vec3(placement[axis])) * half[axis];
+    return {middle - extent, middle + extent};
 }
 
 } // namespace

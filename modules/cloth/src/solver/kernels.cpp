@@ -36,7 +36,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.stage, "cloth rk4 stage", shaders::k_integrate_comp, with_lists);
     add(kernels.verlet, "cloth verlet", shaders::k_verlet_comp, with_lists);
     add(kernels.pins, "cloth pins", shaders::k_pin_comp, plain);
-    add(kernels.attachments, "cloth holds", shaders::k_attachments_comp, plain);
+    add(kernels.attachments, "cloth attachments", shaders::k_attachments_comp, plain);
     add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
     add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
     add(kernels.limit_work, "cloth limit work", shaders::k_limit_work_comp, with_lists);
@@ -57,17 +57,17 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add_contact(kernels.contact_convex, 0, 1, 0);
     add_contact(kernels.contact_moving, 1, 1, 0);
     add_contact(kernels.contact_many, 1, 1, 1);
-    add(kernels.collider_reach, "cloth collider reach", shaders::k_collider_reach_comp, plain);
+    add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};
-    add(kernels.feature_reach, "cloth feature reach", shaders::k_feature_reach_comp, at_rest);
-    add(kernels.feature_reach_moving, "cloth feature reach", shaders::k_feature_reach_comp, moving);
+    add(kernels.near_features, "cloth near features", shaders::k_find_near_features_comp, at_rest);
+    add(kernels.near_features_moving, "cloth near features", shaders::k_find_near_features_comp, moving);
     add(kernels.feature_contact, "cloth feature contact", shaders::k_feature_contact_comp,
         {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 0});
     add(kernels.feature_contact_moving, "cloth feature contact", shaders::k_feature_contact_comp,
         {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 1});
-    add(kernels.recover, "cloth recover", shaders::k_recover_comp, at_rest);
-    add(kernels.recover_moving, "cloth recover", shaders::k_recover_comp, moving);
+    add(kernels.depenetrate, "cloth depenetrate", shaders::k_depenetrate_comp, at_rest);
+    add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
     add(kernels.normals, "cloth normals", shaders::k_normals_comp, with_lists);
     add(kernels.statistics, "cloth statistics", shaders::k_statistics_comp, with_lists);

@@ -26,13 +26,13 @@ struct Kernels
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
     gpu::Kernel contact_many;   // where patches have lists of the colliders near them
-    gpu::Kernel collider_reach;
-    gpu::Kernel feature_reach;
-    gpu::Kernel feature_reach_moving;
+    gpu::Kernel near_colliders;
+    gpu::Kernel near_features;
+    gpu::Kernel near_features_moving;
     gpu::Kernel feature_contact;
     gpu::Kernel feature_contact_moving;
-    gpu::Kernel recover;        // out of meshes at rest
-    gpu::Kernel recover_moving; // where colliders move or deform
+    gpu::Kernel depenetrate;        // out of meshes at rest
+    gpu::Kernel depenetrate_moving; // where colliders move or deform
     gpu::Kernel deform;
     RefitKernels refit;
     gpu::Kernel normals;

@@ -19,7 +19,7 @@ void add_passes(Passes& passes, const ColliderModel& collider)
     const bool convex = record.kind != VOILE_COLLIDER_MESH && record.kind != VOILE_COLLIDER_PLANE;
     passes.moving |= is_moving(record);
     passes.convex |= convex;
-    passes.recover |= convex || (record.flags & k_solid) == k_solid;
+    passes.depenetration |= convex || (record.flags & k_solid) == k_solid;
     passes.features |= collider.features && collider.features->set.features > 0;
     passes.mesh_extent = std::max(passes.mesh_extent, record.extent);
 }
@@ -88,7 +88,7 @@ void Solver::State::update_passes()
             next.colliders = index + 1;
             add_passes(next, collider);
         }
-    next.recover = next.recover && options.recovery;
+    next.depenetrate = next.depenetrate && options.depenetration;
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth))
             next.strain_spacing = std::max(next.strain_spacing, strain_spacing(cloth.record));

@@ -57,27 +57,28 @@ void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 //
 // Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
 // and every few steps for what rounding has; besides, as long as the step before has found one inside.
-void record_recovery(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step)
+void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step)
 {
-    if (!solver.passes.recover)
+    if (!solver.passes.depenetration)
         return;
     if (std::exchange(history.normals_due, false))
         record_normals(recorder, solver);
     const DeviceState& device = *solver.device;
     const uint32_t group = solver.options.tuning.workgroup_size;
-    const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.recover_moving : solver.kernels.recover;
-    const bool periodic = history.recovery_step % k_recovery_period == 0;
-    const bool all = std::exchange(history.recovery_due, false) || solver.passes.moving || periodic;
-    const size_t now = history.recovery_step++ % 2;
-    const size_t next = history.recovery_step % 2;
-    const shared::RecoverPush push{step.duration, solver.passes.colliders, device.near_stride, recovery_word(next)};
+    const gpu::Kernel& kernel = solver.passes.moving ? solver.kernels.depenetrate_moving : solver.kernels.depenetrate;
+    const bool periodic = history.depenetration_step % k_depenetration_period == 0;
+    const bool all = std::exchange(history.depenetration_due, false) || solver.passes.moving || periodic;
+    const size_t now = history.depenetration_step++ % 2;
+    const size_t next = history.depenetration_step % 2;
+    const shared::DepenetrationPush push{step.duration, solver.passes.colliders, device.near_stride,
+                                         depenetration_word(next)};
     const VkBuffer depenetrations = device[buffer::depenetrations].handle();
-    clear_dispatch(recorder, depenetrations, recovery_word(next), 1, device[k_recovery_votes[next]].handle());
+    clear_dispatch(recorder, depenetrations, depenetration_word(next), 1, device[k_depenetration_votes[next]].handle());
     if (all)
-        recorder.dispatch(kernel, device.sets.recover[next], solver.patches.count() * group, group, push);
+        recorder.dispatch(kernel, device.sets.depenetrate[next], solver.patches.count() * group, group, push);
     else
-        recorder.dispatch_indirect(kernel, device.sets.recover[next], depenetrations,
-                                   recovery_word(now) * sizeof(uint32_t), push);
+        recorder.dispatch_indirect(kernel, device.sets.depenetrate[next], depenetrations,
+                                   depenetration_word(now) * sizeof(uint32_t), push);
     publish_dispatch(recorder);
 }
 
@@ -88,8 +89,8 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, StepHis
 {
     const uint32_t first_substep = count_substeps(recorder, solver, history, substeps);
     SubstepRecorder passes(recorder, solver, history, step, substeps, first_substep);
-    passes.record_collider_reach(0);
-    record_recovery(recorder, solver, history, step);
+    passes.record_near_colliders(0);
+    record_depenetration(recorder, solver, history, step);
     passes.record();
     record_normals(recorder, solver);
 }
@@ -129,7 +130,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     const auto fill = [&](buffer::Name name, uint32_t word) { recorder.fill(device[name].handle(), word); };
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    fill(buffer::candidate_places, std::bit_cast<uint32_t>(k_none));
+    fill(buffer::candidate_centers, std::bit_cast<uint32_t>(k_none));
     fill(buffer::candidate_triangles, 0);
     fill(buffer::feature_corrections, VOILE_NO_SUBSTEP);
     fill(buffer::depenetrations, 0);
@@ -153,7 +154,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
         return {};
     state_->lifetime.begin(recorder.cmd());
     begin_scope(recorder, state_->options);
-    state_->history.recovery_due |= state_->changes_due();
+    state_->history.depenetration_due |= state_->changes_due();
     record_edits(recorder, *state_, step);
     if (state_->patches.count() > 0)
         record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));

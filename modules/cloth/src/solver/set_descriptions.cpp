@@ -45,7 +45,7 @@ private:
                         const StateBuffers& after);
     void add_limit_guard();
     void add_contact();
-    void add_recovery();
+    void add_depenetration();
 
     DescriptorSets& sets_;
     const Kernels& kernels_;
@@ -209,17 +209,17 @@ void Describer::add_contact()
                  {binding::proposed_predicted, predicted},
                  {binding::earlier_positions, earlier.positions},
                  {binding::earlier_residuals, earlier.residuals},
-                 {binding::step_votes, k_recovery_votes[votes]}});
+                 {binding::step_votes, k_depenetration_votes[votes]}});
     }
-    add(sets_.feature_reach, kernels_.feature_reach);
-    add(sets_.collider_reach, kernels_.collider_reach);
+    add(sets_.near_features, kernels_.near_features);
+    add(sets_.near_colliders, kernels_.near_colliders);
 }
 
-void Describer::add_recovery()
+void Describer::add_depenetration()
 {
     for (size_t i = 0; i < 2; ++i)
-        add(sets_.recover[i], kernels_.recover,
-            {{binding::next_votes, k_recovery_votes[i]}, {binding::last_votes, k_recovery_votes[1 - i]}});
+        add(sets_.depenetrate[i], kernels_.depenetrate,
+            {{binding::next_votes, k_depenetration_votes[i]}, {binding::last_votes, k_depenetration_votes[1 - i]}});
 }
 
 std::vector<SetDescription> Describer::describe()
@@ -230,7 +230,7 @@ std::vector<SetDescription> Describer::describe()
     add_strain_limit();
     add_limit_guard();
     add_contact();
-    add_recovery();
+    add_depenetration();
     add(sets_.deform, kernels_.deform);
     add(sets_.refit, kernels_.refit.leaves);
     add(sets_.normals, kernels_.normals);

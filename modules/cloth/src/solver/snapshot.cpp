@@ -11,10 +11,10 @@ namespace voile
 
 struct Snapshot::Contents
 {
-    gpu::Buffer buffer; // one stream after the other, then the recovery's step
+    gpu::Buffer buffer; // one stream after the other, then depenetration's step
     std::vector<ClothId> cloths;
-    uint32_t vertices = 0;      // of these
-    uint32_t recovery_step = 0; // modulo its period
+    uint32_t vertices = 0;           // of these
+    uint32_t depenetration_step = 0; // modulo its period
     bool filled = false;
 };
 
@@ -33,7 +33,7 @@ namespace
 {
 
 // Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of
-// strain limits stand last, before the recovery's step.
+// strain limits stand last, before depenetration's step.
 Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, size_t cloths)
 {
     const auto load = [&](size_t offset)
@@ -72,8 +72,8 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
         return finite;
     std::copy(bytes.begin(), bytes.end(), mapped.begin());
     contents_->buffer.flush();
-    std::memcpy(&contents_->recovery_step, bytes.data() + bytes.size() - sizeof(uint32_t), sizeof(uint32_t));
-    contents_->recovery_step %= k_recovery_period;
+    std::memcpy(&contents_->depenetration_step, bytes.data() + bytes.size() - sizeof(uint32_t), sizeof(uint32_t));
+    contents_->depenetration_step %= k_depenetration_period;
     contents_->filled = true;
     return {};
 }
@@ -89,14 +89,14 @@ struct Stream
     bool per_vertex;
 };
 
-// The streams of all vertices, and what recovery and the strain limit remember from one step to the next.
-std::array<Stream, 6> streams_of(uint32_t recovery_step)
+// The streams of all vertices, and what depenetration and the strain limit remember from one step to the next.
+std::array<Stream, 6> streams_of(uint32_t depenetration_step)
 {
     return {{{buffer::positions, sizeof(glm::vec4), true},
              {buffer::residuals, sizeof(glm::uvec2), true},
              {buffer::velocities, sizeof(glm::vec4), true},
              {buffer::normals, sizeof(glm::vec4), true},
-             {k_recovery_votes[recovery_step % 2], votes_bytes(1), false},
+             {k_depenetration_votes[depenetration_step % 2], votes_bytes(1), false},
              {buffer::limit_scales, scales_bytes(1), false}}};
 }
 
@@ -110,11 +110,12 @@ struct Region
 };
 
 // Stream by stream, and cloth by cloth; neighbors are one region.
-std::vector<Region> regions_of(const Solver::State& solver, std::span<const ClothId> cloths, uint32_t recovery_step)
+std::vector<Region> regions_of(const Solver::State& solver, std::span<const ClothId> cloths,
+                               uint32_t depenetration_step)
 {
     std::vector<Region> regions;
     VkDeviceSize end = 0;
-    for (const Stream& stream : streams_of(recovery_step))
+    for (const Stream& stream : streams_of(depenetration_step))
         for (const ClothId id : cloths)
         {
             const shared::ClothRecord& record = solver.find(id)->record;
@@ -196,10 +197,10 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
 {
     if (auto same = check_cloths(*state_, snapshot.contents_->cloths); !same)
         return same;
-    const uint32_t step = state_->history.recovery_step % k_recovery_period;
+    const uint32_t step = state_->history.depenetration_step % k_depenetration_period;
     const VkBuffer buffer = snapshot.contents_->buffer.handle();
     snapshot.contents_->filled = true;
-    snapshot.contents_->recovery_step = step;
+    snapshot.contents_->depenetration_step = step;
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
     VkDeviceSize end = 0;
@@ -212,7 +213,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, end, sizeof(step), &step);
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
-    state_->history.recovery_due = true; // as after restoring: both go on alike
+    state_->history.depenetration_due = true; // as after restoring: both go on alike
     return {};
 }
 
@@ -224,15 +225,15 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         return Error{"snapshot: nothing was saved in it"};
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
-    for (const Region& region : regions_of(*state_, snapshot.contents_->cloths, snapshot.contents_->recovery_step))
+    for (const Region& region : regions_of(*state_, snapshot.contents_->cloths, snapshot.contents_->depenetration_step))
     {
         const VkBufferCopy copy{region.snapshot_offset, region.offset, region.bytes};
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
     }
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
-    state_->history.recovery_step = snapshot.contents_->recovery_step;
-    state_->history.recovery_due = true;
+    state_->history.depenetration_step = snapshot.contents_->depenetration_step;
+    state_->history.depenetration_due = true;
     return {};
 }
 

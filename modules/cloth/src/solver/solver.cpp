@@ -123,8 +123,8 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
 
 Result<ClothId> Solver::add_cloth(const GridCloth& grid)
 {
-    constexpr uint64_t k_bytes_a_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
-    const uint64_t bytes = state_->model.vertices.end_with(uint64_t{grid.columns} * grid.rows) * k_bytes_a_vertex;
+    constexpr uint64_t k_bytes_per_vertex = VOILE_CANDIDATE_WORDS * sizeof(uint32_t); // the largest of its buffers
+    const uint64_t bytes = state_->model.vertices.end_with(uint64_t{grid.columns} * grid.rows) * k_bytes_per_vertex;
     if (auto room = check_room(state_->model.limits, "cloth", grid.name,
                                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " vertices", bytes);
         !room)
@@ -141,9 +141,9 @@ Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 {
     const JobScope scope(state_->options.jobs);
     // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
-    constexpr uint64_t k_bytes_a_vertex = 256;
+    constexpr uint64_t k_bytes_per_vertex = 256;
     const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
-    const uint64_t bytes = state_->model.lists.end_with(k_list_vertices, vertices) * k_bytes_a_vertex;
+    const uint64_t bytes = state_->model.lists.end_with(k_list_vertices, vertices) * k_bytes_per_vertex;
     if (auto room = check_room(state_->model.limits, "cloth", mesh.name, std::to_string(vertices) + " vertices", bytes);
         !room)
         return room.error();
@@ -210,8 +210,8 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
     result.used = state_->substeps(*this, step);
     const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
-    result.stiffness_share = static_cast<float>(scales.stiffness);
-    result.damping_share = static_cast<float>(scales.damping);
+    result.stiffness_scale = static_cast<float>(scales.stiffness);
+    result.damping_scale = static_cast<float>(scales.damping);
     result.load = static_cast<float>(scales.load);
     return result;
 }

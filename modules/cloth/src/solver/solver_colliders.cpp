@@ -31,13 +31,13 @@ glm::dvec3 on_ball(const glm::dvec3& center, double radius, const glm::dvec3& x)
 glm::dvec3 on_box(const glm::dvec3& half_size, const glm::dvec3& offset)
 {
     const glm::dvec3 outside = glm::abs(offset) - half_size;
-    glm::dvec3 place = glm::clamp(offset, -half_size, half_size);
+    glm::dvec3 point = glm::clamp(offset, -half_size, half_size);
     if (glm::all(glm::lessThan(outside, glm::dvec3(0))))
     {
         const int axis = outside.x >= outside.y && outside.x >= outside.z ? 0 : outside.y >= outside.z ? 1 : 2;
-        place[axis] = offset[axis] < 0 ? -half_size[axis] : half_size[axis];
+        point[axis] = offset[axis] < 0 ? -half_size[axis] : half_size[axis];
     }
-    return place;
+    return point;
 }
 
 FindSurface surface_finder(const ColliderModel& collider, double distance)
@@ -177,8 +177,8 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
     {
         const glm::dvec3 world(start[i]);
         const glm::dvec3 x = glm::dvec3(back * glm::dvec4(world, 1)) - origin;
-        if (const auto place = find(x); place && glm::distance(x, *place) <= limit)
-            attachments.push_back(pin(i).at(glm::vec3(placement * glm::dvec4(*place + origin, 1))));
+        if (const auto point = find(x); point && glm::distance(x, *point) <= limit)
+            attachments.push_back(pin(i).at(glm::vec3(placement * glm::dvec4(*point + origin, 1))));
     }
     if (attachments.empty())
         return invalid("cloth", name(cloth),

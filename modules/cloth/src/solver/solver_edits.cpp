@@ -32,9 +32,9 @@ Result<void> check_frame(const std::string& what, const glm::mat4& world_from_an
     return check(what, {"its transform's determinant", volume, k_least_anchor_volume, std::pow(k_most_scale, 3.f)});
 }
 
-void add_place(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
+void add_state_edit(Edits& edits, ClothId cloth, uint32_t kind, const glm::mat4& transform, const glm::vec3& velocity)
 {
-    edits.places.push_back({transform, velocity, kind, cloth.index});
+    edits.state_edits.push_back({transform, velocity, kind, cloth.index});
 }
 
 } // namespace
@@ -52,7 +52,7 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
     apply_material(model);
     s.edits.records.push_back(cloth.index);
     if (heavier)
-        add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));
+        add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));
     s.update_passes();
     return {};
 }
@@ -84,7 +84,7 @@ Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> 
         }
         model.tethers = std::move(tethers.value());
     }
-    add_place(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer pinned
+    add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer pinned
     s.update_attachments();
     return {};
 }
@@ -147,7 +147,7 @@ Result<void> Solver::reset(ClothId cloth)
 {
     if (auto exists = state_->check(cloth); !exists)
         return exists;
-    add_place(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->find(cloth)->velocity);
+    add_state_edit(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->find(cloth)->velocity);
     return {};
 }
 
@@ -157,7 +157,7 @@ Result<void> Solver::teleport(ClothId cloth, const glm::mat4& transform)
         return exists;
     if (auto valid = check_bounded(subject("cloth", name(cloth)), transform, 2 * k_most_coordinate); !valid)
         return valid;
-    add_place(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
+    add_state_edit(state_->edits, cloth, VOILE_EDIT_TRANSFORM, transform, glm::vec3(0));
     return {};
 }
 
@@ -167,7 +167,7 @@ Result<void> Solver::set_velocity(ClothId cloth, const glm::vec3& velocity)
         return exists;
     if (auto valid = check(subject("cloth", name(cloth)), "velocity", velocity, k_most_speed, " m/s"); !valid)
         return valid;
-    add_place(state_->edits, cloth, VOILE_EDIT_VELOCITY, glm::mat4(1), velocity);
+    add_state_edit(state_->edits, cloth, VOILE_EDIT_VELOCITY, glm::mat4(1), velocity);
     return {};
 }
 

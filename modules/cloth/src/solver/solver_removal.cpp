@@ -51,7 +51,7 @@ void Solver::State::remove_attachments(ClothId id, AnchorId anchor)
     ClothModel& cloth = *model.cloths.find(id);
     if (std::erase_if(cloth.attachments, [&](const Attachment& a) { return a.anchor == anchor; }) == 0)
         return;
-    edits.places.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, id.index});
+    edits.state_edits.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, id.index});
     cloth.tethers.clear();
     if (!cloth.tether_options)
         return;

@@ -20,9 +20,9 @@ namespace voile
 // buffers wait for larger ones.
 struct Edits
 {
-    std::vector<uint32_t> records;        // cloths whose record changed
-    std::vector<uint32_t> colliders;      // colliders whose record changed, or that were removed
-    std::vector<shared::EditPush> places; // in order
+    std::vector<uint32_t> records;             // cloths whose record changed
+    std::vector<uint32_t> colliders;           // colliders whose record changed, or that were removed
+    std::vector<shared::EditPush> state_edits; // in order
     bool patches = false;
     bool attachments = false;
     bool tethers = false;
@@ -46,8 +46,8 @@ struct Passes
     bool convex = false;         // colliders with a formula, other than planes
     bool features = false;       // colliders with corners or edges that vertices alone do not feel
     uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
-    bool commit = false;         // the contact pass
-    bool recover = false;        // colliders with an inside, out of which vertices are brought
+    bool contact = false;        // the contact pass
+    bool depenetration = false;  // colliders with an inside, out of which vertices are brought
     uint32_t colliders = 0;      // slots up to the last active collider's
     float mesh_extent = 0;       // m, that a collider's mesh has at most along an axis from its origin
 };
@@ -60,15 +60,15 @@ constexpr uint32_t k_strain_passes = 16;
 constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
 
 // Steps from one look at all vertices to the next, where none was inside.
-constexpr uint32_t k_recovery_period = 8;
+constexpr uint32_t k_depenetration_period = 8;
 
 // What one step leaves for the next, beside the buffers.
 struct StepHistory
 {
-    bool normals_due = false;   // they are of other places: after an upload, and after cloths were moved
-    bool recovery_due = false;  // vertices may have got into solids otherwise than by moving
-    uint32_t recovery_step = 0; // counts the steps with recovery
-    uint32_t next_substep = 0;  // counted through all steps, below k_substeps_counted
+    bool normals_due = false;        // they are of other places: after an upload, and after cloths were moved
+    bool depenetration_due = false;  // vertices may have got into solids otherwise than by moving
+    uint32_t depenetration_step = 0; // counts the steps with depenetration
+    uint32_t next_substep = 0;       // counted through all steps, below k_substeps_counted
 };
 
 struct Solver::State
@@ -144,8 +144,8 @@ void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, 
 void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, uint32_t groups_each = 1,
                     VkBuffer counts = VK_NULL_HANDLE);
 
-// Where the size of the recovery's dispatch stands in the buffer of depenetrations, of even and of odd steps.
-constexpr uint32_t recovery_word(size_t step)
+// Where the size of depenetration's dispatch stands in the buffer of depenetrations, of even and of odd steps.
+constexpr uint32_t depenetration_word(size_t step)
 {
     return static_cast<uint32_t>(step % 2) * VOILE_DISPATCH_WORDS;
 }

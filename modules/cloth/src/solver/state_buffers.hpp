@@ -25,6 +25,6 @@ constexpr StateBuffers k_step_start{buffer::step_start_positions, buffer::step_s
 // The state before the strain limit's guard: velocities stand in stage C's positions.
 constexpr StateBuffers k_before_limit{buffer::stage_a_positions, buffer::stage_a_residuals, buffer::stage_c_positions};
 // Of even and of odd steps.
-constexpr buffer::Name k_recovery_votes[] = {buffer::recovery_votes_a, buffer::recovery_votes_b};
+constexpr buffer::Name k_depenetration_votes[] = {buffer::depenetration_votes_even, buffer::depenetration_votes_odd};
 
 } // namespace voile

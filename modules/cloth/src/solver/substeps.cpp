@@ -47,9 +47,10 @@ SubstepRecorder::SubstepRecorder(gpu::Recorder& recorder, const Solver::State& s
                                  const Step& step, uint32_t substeps, uint32_t first_substep)
     : recorder_(recorder), solver_(solver), history_(history), kernels_(solver.kernels), device_(*solver.device),
       patches_(solver.patches.count()), step_(step), group_(solver.options.tuning.workgroup_size), substeps_(substeps),
-      first_substep_(first_substep), h_(step.duration / static_cast<float>(substeps)), commits_(solver.passes.commit),
+      first_substep_(first_substep), h_(step.duration / static_cast<float>(substeps)),
+      has_contact_(solver.passes.contact),
       // Rays along normals look at what neighbors propose, which must not change meanwhile.
-      swaps_(commits_ && solver.options.tuning.contact_method == ContactMethod::nearest_point)
+      swaps_(has_contact_ && solver.options.tuning.contact_method == ContactMethod::nearest_point)
 {
 }
 
@@ -60,15 +61,15 @@ void SubstepRecorder::record()
     for (uint32_t substep = 0; substep < substeps_; ++substep)
     {
         if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
-            record_collider_reach(substep);
+            record_near_colliders(substep);
         if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
-            record_feature_reach(substep);
+            record_near_features(substep);
         record_rk4(substep);
         record_verlet(make_push(substep), substep);
         record_attachments(substep, h_);
         if (solver_.passes.features)
             record_features(substep);
-        if (commits_)
+        if (has_contact_)
             record_contact(substep);
     }
     finish_verlet(make_push(substeps_));
@@ -95,12 +96,13 @@ shared::StagePush SubstepRecorder::make_push(double substeps) const
 void SubstepRecorder::record_rk4(uint32_t substep)
 {
     constexpr double k_stage_times[] = {0, 0.5, 0.5, 1}; // of the substep
-    const auto& sets = device_.sets.stages[commits_ && in_stage_b(substep) ? 1 : 0];
+    const auto& sets = device_.sets.stages[has_contact_ && in_stage_b(substep) ? 1 : 0];
     for (uint32_t stage = 1; stage <= 4; ++stage)
     {
         shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
         push.stage = stage;
-        recorder_.dispatch(kernels_.stage, stage == 4 && !commits_ ? device_.sets.last_stage_alone : sets[stage - 1],
+        recorder_.dispatch(kernels_.stage,
+                           stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
                            solver_.patches.rk4 * group_, group_, push);
     }
 }
@@ -154,29 +156,29 @@ float SubstepRecorder::sudden_speed() const
     return std::max(k_sudden, solver_.farthest_motion / step_.duration);
 }
 
-void SubstepRecorder::record_collider_reach(uint32_t substep)
+void SubstepRecorder::record_near_colliders(uint32_t substep)
 {
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
-    const shared::ColliderReachPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
+    const shared::NearCollidersPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
                                          1 / static_cast<float>(substeps_),       solver_.passes.colliders,
                                          solver_.passes.features ? 1u : 0u,       device_.near_stride};
-    recorder_.dispatch(kernels_.collider_reach, device_.sets.collider_reach, patches_ * group_, group_, push);
+    recorder_.dispatch(kernels_.near_colliders, device_.sets.near_colliders, patches_ * group_, group_, push);
 }
 
-void SubstepRecorder::record_feature_reach(uint32_t substep)
+void SubstepRecorder::record_near_features(uint32_t substep)
 {
     clear_dispatch(recorder_, device_[buffer::feature_dispatch].handle(), 0, solver_.options.tuning.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    const shared::FeatureReachPush push{h_ * static_cast<float>(next - substep),
+    const shared::NearFeaturesPush push{h_ * static_cast<float>(next - substep),
                                         sudden_speed(),
                                         progress(substep),
                                         progress(next),
                                         solver_.passes.colliders,
                                         device_.near_stride};
-    recorder_.dispatch(solver_.passes.moving ? kernels_.feature_reach_moving : kernels_.feature_reach,
-                       device_.sets.feature_reach, patches_ * group_, group_, push);
+    recorder_.dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features,
+                       device_.sets.near_features, patches_ * group_, group_, push);
     publish_dispatch(recorder_);
 }
 
@@ -188,9 +190,10 @@ void SubstepRecorder::record_features(uint32_t substep)
                                    solver_.passes.colliders,
                                    first_substep_ + substep,
                                    device_.near_stride};
-    recorder_.dispatch_indirect(solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-                                device_.sets.feature_contact[in_stage_b(substep) ? 1 : 0][history_.recovery_step % 2],
-                                device_[buffer::feature_dispatch].handle(), 0, push);
+    recorder_.dispatch_indirect(
+        solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
+        device_.sets.feature_contact[in_stage_b(substep) ? 1 : 0][history_.depenetration_step % 2],
+        device_[buffer::feature_dispatch].handle(), 0, push);
 }
 
 void SubstepRecorder::record_contact(uint32_t substep)
@@ -198,18 +201,18 @@ void SubstepRecorder::record_contact(uint32_t substep)
     shared::ContactPush push{};
     push.step = h_;
     push.colliders = solver_.passes.colliders;
-    push.renew = substep % VOILE_RENEWAL == 0 ? 1 : 0;
-    push.renewal_time = VOILE_RENEWAL * h_;
+    push.refresh = substep % VOILE_REFRESH_PERIOD == 0 ? 1 : 0;
+    push.refresh_time = VOILE_REFRESH_PERIOD * h_;
     push.progress_from = progress(substep);
     push.progress_to = progress(substep + 1);
-    push.progress_a_substep = 1 / static_cast<float>(substeps_);
+    push.progress_per_substep = 1 / static_cast<float>(substeps_);
     push.substep = first_substep_ + substep;
     push.first_substep = first_substep_;
     push.vertices = static_cast<uint32_t>(device_.capacities.vertices);
     push.features = solver_.passes.features ? 1 : 0;
-    push.recovers = solver_.passes.recover ? 1 : 0;
+    push.depenetrates = solver_.passes.depenetration ? 1 : 0;
     push.near_stride = device_.near_stride;
-    push.recovery = recovery_word(history_.recovery_step);
+    push.dispatch_word = depenetration_word(history_.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     recorder_.dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], patches_ * group_, group_,
@@ -263,12 +266,12 @@ void SubstepRecorder::record_limit_guard()
     push.step = h_;
     for (const VkDescriptorSet set : device_.sets.limit_work)
         recorder_.dispatch(kernels_.limit_work, set, threads, group_, push);
-    for (uint32_t look = 0; look <= VOILE_LIMIT_LOOKS; ++look)
+    for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
     {
-        if (look > 0) // at what is left of the limit's changes
+        if (measurement > 0) // at what is left of the limit's changes
             recorder_.dispatch(kernels_.limit_work, device_.sets.limit_work[3], threads, group_, push);
         recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, threads, group_,
-                           shared::LimitScalePush{patches_, 1 / step_.duration, look});
+                           shared::LimitScalePush{patches_, 1 / step_.duration, measurement});
         recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads, group_,
                            std::span<const std::byte>{});
     }

@@ -17,8 +17,8 @@ public:
 
     // Which colliders come near which patches, until the next such look. Nothing where there are few. The first one
     // comes before whatever else looks for colliders in the step.
-    void record_collider_reach(uint32_t substep);
-    // Integration, holds, tethers and contact of each substep, and the strain limit at the end.
+    void record_near_colliders(uint32_t substep);
+    // Integration, attachments, tethers and contact of each substep, and the strain limit at the end.
     void record();
 
 private:
@@ -30,7 +30,7 @@ private:
     void record_attachments(uint32_t substep, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Which patches come near corners and edges of colliders, until the next such look.
-    void record_feature_reach(uint32_t substep);
+    void record_near_features(uint32_t substep);
     [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
     void record_contact(uint32_t substep);
@@ -44,7 +44,7 @@ private:
     // Verlet's alone.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const
     {
-        return substep % 2 == 1 && (commits_ ? swaps_ && substep < substeps_ : true);
+        return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
     }
     [[nodiscard]] uint32_t verlet_threads() const;
 
@@ -59,7 +59,7 @@ private:
     uint32_t substeps_;
     uint32_t first_substep_; // counted through all steps
     float h_;                // s
-    bool commits_;           // the contact pass runs on what is proposed
+    bool has_contact_;       // the contact pass runs on what is proposed
     bool swaps_;             // and changes it in place; else it takes all of it from stage B into the state
 };
 

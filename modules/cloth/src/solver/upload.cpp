@@ -12,7 +12,7 @@ namespace
 {
 
 // Planes have their origins near where the cloths that meet them start.
-void place_plane(const Model& cloths, ColliderModel& plane)
+void set_plane_origin(const Model& cloths, ColliderModel& plane)
 {
     Extent all;
     for (const auto [index, cloth] : cloths.cloths)
@@ -21,7 +21,7 @@ void place_plane(const Model& cloths, ColliderModel& plane)
     if (all.empty())
         return;
     const glm::dvec4 middle(0.5 * (all.min + all.max), 1);
-    place_plane(plane, glm::dvec3(glm::inverse(glm::dmat4(plane.pose.to)) * middle));
+    set_plane_origin(plane, glm::dvec3(glm::inverse(glm::dmat4(plane.pose.to)) * middle));
 }
 
 void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index)
@@ -35,7 +35,7 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index)
     staging.add_copy(buffer::normals, first, std::vector<glm::vec4>(cloth.record.vertices, glm::vec4(0, 1, 0, 0)));
     staging.add_copy(buffer::cloths, index, std::vector{cloth.record});
     staging.add_copy(buffer::limit_scales, index, std::vector{shared::LimitScale{1, 1, 0, 1, 0, 0}});
-    for (const buffer::Name votes : k_recovery_votes)
+    for (const buffer::Name votes : k_depenetration_votes)
         staging.add_copy(votes, index * uint64_t{VOILE_VOTE_WORDS}, std::vector<uint32_t>(VOILE_VOTE_WORDS));
 }
 
@@ -92,7 +92,7 @@ Staging stage_new(Solver::State& solver)
     {
         const shared::ColliderRecord before = collider.record;
         if (collider.plane_offset)
-            place_plane(solver.model, collider);
+            set_plane_origin(solver.model, collider);
         if (!collider.uploaded || before.origin != collider.record.origin)
             stage_collider(staging, collider, index);
         if (!collider.uploaded || collider.features_new)
@@ -251,10 +251,10 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, (*device)[buffer::feature_dispatch].handle());
     for (size_t i = 0; i < 2; ++i)
-        clear_dispatch(recorder, (*device)[buffer::depenetrations].handle(), recovery_word(i));
+        clear_dispatch(recorder, (*device)[buffer::depenetrations].handle(), depenetration_word(i));
     record_boxes_at_rest(recorder, *this, deforming);
     history.normals_due = true;
-    history.recovery_due = true;
+    history.depenetration_due = true;
     dirty = false;
 }
 

@@ -25,7 +25,7 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
 layout(VOILE_BINDING(depenetrations)) buffer Depenetrations
 {
-    uint recovery_sizes[2 * VOILE_DISPATCH_WORDS];
+    uint dispatch_sizes[2 * VOILE_DISPATCH_WORDS];
     Depenetration depenetrations[];
 };
 layout(VOILE_BINDING(normals)) readonly buffer Normals { vec4 normals[]; };
@@ -42,7 +42,7 @@ layout(VOILE_BINDING(last_votes)) readonly buffer LastVotes { uint last_votes[];
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
 
-layout(push_constant, std430) uniform Push { RecoverPush push; };
+layout(push_constant, std430) uniform Push { DepenetrationPush push; };
 
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
@@ -304,5 +304,5 @@ void main()
     const Depenetration depenetration = find_depenetration(self.index, self.cloth);
     depenetrations[self.index] = depenetration;
     if (depenetration.solid != 0)
-        atomicMax(recovery_sizes[push.recovery], gl_NumWorkGroups.x);
+        atomicMax(dispatch_sizes[push.dispatch_word], gl_NumWorkGroups.x);
 }

@@ -23,7 +23,7 @@ layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padd
 layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
 layout(VOILE_BINDING(near_colliders)) writeonly buffer NearColliders { uint near_colliders[]; };
 
-layout(push_constant, std430) uniform Push { ColliderReachPush push; };
+layout(push_constant, std430) uniform Push { NearCollidersPush push; };
 
 #include "shared/box.glsl"
 #include "shared/patch.glsl"
@@ -95,7 +95,7 @@ bool touches(uint c, ColliderRecord collider, Box box)
     {
         const ColliderMotion motion = collider_motions[c];
         const float radius = length(max(abs(around.min), abs(around.max)));
-        const Box sweep = box_around(motion.place_from, motion.place_to);
+        const Box sweep = box_around(motion.offset_from, motion.offset_to);
         around = grown(shifted(sweep, motion.origin), radius);
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
         around = grown(around, turning_margin(motion, length(farthest)));

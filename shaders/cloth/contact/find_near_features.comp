@@ -23,7 +23,7 @@ layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_s
 layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
-layout(push_constant, std430) uniform Push { FeatureReachPush push; };
+layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 
 #include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
