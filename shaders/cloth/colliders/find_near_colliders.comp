@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Lists the colliders near each patch of cloth until the next such pass, one bit per collider. One workgroup per patch.
 //
-// The patch's box has room for twice the speed of its vertices, and at least for `sudden`. A bit is set if the box of
-// all that the collider sweeps until the end of the step overlaps the patch's box.
+// The patch's box has room for twice the speed of its vertices, and at least for the speed push.sudden. A bit is set if
+// the box of all that the collider sweeps until the end of the step overlaps the patch's box.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
@@ -75,7 +75,7 @@ Box local_box(ColliderRecord collider)
     return Box(padded_boxes[collider.first_node].min, padded_boxes[collider.first_node].max);
 }
 
-// m: contact sees the path of a vertex within a substep as straight in the collider's space. A rotating collider can
+// m: contact treats the path of a vertex within a substep as straight in the collider's space. A rotating collider can
 // come closer than its radius says to a vertex `distance` away by this.
 float turning_margin(ColliderMotion motion, float distance)
 {

@@ -1,8 +1,8 @@
-// A walk over the colliders that may touch a vertex, in their order: those listed for its patch (find_near_colliders.comp),
-// or all.
+// A walk over the colliders that may touch a vertex, in their order: those listed for its patch
+// (find_near_colliders.comp), or all.
 //
-// A list holds inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed. The
-// results are equal to the bit, because a collider that is not near changes nothing.
+// A list is valid inside the patch's box. A vertex outside of that walks over all colliders, so that none is missed.
+// The results are equal to the bit, because a collider that is not near changes nothing.
 //
 // The including kernel declares near_colliders[], push.colliders and push.near_stride. VOILE_NEAR_LISTS may be defined
 // as false: there are no lists.
@@ -32,7 +32,7 @@ vec3 near_corner(uint word)
                 uintBitsToFloat(near_colliders[word + 2]));
 }
 
-// Whether the list of a patch holds in the box.
+// Whether the list of a patch is valid in the box.
 bool has_near_list(uint patch_index, Box box)
 {
     if (!VOILE_NEAR_LISTS || push.near_stride == 0)

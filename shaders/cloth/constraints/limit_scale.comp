@@ -12,7 +12,7 @@
 //
 // The cost of a part of the displacements is estimated from the slope at their start and from the cost of all of them,
 // as if springs were linear. They are not. So the part that is kept is measured, reduced where it costs too much, and
-// measured again. In the last look a small excess is reduced by the estimate; with a larger one nothing is kept.
+// measured again. In the last measurement a small excess is reduced by the estimate; with a larger one nothing is kept.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/strain_layout.h"
@@ -32,7 +32,7 @@ const float k_kept = 0.9; // of the reserve, per step
 // A limit whose displacements are at most this many times the step's own, at the same vertices, undoes the step.
 const float k_undoing = 5;
 const float k_overdraft = 1.001; // the largest cost over the available energy; the reserve owes the rest
-// A cost in the last look up to this many times the available energy is reduced by the estimate.
+// A cost in the last measurement up to this many times the available energy is reduced by the estimate.
 const float k_near = 1.1;
 
 struct Energies
@@ -106,7 +106,7 @@ LimitScale scale_of(float reserve, Energies e)
     return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, saved, lost);
 }
 
-// The second and later looks, at the displacements that are kept. Velocities are final.
+// The second and later measurements, of the displacements that are kept. Velocities are final.
 LimitScale rescaled(LimitScale s, Energies e)
 {
     const bool last = push.measurement == VOILE_LIMIT_MEASUREMENTS;

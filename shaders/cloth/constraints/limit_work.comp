@@ -73,7 +73,7 @@ LimitWork work_of(PatchVertex self)
     const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
     const vec3 dx = displacement(from, to);
     const float inverse_mass = before[i].w;
-    if (inverse_mass == 0) // whatever moves it works against its springs
+    if (inverse_mass == 0) // a pinned vertex: whatever moves it does work against its springs
     {
         const Conservative c = conservative_forces(self, here, 0);
         return LimitWork(c.energy, 0, -dot(c.springs, dx), 0, 0, 0, 0, 0, 0);

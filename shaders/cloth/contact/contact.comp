@@ -64,7 +64,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 
 // Inside a collider the velocity that forces give a vertex decays in this time, s,
 const float k_inside_time = 0.01;
-// and stays below this speed, m/s: neighbors whose exits differ hold each other together.
+// and stays below this speed, m/s: neighbors whose exits differ pull at each other.
 const float k_inside_speed = 0.6;
 // It cancels at most this fraction of the exit velocity, so that no vertex is held inside.
 const float k_inside_back = 0.5;
@@ -245,8 +245,8 @@ ColliderWalk walk_path(Motion motion)
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
 // round checks the corrected path. Where it crosses a surface, the vertex stays at its start, so that it is never on
 // the wrong side. Both rounds share one loop because their queries are most of this kernel.
-// `leaves_solid`: the vertex is brought out of a solid. No solid stops it meanwhile: of two that overlap, each would
-// hold what the other releases.
+// `leaves_solid`: depenetration moves the vertex out of a solid. No solid stops it meanwhile: of two that overlap, each
+// would stop a vertex that the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
     ContactState state = ContactState(false, false);
@@ -324,7 +324,7 @@ void write_motion(uint i, Motion motion, uint flags)
         proposed_predicted[i] += change;
 }
 
-// For a vertex without contact. The bits are those that the other state holds.
+// For a vertex without contact. Both states then have the same bits.
 void copy_proposed(uint i, uint cloth, vec4 proposed)
 {
     positions[i] = proposed;

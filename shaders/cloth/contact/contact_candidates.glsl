@@ -7,8 +7,8 @@
 //   - all lists are refreshed together, every VOILE_REFRESH_PERIOD substeps, if half of their margin is used up;
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
-// The list of a moving collider is relative to the collider's position when the list was made. It holds until the end
-// of that step. So does the list of a deforming mesh, whose boxes cover the whole step.
+// The list of a moving collider is relative to the collider's position when the list was made. It is valid
+// until the end of that step. So is the list of a deforming mesh, whose boxes cover the whole step.
 // The including kernel declares candidate_centers[] and candidate_triangles[] and what mesh_query.glsl expects, and
 // includes near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
@@ -29,7 +29,8 @@ const float k_lasting_margin = 0.03;
 
 // Words of the list: the head with its length; the largest and the least radius of the ball; then the entries. An entry
 // is a triangle, or a slot of an implicit BVH, with its distance from the ball's center as a level between both radii.
-// Levels are finest near the least radius: where many triangles are near, they decide which of them the ball must hold.
+// Levels are finest near the least radius: where many triangles are near, they decide which of them the ball must
+// contain.
 const uint k_head_word = 0;
 const uint k_max_radius_word = 1;
 const uint k_min_radius_word = 2;
@@ -161,7 +162,7 @@ vec3 local_query_center(Candidates list, uint c, uint flags)
     return into_collider(c, flags, FinePosition(list.center, vec3(0)), list.made);
 }
 
-// m: the radius of the smallest ball around the query center that holds the path from `from` to `to` and a ball of
+// m: the radius of the smallest ball around the query center that contains the path from `from` to `to` and a ball of
 // `query_radius` around its end. Both are in the space of collider c.
 float needed_radius(Candidates list, uint c, uint flags, vec3 from, vec3 to, float query_radius)
 {
@@ -260,8 +261,7 @@ void collect_triangles(inout Candidates list, uint layers)
 }
 
 // Makes a new list. `path`: m, the longest distance of this substep's path from the query center; `margin`: m, beyond
-// that;
-// `query_radius`: m, of contact around the vertex.
+// that; `query_radius`: m, of contact around the vertex.
 void refresh_candidates(inout Candidates list, uint layers, float path, float margin, float query_radius)
 {
     // If the last ball shrank, this one is only a little wider: what lies farther out would be dropped again.

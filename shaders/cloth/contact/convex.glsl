@@ -8,7 +8,7 @@ bool is_convex(ColliderRecord collider)
     return collider.kind != VOILE_COLLIDER_MESH && collider.kind != VOILE_COLLIDER_PLANE;
 }
 
-// Whether depenetration brings vertices out of the collider. A plane has one exit: contact alone suffices.
+// Whether depenetration moves vertices out of the collider. A plane has one exit: contact alone suffices.
 bool is_solid(ColliderRecord collider)
 {
     const uint closed = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;
@@ -76,7 +76,7 @@ const Entry k_no_entry = Entry(2, vec3(0));
 
 // The time at which a path from `offset` by `span` enters a sphere, or, with both vectors projected across its axis, a
 // cylinder. 0: it starts inside; 2: never. Uses the nearest point of the line, because the usual discriminant is a
-// difference of large numbers where a fast path meets a small sphere.
+// difference of large numbers where a fast path hits a small sphere.
 float rounded_entry(vec3 offset, vec3 span, float radius)
 {
     if (dot(offset, offset) <= radius * radius)
@@ -119,7 +119,7 @@ Entry box_entry(vec3 half_size, vec3 offset, vec3 span)
     for (int axis = 0; axis < 3; ++axis)
     {
         const float speed = abs(span[axis]);
-        const float side = span[axis] > 0 ? -1 : 1; // of the face that is met first
+        const float side = span[axis] > 0 ? -1 : 1; // of the face that the path can enter
         const float before = side * offset[axis] - half_size[axis];
         if (before > 0 && before >= speed)
             return k_no_entry;

@@ -10,8 +10,8 @@
 // fast, and on the vertex if that is slow. Pieces with a pinned vertex are skipped. The contact of vertices comes after
 // and overrides.
 //
-// Features of a collider that a cloth is being brought out of (depenetrate.comp) do not hold the cloth back. A sheet that
-// the collider protrudes through would be stretched across its edges until it snaps free.
+// While depenetration moves a cloth out of a collider (depenetrate.comp), features of that collider do not push the
+// cloth back. A sheet that the collider protrudes through would be stretched across its edges until it snaps free.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"

@@ -14,7 +14,7 @@ const float k_slip_range = 1e-3;
 // m/s: the tangential speed that friction leaves a vertex that slips. `normal_impulse`: per unit of mass, m/s. If
 // friction jumped from static to kinetic, the smallest slip within a substep would load stiff springs by more than the
 // weight of a vertex, and one vertex that slips by a nanometer would take the whole cloth along. Impulses that cross
-// the range within the substep meet kinetic friction at once.
+// the range within the substep get kinetic friction at once.
 float slip_speed(float speed, float normal_impulse, float static_friction, float kinetic_friction)
 {
     const float kinetic = max(speed - kinetic_friction * normal_impulse, 0);

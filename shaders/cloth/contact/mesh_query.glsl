@@ -123,7 +123,7 @@ void visit_triangle(inout MeshQuery query, uint index)
         visit_nearest(query, triangle, face);
 }
 
-// Whether a traversal enters a node's box: if it may hold something closer than the nearest so far, or overlaps the
+// Whether a traversal enters a node's box: if it may contain something closer than the nearest so far, or overlaps the
 // path. Boxes of a deforming mesh cover its motion within the step, so the path alone decides there, too.
 bool enters_node(MeshQuery query, Box node)
 {

@@ -67,8 +67,8 @@ int edge_winding(vec2 a, vec2 b)
 }
 
 // The winding of the triangle as seen along the line (Sunday 2001, "Inclusion of a point in a polygon"). The sum over
-// the triangles on one side of the origin is the winding number of a closed mesh, also if the line meets edges and
-// vertices.
+// the triangles on one side of the origin is the winding number of a closed mesh, also if the line crosses edges
+// and vertices.
 void visit_line(inout SolidQuery query, Triangle t, vec3 normal)
 {
     const int x = (query.axis + 1) % 3;
@@ -138,7 +138,7 @@ SolidQuery solid_query(Solid solid, int kind, vec3 origin)
     return query;
 }
 
-// Where a line along an axis leaves a mesh for good.
+// The last exits of a line along an axis from a mesh.
 struct LineExits
 {
     int winding;  // winding number of the mesh around the line's origin
@@ -146,7 +146,7 @@ struct LineExits
     float behind; // m, against it
 };
 
-// Boxes of the hierarchy are exact, so a box without width finds all triangles that the line meets.
+// Boxes of the hierarchy are exact, so a box without width finds all triangles that the line crosses.
 LineExits line_exits(Solid solid, vec3 origin, int axis)
 {
     SolidQuery query = solid_query(solid, k_solid_line, origin);

@@ -32,8 +32,8 @@ float segment_triangle(vec3 origin, vec3 span, vec3 a, vec3 b, vec3 c)
 }
 
 // The point of triangle (a, b, c) nearest to p. Ericson 2004, Real-Time Collision Detection, 5.1.5: the Voronoi region
-// of p decides between the three vertices, the three edges and the face. All are computed and the last that holds is
-// taken, because neighboring threads would diverge at branches.
+// of p decides between the three vertices, the three edges and the face. All are computed and the last valid one
+// is taken, because neighboring threads would diverge at branches.
 vec3 nearest_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
 {
     const vec3 ab = b - a;

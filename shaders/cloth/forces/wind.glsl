@@ -25,9 +25,9 @@ float upper_half(float a)
     return upper;
 }
 
-// The fractional turns of a b, a in turns/m, b in m. Far from the origin a float cannot hold the turns and a precise
-// fraction, so the rounding error of the product is kept (Dekker 1971, "A floating-point technique for extending the
-// available precision"). Not with fma, which may round twice in Vulkan.
+// The fractional turns of a b, a in turns/m, b in m. Far from the origin a float cannot represent the turns and a
+// precise fraction, so the rounding error of the product is kept (Dekker 1971, "A floating-point technique for
+// extending the available precision"). Not with fma, which may round twice in Vulkan.
 float turns(float a, float b, float b_residual)
 {
     const float a_upper = upper_half(a);

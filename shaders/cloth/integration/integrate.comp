@@ -22,7 +22,7 @@ layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 s
 layout(VOILE_BINDING(next_positions)) writeonly buffer NextPositions { vec4 next_positions[]; };
 layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; }; // may be the third ones
 layout(VOILE_BINDING(second_velocities)) readonly buffer SecondVelocities { vec4 second_velocities[]; }; // for stage 4
-layout(VOILE_BINDING(third_velocities)) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // likewise
+layout(VOILE_BINDING(third_velocities)) readonly buffer ThirdVelocities { vec4 third_velocities[]; };   // for stage 4
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };

@@ -15,20 +15,20 @@ struct AnchorRecord
 };
 
 // Flags of an attachment.
-#define VOILE_ATTACHMENT_PLACED 1u // its position is given; else a pin goes on from where its vertex is
+#define VOILE_ATTACHMENT_PLACED 1u // its position is given; otherwise a pin starts where its vertex is
 #define VOILE_ATTACHMENT_BACKSTOP 2u
 
 // An attachment of a vertex. Pins come first, then the others.
 struct AttachmentRecord
 {
-    vec3 position;  // m, in the anchor's space
-    uint vertex; // in the solver's buffers
-    vec3 normal; // of the backstop, in the anchor's space
+    vec3 position; // m, in the anchor's space
+    uint vertex;   // in the solver's buffers
+    vec3 normal;   // of the backstop, in the anchor's space
     uint anchor;
     float stiffness;    // N/m
     float damping;      // N s/m
-    float max_distance; // m; infinite: none
-    float backstop;     // m behind the place
+    float max_distance; // m; infinite: no bound
+    float backstop;     // m, behind the position
     uint flags;
     uint cloth;
     uint padding_0;
@@ -40,7 +40,7 @@ struct AttachmentRecord
 // The tethers of one vertex.
 struct TetherRecord
 {
-    uint vertex; // in the solver's buffers, like the pins
+    uint vertex; // in the solver's buffers, as the pins are
     uint count;  // 1..VOILE_TETHERS
     uint cloth;
     uint padding;
@@ -53,8 +53,8 @@ struct AttachmentPush
 {
     uint first; // of the records
     uint count;
-    float step;     // s; pins: of the whole step
-    float progress; // 0..1, of the step at the substep's end
+    float step;     // s, of the substep; for pins, of the whole step
+    float progress; // 0..1, of the step, at the substep's end
     float rate;     // 1/s, of the progress
 };
 

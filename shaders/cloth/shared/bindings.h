@@ -1,7 +1,7 @@
 // Numbers of bindings and specialization constants, the same in every kernel. GLSL writes
 //   layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 //   layout(constant_id = k_constant_near_lists) const uint NEAR_LISTS = 1;
-// and C++ binding::cloths, buffer::cloths, and a Specialization (colliders/specialization.hpp).
+// and C++ uses binding::cloths, buffer::cloths, and a Specialization (colliders/specialization.hpp).
 #ifndef VOILE_BINDINGS_H
 #define VOILE_BINDINGS_H
 
@@ -19,7 +19,7 @@
 
 #include <cstdint>
 
-// What a solver owns.
+// The buffers that a solver owns.
 namespace voile::buffer
 {
 enum Name : uint32_t
@@ -28,10 +28,10 @@ enum Name : uint32_t
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning) name = (number),
 #include "buffers.h"
 };
-constexpr uint32_t k_numbers = 64; // roles have the numbers from here on
+constexpr uint32_t k_numbers = 64; // the first number of a role
 } // namespace voile::buffer
 
-// What a kernel declares: a buffer by its own name, or a role.
+// The bindings that a kernel can declare: a buffer by its own name, or a role.
 namespace voile::binding
 {
 enum Name : uint32_t

@@ -1,13 +1,13 @@
 // The storage buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
 // allocates and binds it by its name, and docs/buffers.md lists who reads and writes it.
 //
-// VOILE_BUFFER(number, name, entry, count, meaning): what an upload allocates, and copies over where it has to grow.
+// VOILE_BUFFER(number, name, entry, count, meaning): a buffer that uploads allocate, and copy over where it has to grow.
 // `count` is an expression over BufferCounts (device_state.hpp). A kernel that declares a binding of that name gets the
 // buffer.
 // VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning): the same, but nothing in it outlives an upload.
-// VOILE_SOLVER_BUFFER(number, name, entry, meaning): what uploads leave alone.
-// VOILE_ROLE(number, name, entry, meaning): what a kernel calls a buffer that changes from set to set. Each set says
-// which (descriptor_sets.cpp).
+// VOILE_SOLVER_BUFFER(number, name, entry, meaning): a buffer that uploads leave alone.
+// VOILE_ROLE(number, name, entry, meaning): a binding whose buffer differs between descriptor sets. Each set names the
+// buffer (set_descriptions.cpp).
 //
 // Numbers are unique; those of roles begin at buffer::k_numbers. A new line takes the next free number.
 
@@ -28,18 +28,18 @@
 
 // Cloths.
 VOILE_BUFFER(0, cloths, ClothRecord, cloths, "size, springs, bounds, friction, drag of a cloth")
-VOILE_SCRATCH_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, what kernels need of their cloth, whether it is near features")
-VOILE_BUFFER(2, mesh_vertices, MeshVertex, mesh_vertices, "where the lists of a mesh vertex begin")
-VOILE_BUFFER(3, mesh_springs, MeshSpring, springs, "springs of mesh vertices, the lists of a workgroup interleaved")
+VOILE_SCRATCH_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, a copy of the data of their cloth that kernels need, and whether they are near features")
+VOILE_BUFFER(2, mesh_vertices, MeshVertex, mesh_vertices, "the offsets and lengths of the lists of a mesh vertex")
+VOILE_BUFFER(3, mesh_springs, MeshSpring, springs, "springs of mesh vertices; the lists of a workgroup are interleaved")
 VOILE_BUFFER(4, mesh_corners, MeshCorner, corners, "triangles around mesh vertices, interleaved like springs")
-VOILE_BUFFER(5, membrane_corners, MembraneCorner, corners, "the same triangles at rest, in warp and weft")
-VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of what the density multiplies")
+VOILE_BUFFER(5, membrane_corners, MembraneCorner, corners, "the same triangles at rest, in warp and weft coordinates")
+VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of the area or mass scale that the density multiplies")
 VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start position")
 VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
 
 // The state between steps.
 VOILE_BUFFER(9, positions, vec4, vertices, "position and inverse mass; the host draws from it")
-VOILE_BUFFER(10, residuals, uvec2, vertices, "what the floats of the position do not hold, in 40 bits (fine_position.glsl)")
+VOILE_BUFFER(10, residuals, uvec2, vertices, "the rounding error of the position, in 40 bits (fine_position.glsl)")
 VOILE_BUFFER(11, velocities, vec4, vertices, "velocity and flags (VOILE_VERTEX_*); the host draws from it")
 
 // Stages of the integrators. Under Verlet the velocities of A and C are the predicted ones of the state and of stage B.
@@ -54,33 +54,33 @@ VOILE_SCRATCH_BUFFER(19, stage_c_residuals, uvec2, vertices, "residuals of stage
 VOILE_SCRATCH_BUFFER(20, stage_c_velocities, vec4, vertices, "RK4 stage 3; velocities that Verlet predicts for stage B")
 
 // Attachments.
-VOILE_SCRATCH_BUFFER(21, anchors, AnchorRecord, anchors, "the pose of an anchor at the step's start and end")
-VOILE_SCRATCH_BUFFER(22, attachments, AttachmentRecord, attachments, "an attached vertex; pins come first")
+VOILE_SCRATCH_BUFFER(21, anchors, AnchorRecord, anchors, "the poses of an anchor at the step's start and end")
+VOILE_SCRATCH_BUFFER(22, attachments, AttachmentRecord, attachments, "attachments; pins come first")
 VOILE_SCRATCH_BUFFER(23, tethers, TetherRecord, tethers, "the tethers of a vertex")
 
 // Colliders.
-VOILE_BUFFER(24, colliders, ColliderRecord, colliders, "a collider where it was added, and its origin")
-VOILE_BUFFER(25, collider_motions, ColliderMotion, colliders, "its poses at the step's start and end")
+VOILE_BUFFER(24, colliders, ColliderRecord, colliders, "a collider at the pose at which it was added, and its origin")
+VOILE_BUFFER(25, collider_motions, ColliderMotion, colliders, "the poses of a collider at the step's start and end")
 VOILE_BUFFER(26, bvh_nodes, BvhNode, nodes, "hierarchies of rigid meshes")
-VOILE_BUFFER(27, bvh_triangles, BvhTriangle, triangles, "their triangles, in leaf order")
+VOILE_BUFFER(27, bvh_triangles, BvhTriangle, triangles, "triangles of rigid meshes, in leaf order")
 VOILE_SCRATCH_BUFFER(28, deforming_input, float, deforming_vertices * k_most_stride / sizeof(float), "vertices of deforming meshes as the host gives them, up to 64 bytes per vertex")
-VOILE_BUFFER(29, deforming_positions, vec4, 2 * deforming_vertices, "vertices of deforming meshes, twice: where the step starts, where it ends")
+VOILE_BUFFER(29, deforming_positions, vec4, 2 * deforming_vertices, "vertices of deforming meshes, twice: at the step's start and at its end")
 VOILE_BUFFER(30, padded_leaves, PaddedLeaf, padded_leaves, "triangles of deforming meshes")
-VOILE_BUFFER(31, padded_boxes, PaddedBox, padded_boxes, "boxes of their hierarchies, level by level")
-VOILE_SCRATCH_BUFFER(32, near_colliders, uint, near_words, "per patch the box in which its list holds, the first and the last word that is not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
+VOILE_BUFFER(31, padded_boxes, PaddedBox, padded_boxes, "boxes of the hierarchies of deforming meshes, level by level")
+VOILE_SCRATCH_BUFFER(32, near_colliders, uint, near_words, "per patch the box in which its list is valid, the range of its words that are not 0, and one bit per collider (VOILE_NEAR_*); empty with 8 colliders or fewer")
 
 // Contact.
-VOILE_SCRATCH_BUFFER(33, candidate_centers, vec4, vertices, "where the list of triangles near a vertex holds")
-VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list: its length, two radii, the triangles")
-VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that it is inside of, and the velocity at which it leaves")
-VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "of even steps, per cloth: on which side of its normals it leaves colliders, the sum of all directions, which colliders (VOILE_VOTE_*)")
-VOILE_BUFFER(37, depenetration_votes_odd, uint, cloths * VOILE_VOTE_WORDS, "the same of odd steps")
+VOILE_SCRATCH_BUFFER(33, candidate_centers, vec4, vertices, "the query center and the radius in which the list of triangles near a vertex is valid")
+VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list of triangles near a vertex: its length, two radii, the triangles")
+VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that contains it, and its exit velocity")
+VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "votes of even steps, per cloth: the side of its normals on which it leaves colliders, the sum of all exit directions, the colliders (VOILE_VOTE_*)")
+VOILE_BUFFER(37, depenetration_votes_odd, uint, cloths * VOILE_VOTE_WORDS, "votes of odd steps")
 VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and vertices of a collider")
 VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features")
-VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and where it faces")
-VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they hold")
-VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that come near features")
-VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over these patches, cleared before they are written")
+VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and the direction that it faces")
+VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they apply")
+VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are near features")
+VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over the patches near features, cleared before they are written")
 
 // Strain limit.
 VOILE_SCRATCH_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")
@@ -90,7 +90,7 @@ VOILE_SCRATCH_BUFFER(47, step_works_first, LimitWork, patches, "energy and work 
 VOILE_SCRATCH_BUFFER(48, step_works_last, LimitWork, patches, "energy and work of the step, at its end")
 VOILE_SCRATCH_BUFFER(49, limit_works_before, LimitWork, patches, "energy and work of the limit, before it")
 VOILE_SCRATCH_BUFFER(50, limit_works_after, LimitWork, patches, "energy and work of the limit, after it")
-VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "what a cloth keeps of the limit's changes, and its reserve of energy")
+VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "the fractions of the limit's changes that a cloth keeps, and its reserve of energy")
 
 // Statistics.
 VOILE_SCRATCH_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
@@ -111,7 +111,8 @@ VOILE_ROLE(74, next_predicted, vec4, "Verlet: the velocities predicted for the n
 VOILE_ROLE(75, second_velocities, vec4, "RK4: the velocities of stage 2")
 VOILE_ROLE(76, third_velocities, vec4, "RK4: the velocities of stage 3")
 
-// What a substep proposes, and the state before it, where contact leaves its result unless it works in place.
+// The state that a substep proposes, and the state before it. Contact changes the first in place, or writes its result
+// into the second.
 VOILE_ROLE(77, proposed_positions, vec4, "the positions that integration proposes")
 VOILE_ROLE(78, proposed_residuals, uvec2, "the residuals that integration proposes")
 VOILE_ROLE(79, proposed_velocities, vec4, "the velocities that integration proposes")
@@ -120,11 +121,11 @@ VOILE_ROLE(81, earlier_positions, vec4, "the positions before the substep")
 VOILE_ROLE(82, earlier_residuals, uvec2, "the residuals before the substep")
 VOILE_ROLE(83, earlier_velocities, vec4, "the velocities before the substep")
 VOILE_ROLE(84, earlier_predicted, vec4, "Verlet: the velocities predicted for the earlier positions")
-VOILE_ROLE(85, step_votes, uint, "votes of this step's depenetration")
-VOILE_ROLE(86, last_votes, uint, "votes of the last step's depenetration")
-VOILE_ROLE(87, next_votes, uint, "votes that depenetration casts")
+VOILE_ROLE(85, step_votes, uint, "this step's votes for exits")
+VOILE_ROLE(86, last_votes, uint, "the last step's votes for exits")
+VOILE_ROLE(87, next_votes, uint, "the votes for exits that depenetration writes")
 
-// The strain limit: the states before and after what is measured.
+// The strain limit: the states before and after the change that is measured.
 VOILE_ROLE(88, step_positions, vec4, "the positions that the strain limit starts from")
 VOILE_ROLE(89, step_velocities, vec4, "the velocities that the strain limit starts from")
 VOILE_ROLE(90, before_positions, vec4, "the positions before the change that is measured")
@@ -133,7 +134,7 @@ VOILE_ROLE(92, before_velocities, vec4, "the velocities before the change that i
 VOILE_ROLE(93, after_positions, vec4, "the positions after the change that is measured")
 VOILE_ROLE(94, after_residuals, uvec2, "the residuals after the change that is measured")
 VOILE_ROLE(95, after_velocities, vec4, "the velocities after the change that is measured")
-VOILE_ROLE(96, works, LimitWork, "the energy and work that is measured")
+VOILE_ROLE(96, works, LimitWork, "the measured energy and work")
 
 // clang-format on
 

@@ -1,4 +1,5 @@
-// The bounding volume hierarchy as the GPU reads it. Written by modules/cloth/src/bvh.cpp, read by bvh.glsl.
+// The bounding volume hierarchy as the GPU reads it. Written by modules/cloth/src/geometry/bvh.cpp, read by
+// bvh.glsl.
 #ifndef VOILE_BVH_LAYOUT_H
 #define VOILE_BVH_LAYOUT_H
 
@@ -6,10 +7,10 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// An inner node holds the boxes of both its children, so that one 64-byte read decides about two subtrees.
-// A child is an inner node's index, or, with the highest bit set, a leaf: bits 29-30 are its triangle count minus one
-// (1 to 4), bits 0-28 the index of its first triangle. Node 0 is the root; it always exists. A tree whose root has one
-// child only (a mesh that fits one leaf) has an empty right box: min = +infinity, max = -infinity.
+// An inner node contains the boxes of both its children, so that one 64-byte read decides about two subtrees. A child
+// is the index of an inner node, or, with the highest bit set, a leaf: bits 29-30 are its triangle count minus one (1
+// to 4), bits 0-28 the index of its first triangle. Node 0 is the root. It always exists. A mesh that fits one leaf
+// gives the root one child, and its right box is empty: min = +infinity, max = -infinity.
 struct BvhNode
 {
     vec3 left_min;
@@ -39,7 +40,7 @@ VOILE_SHARED_END
 #define VOILE_BVH_COUNT_SHIFT 29
 #define VOILE_BVH_COUNT_MASK 3u
 #define VOILE_BVH_FIRST_MASK 0x1fffffffu
-// Traversal keeps at most one entry a level: the builder never makes a deeper tree.
+// The size of the traversal's stack, one entry per level. The builder never makes a deeper tree.
 #define VOILE_BVH_MAX_DEPTH 48
 
 #endif

@@ -4,10 +4,11 @@
 
 #include "../../shared_types.h"
 
-// The springs of a grid vertex come in eight classes; a class joins it to the vertices at +offset and -offset.
-// Classes 0-1 structural (column, row), 2-3 shear, 4-5 bend, 6-7 diagonal bend.
-// A mesh has five: 0 along its edges (a Material's), 1 between the vertices opposite to an edge, 2-4 the springs of a
-// Fabric's membrane along warp, weft and both diagonals (membrane.glsl), in N/m and N s/m of strain and strain rate.
+// The springs of a grid vertex have eight classes. A class joins the vertex to the vertices at +offset and -offset.
+// Classes 0-1: structural (column, row), 2-3: shear, 4-5: bend, 6-7: diagonal bend.
+// The springs of a mesh have five classes. 0: along edges (Material). 1: between the vertices opposite to an edge. 2-4:
+// the springs of a Fabric's membrane along warp, weft and both diagonals (membrane.glsl), in N/m and N s/m of strain
+// and strain rate.
 #define VOILE_SPRING_CLASSES 8
 #define VOILE_CLASS_EDGE 0
 #define VOILE_CLASS_OPPOSITE 1
@@ -16,24 +17,24 @@
 #define VOILE_CLASS_DIAGONAL 4
 #define VOILE_MEMBRANE_SPRINGS 3
 
-// Ranges of the input along each axis, either way, as in voile/ranges.hpp.
+// Absolute limits of the input along each axis, as in voile/ranges.hpp.
 #define VOILE_MOST_COORDINATE 1e6 // m
 #define VOILE_MOST_SPEED 1e4      // m/s
-// Of the air against a vertex, along each axis, and of the cell that it acts on.
+// Limits of the speed of the air relative to a vertex, along each axis, and of the area that it acts on.
 #define VOILE_MOST_AIR_SPEED 1e5 // m/s
 #define VOILE_MOST_AIR_AREA 1e12 // m^2
 
 // Flags of a cloth.
-#define VOILE_CLOTH_VERLET 1u    // velocity Verlet; else RK4
-#define VOILE_CLOTH_ISOMETRIC 2u // bends by the isometric model; its bend springs are slack
-#define VOILE_CLOTH_UNIFORM_SPRINGS 4u     // a mesh whose springs all have the class's constants, whatever their weight
-// Set in MeshSpring.neighbor: no edge joins the two; a spring between them crosses one.
+#define VOILE_CLOTH_VERLET 1u          // velocity Verlet; otherwise RK4
+#define VOILE_CLOTH_ISOMETRIC 2u       // isometric bending; a Fabric then has no bend springs
+#define VOILE_CLOTH_UNIFORM_SPRINGS 4u // a mesh whose springs all have their class's constants; weights do not count
+// Set in MeshSpring.neighbor: the spring joins the two vertices opposite to an edge.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
-// What a velocity's w says of its vertex, as a sum of these.
-#define VOILE_VERTEX_TOUCHES 1 // it touches a collider
-#define VOILE_VERTEX_TAUT 2    // a tether, a max-distance constraint or a backstop limits it
-#define VOILE_VERTEX_TOUCHES_FEATURE 4   // a triangle or an edge around it meets a corner or an edge of a collider
+// Flags of a vertex. Their sum is the w of its velocity.
+#define VOILE_VERTEX_TOUCHES 1         // it touches a collider
+#define VOILE_VERTEX_TAUT 2            // a tether, a max-distance constraint or a backstop limits it
+#define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -41,11 +42,12 @@ struct SpringClass
 {
     float stiffness;   // N/m
     float damping;     // N s/m
-    float rest_length; // m; of a mesh's edges: the mean spacing of its vertices, each spring has a length of its own
+    float rest_length; // m; of a mesh's edges: the mean spacing of vertices; each spring has its own length
     float padding;
 };
 
-// One a cloth. Its vertices are consecutive, from first_vertex; those of a grid are row * columns + column.
+// A cloth. Its vertices are consecutive, from first_vertex on. In a grid, the index of a vertex is row * columns +
+// column.
 struct ClothRecord
 {
     uint first_vertex;
@@ -56,27 +58,29 @@ struct ClothRecord
     float thickness;       // m
     float static_friction; // Coulomb coefficients of the fabric
     float kinetic_friction;
-    float linear_drag;     // N s/m a vertex: force = linear_drag * (wind - velocity)
+    float linear_drag;     // N s/m per vertex: force = linear_drag * (wind - velocity)
     float drag_normal;     // C_n of the quadratic law
-    float drag_tangential; // C_t
+    float drag_tangential; // C_t of the quadratic law
     float border_scale;    // of masses and of springs along a grid's border
     uint flags;
-    float omega_squared;     // 1/s^2, of the fastest mode in any shape, bending included
-    float decay;             // 1/s, of the fastest decay in any shape
-    float strain_limit;      // largest l / L - 1; 0: none
-    float inverse_density;   // 1 / areal density or vertex mass: times a vertex's own measure it gives the inverse mass
-    float strain_relaxation; // of a correction of the strain limit
-    uint layers;             // bits; it meets colliders that have one of them
+    float omega_squared;      // 1/s^2, of the fastest mode in any shape, with bending
+    float decay;              // 1/s, the fastest decay rate in any shape
+    float strain_limit;       // largest l / L - 1; 0: no limit
+    float inverse_density;    // 1 / areal density or vertex mass; times `start.w` of a vertex, its inverse mass
+    float strain_relaxation;  // of a correction of the strain limit
+    uint layers;              // bits; the cloth collides with colliders that have one of them
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
-    vec3 bending;       // isometric. Grid: N/m a second difference along a row, along a column, a twist. Mesh: x, N m
-    float bending_time; // s; the bending force sees x + bending_time * v
+    // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
+    // Mesh, N m: x.
+    vec3 bending;
+    float bending_time; // s; the bending force depends on x + bending_time * v
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 
-// A mesh vertex's lists: its springs and the triangles around it, entries first, first + stride, ... of MeshSpring[]
-// and of MeshCorner[] and MembraneCorner[]. With stride 1 each vertex's list is in one piece; with the stride of a
-// workgroup the first entries of its vertices stand side by side, then their second ones, so that a workgroup's reads
-// coalesce.
+// The lists of a mesh vertex: its springs, and the triangles around it. A list consists of the entries first, first +
+// stride, first + 2 stride, ... of MeshSpring[], or of MeshCorner[] and MembraneCorner[]. With a stride of 1 each list
+// is contiguous. With a stride of the workgroup's size the first entries of its vertices are contiguous, then the
+// second ones, so that the reads of a workgroup coalesce.
 struct MeshVertex
 {
     uint first_spring;
@@ -89,29 +93,30 @@ struct MeshSpring
 {
     uint neighbor;     // counted within the cloth; VOILE_OPPOSITE_BIT
     float rest_length; // m
-    float weight;      // times the class's stiffness and damping. Edge: 1; opposite: 1/m^2. 0: no spring
-    float bending;     // of the isometric model, 1/m^2: force = -B * bending * (x_neighbor - x)
+    float weight;      // factor of the class's stiffness and damping. Edge: 1; opposite: 1/m^2. 0: no spring
+    float bending;     // 1/m^2, of the isometric model: force = -B * bending * (x_neighbor - x)
 };
 
-// A triangle around a vertex by its other two corners, counter-clockwise, counted within the cloth.
+// A triangle around a vertex: its other two corners, counter-clockwise, counted within the cloth.
 struct MeshCorner
 {
     uint b;
     uint c;
 };
 
-// The same triangle at rest, entry for entry; alike for all of its corners but for which one the vertex is.
+// The same triangle at rest, at the same index as its MeshCorner. For the three corners of a triangle only `corner`
+// differs.
 struct MembraneCorner
 {
     vec2 gradient_1; // 1/m, along warp and weft, of the barycentric coordinates of corner 1
     vec2 gradient_2; // and of corner 2
-    float weight;    // m^2, the area; of a sliver less
-    uint corner;     // the vertex: 0..2, counter-clockwise
+    float weight;    // m^2, the area; less for a sliver
+    uint corner;     // the number of the vertex in the triangle: 0..2, counter-clockwise
 };
 
-// What one workgroup works on. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
-// columns from column `first` on, and as many rows from `row` on as fill the group: what lies near on the cloth is
-// worked on together. What it has of its cloth is here to save a dependent load.
+// The vertices of one workgroup. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
+// columns from column `first` on, and of as many rows from `row` on as fill the group, so that a workgroup's vertices
+// are near each other. Members of the cloth are copied here to save a dependent load.
 struct Patch
 {
     uint cloth;
@@ -121,7 +126,7 @@ struct Patch
     uint first;        // counted within the cloth
     uint row;
     uint tile_shift;
-    uint near_features; // 1: it may meet corners and edges of colliders before the next look (find_near_features.comp)
+    uint near_features; // 1: it may touch features of colliders before the next query (find_near_features.comp)
 };
 
 #ifdef __cplusplus

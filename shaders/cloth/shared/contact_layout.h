@@ -4,38 +4,40 @@
 
 #include "../../shared_types.h"
 
-// m/s: how fast what is under a surface, or nearer to it than the thickness, comes up. What it pulls along may swing at
-// twice that speed.
+// m/s: the speed at which a vertex under a surface, or nearer to it than the thickness, is lifted. Vertices that it
+// pulls along may swing at twice that speed.
 #define VOILE_DEPENETRATION_SPEED 0.75f
-// The buffer of depenetrations begins with the sizes of two dispatches of depenetration, one of which the step writes,
-// of so many words each.
+// The buffer of depenetrations begins with the sizes of two indirect dispatches of depenetration. Each step writes one
+// of them. A size has this many words.
 #define VOILE_DISPATCH_WORDS 4
 
-// How many triangles of colliders a vertex can keep from substep to substep (contact_candidates.glsl),
+// The capacity of a vertex's list of candidates: triangles of colliders, kept from substep to substep
+// (contact_candidates.glsl).
 #define VOILE_CANDIDATES 23
-// the words of its list,
+// The number of words of a list.
 #define VOILE_CANDIDATE_WORDS (VOILE_CANDIDATES + 3)
-// how many bits of a word tell the triangle,
+// The number of bits of a triangle's index in its word.
 #define VOILE_CANDIDATE_TRIANGLE_BITS 26
-// and how many substeps lie between the renewals of these lists.
+// The number of substeps from one refresh of the lists to the next.
 #define VOILE_REFRESH_PERIOD 16
-// The number of the substep in which a list of candidates was made, and their count: one word.
+// One word of a list contains its length, and above it the number of the substep in which the list was made.
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
 
-// Votes of a cloth's vertices inside of colliders: of sides, the sum of directions in the world, how many these are,
-// and the colliders, each a bit, the 33rd that of the first.
+// The votes of a cloth's vertices that are inside of colliders. Word 0: the sum of the votes for sides. Words 1-3: the
+// sum of the exit directions in the world. Word 4: the number of directions. Word 5: one bit per collider, for collider
+// c bit c % 32.
 #define VOILE_VOTE_WORDS 6
-#define VOILE_VOTE_COUNT 4     // the word of their number
+#define VOILE_VOTE_COUNT 4     // the word of the number of directions
 #define VOILE_VOTE_COLLIDERS 5 // the word of the bits
 
 VOILE_SHARED_BEGIN(voile)
 
-// How a vertex comes out of a collider that it was inside of at the start of the step.
+// The exit of a vertex that was inside a collider at the start of the step.
 struct Depenetration
 {
     vec3 velocity; // m/s, world, relative to the collider
-    uint solid;    // the collider + 1; 0: it is inside of none
+    uint solid;    // the index of the collider + 1; 0: the vertex is inside no collider
 };
 
 // Push constants of the contact pass.
@@ -43,29 +45,29 @@ struct ContactPush
 {
     float step; // s
     uint colliders;
-    uint refresh;          // 1: lists of candidates are renewed in this substep
-    float refresh_time;  // s, from one renewal to the next
-    float progress_from; // 0..1, of the step at the substep's start
-    float progress_to;   // and at its end
+    uint refresh;        // 1: lists of candidates are refreshed in this substep
+    float refresh_time;  // s, from one refresh to the next
+    float progress_from; // 0..1, of the step, at the substep's start
+    float progress_to;   // 0..1, of the step, at the substep's end
     float progress_per_substep;
-    uint substep;       // counted through all steps
+    uint substep;       // counted over all steps
     uint first_substep; // of the step
     uint vertices;      // of all cloths
-    uint features;      // 1: colliders have corners or edges that may have met vertices
-    uint depenetrates;      // 1: colliders have an inside, from which vertices are brought out
+    uint features;      // 1: colliders have features that may have touched cloth
+    uint depenetrates;  // 1: there are solids that vertices can be inside of
     uint near_stride;   // words per patch of near colliders; 0: there are no lists
-    uint dispatch_word;      // the word of the dispatch's size that tells whether any vertex is inside
-    uint in_place;      // 1: what contact changes it writes into the proposed state; 0: all goes into the earlier one
-    float mesh_extent;  // m, that a mesh has at most along an axis from its origin
+    uint dispatch_word; // of the depenetration's dispatch size; 0 there: no vertex is inside a solid
+    uint in_place;      // 1: changes are written into the proposed state; 0: the whole state into the earlier one
+    float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
 };
 
-// Push constants of the pass that finds the way out of colliders.
+// Push constants of the pass that finds exits from solids.
 struct DepenetrationPush
 {
     float step; // s, of the whole step
     uint colliders;
     uint near_stride;
-    uint dispatch_word; // the word of the size that is written
+    uint dispatch_word; // of the dispatch size that is written
 };
 
 #ifdef __cplusplus

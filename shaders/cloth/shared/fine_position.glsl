@@ -1,4 +1,4 @@
-// Positions finer than float: a residual keeps what rounding takes from each coordinate.
+// Positions finer than float: a residual keeps the rounding error of each coordinate.
 //
 // A float at 1 m has a resolution of 6e-8 m. In a stiff spring that is a larger force than the weight of a vertex. A
 // residual is at most half the distance from the largest coordinate to the next float, in three signed fractions of 16

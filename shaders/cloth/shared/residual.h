@@ -1,4 +1,4 @@
-// The 64 bits that hold what rounding takes from a position: see fine_position.glsl.
+// The 64 bits of a residual, the rounding error of a position. See fine_position.glsl.
 #ifndef VOILE_RESIDUAL_H
 #define VOILE_RESIDUAL_H
 
@@ -6,8 +6,8 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// The unit of a residual, m, as the bits of a float: a power of two, 2^-15 of half the distance from the largest
-// coordinate to the next float. Bit operations, because conversions take four times as long.
+// The unit of a residual, m, as the bits of a float. It is a power of two: 2^-15 of half the distance from the largest
+// coordinate to the next float. Computed by bit operations, because conversions take four times as long.
 VOILE_INLINE uint residual_unit(vec3 x)
 {
     const float largest = max(max(abs(x.x), abs(x.y)), abs(x.z));

@@ -1,11 +1,12 @@
-// How much of a cloth's stiffness and damping an explicit substep can take. Float in GLSL, double in C++.
+// The stability of explicit substeps, and the scales of stiffness and damping that follow. Float in GLSL, double in
+// C++.
 #ifndef VOILE_STABILITY_H
 #define VOILE_STABILITY_H
 
 #include "../../shared_types.h"
 
-// The radius of RK4's stability region in the left half plane. It reaches 2.83 along the imaginary axis and 2.78 along
-// the negative real axis, and is nowhere closer to the origin than this.
+// The radius of RK4's stability region in the left half plane. The region extends to 2.83 along the imaginary axis and
+// to 2.78 along the negative real axis. Its border is nowhere closer to the origin than this radius.
 #define VOILE_RK4_RADIUS 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
@@ -31,7 +32,7 @@ struct StabilityScales
 {
     real stiffness; // 0..1
     real damping;   // 0..1
-    real load;      // 0..1, under Verlet: the load of what is left of both
+    real load;      // 0..1, under Verlet: the load of the scaled stiffness and damping
 };
 
 VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real h)

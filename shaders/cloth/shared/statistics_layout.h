@@ -26,12 +26,12 @@ struct StatisticsRecord
     float stretch_sum;         // sum of l / L - 1 over the same springs
     float kinetic_energy;      // J
     float deepest_penetration; // m, of a vertex inside a collider from the nearest surface
-    uint springs;              // how many stretch_sum adds up
+    uint springs;              // the number of springs in stretch_sum
     uint nan_vertices;         // vertices with a position or velocity that is not finite
     uint penetrating_vertices; // vertices inside a collider
     uint contacts;             // vertices that touch a collider
     uint candidates;           // triangles in the lists of all vertices
-    uint overflowing_vertices; // vertices near more triangles than a list holds: they traverse in every substep
+    uint overflowing_vertices; // vertices near more triangles than a list can contain; they traverse in every substep
     uint padding_0;
     uint padding_1;
 };

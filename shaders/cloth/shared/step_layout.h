@@ -4,15 +4,15 @@
 
 #include "../../shared_types.h"
 
-// Wave vectors of the gusts (wind.glsl), in units of the longest one's.
+// Wave vectors of the gusts (wind.glsl), in units of the longest wave's.
 #define VOILE_GUST_WAVES                                                                                               \
     vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                           \
         vec3(1.5689f, -4.7068f, 6.2757f)
 
-#define VOILE_EDIT_MASSES 0    // inverse masses from areas and density
-#define VOILE_EDIT_RESET 1     // back to the start
-#define VOILE_EDIT_TRANSFORM 2 // places by the matrix, velocities by its turning
-#define VOILE_EDIT_VELOCITY 3  // all velocities alike
+#define VOILE_EDIT_MASSES 0    // sets inverse masses from areas and density
+#define VOILE_EDIT_RESET 1     // sets the state to the start
+#define VOILE_EDIT_TRANSFORM 2 // transforms positions by the matrix, velocities by its linear part
+#define VOILE_EDIT_VELOCITY 3  // sets all velocities to one value
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -23,12 +23,12 @@ struct StagePush
     float step;           // s, of the whole substep
     vec3 wind;            // m/s
     float air_density;    // kg/m^3
-    vec4 gust_phases;     // rad, of the four waves of the gusts at this time
-    float gust_speed;     // m/s, of all waves together, root mean square
+    vec4 gust_phases;     // rad, of the four waves of the gusts at the current time
+    float gust_speed;     // m/s, root mean square of the sum of all waves
     float gust_frequency; // 1/m, of the longest wave
     uint first_patch;     // of the dispatch
-    float kick;           // Verlet: s, how long the acceleration acts on the velocity
-    float drift;          // Verlet: s, how far the position moves on; 0 ends a step
+    float kick;           // Verlet: s, the time for which the acceleration acts on the velocity
+    float drift;          // Verlet: s, the time for which the position moves; 0 at the end of a step
     uint stage;           // RK4: 1 to 4
 };
 

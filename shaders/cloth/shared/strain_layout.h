@@ -9,15 +9,15 @@ VOILE_SHARED_BEGIN(voile)
 // Push constants of one pass of the strain limit.
 struct StrainPush
 {
-    uint spacing; // of the level, in grid lines
-    uint between; // 1: vertices between the lines of the level before take over what their neighbors were moved by
+    uint spacing;       // of the level, in grid lines
+    uint between;       // 1: vertices between the lines of the level before take their neighbors' mean displacement
     float acceleration; // of the passes of a level (Chebyshev); 1: none
-    uint first;         // 1: of a level; no vertex knows yet what it bears
-    uint last;          // 1: of all; what vertices bear gives way to their flags
+    uint first;         // 1: the first pass of a level; vertices have no relaxation from a pass before
+    uint last;          // 1: the last of all passes; it writes the flags of vertices in place of their relaxation
 };
 
-// A patch's part of what a step or the strain limit does to its cloth (limit_work.comp). Of a displacement dx and a
-// change of velocity dv:
+// The energy and work of a change of state, by a step or by the strain limit, summed over a patch (limit_work.comp). dx
+// is the displacement of a vertex, dv its change of velocity.
 struct LimitWork
 {
     float energy;      // J, of springs in one state
@@ -31,26 +31,26 @@ struct LimitWork
     float undone;      // J s^2, minus the sum of m dx . (displacement from the step's start)
 };
 
-// How much a cloth takes of what the strain limit changes, and what the limit has taken from its energy and may give
-// back.
+// The fractions of the strain limit's changes that a cloth keeps, and the energy that the limit has removed and may
+// return.
 struct LimitScale
 {
-    float position;   // 0..1, of the displacements as they are now
+    float position;   // 0..1, of the current displacements
     float velocity;   // 0..1, of the changes of velocity
-    float shift_rate; // 1/s, of the displacements as a change of velocity besides
-    float kept;       // 0..1, of the limit's displacements in all
-    float saved;      // J, that displacements may cost; after the last look, what the next step may
-    float lost;       // J, that they may cost besides, gone in this step
+    float shift_rate; // 1/s; displacements times this are added to the velocities
+    float kept;       // 0..1, of the limit's original displacements
+    float saved; // J, that displacements may cost; after the last measurement, that those of the next step may cost
+    float lost;  // J, that displacements may cost in addition: the energy dissipated in this step
 };
 
-// How often the energy of what is kept is measured.
+// The number of measurements of the energy of the displacements that are kept.
 #define VOILE_LIMIT_MEASUREMENTS 2
 
 struct LimitScalePush
 {
     uint patches;
-    float rate; // 1/s, the largest shift_rate
-    uint measurement;  // 0: at all of the displacements; then, up to VOILE_LIMIT_MEASUREMENTS, at what is kept of them
+    float rate;       // 1/s, the largest shift_rate
+    uint measurement; // 0: of all displacements; 1 .. VOILE_LIMIT_MEASUREMENTS: of those that are kept
 };
 
 #ifdef __cplusplus
