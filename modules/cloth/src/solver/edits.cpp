@@ -159,7 +159,7 @@ void finish_edits(Solver::State& solver)
 }
 
 // The edits of uploaded cloths. Returns how many there were.
-size_t record_places(gpu::Recorder& recorder, Solver::State& solver)
+size_t record_state_edits(gpu::Recorder& recorder, Solver::State& solver)
 {
     const auto uploaded = [&](const shared::EditPush& edit) { return is_uploaded(solver, edit); };
     for (const shared::EditPush& edit : solver.edits.state_edits)
@@ -181,7 +181,7 @@ shared::AnchorRecord make_record(const Anchor& anchor)
 void Edits::forget(ClothId cloth)
 {
     std::erase(records, cloth.index);
-    std::erase_if(places, [&](const shared::EditPush& edit) { return edit.cloth == cloth.index; });
+    std::erase_if(state_edits, [&](const shared::EditPush& edit) { return edit.cloth == cloth.index; });
 }
 
 bool Solver::State::changes_due() const
@@ -223,7 +223,7 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (solver.edits.candidates)
         forget_candidates(recorder, device);
     record_deforming_passes(recorder, solver);
-    const size_t edited = record_places(recorder, solver);
+    const size_t edited = record_state_edits(recorder, solver);
     if (due.anchors || edited > 0)
         recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins,
                           solver.options.tuning.workgroup_size,

@@ -88,11 +88,11 @@ void Solver::State::update_passes()
             next.colliders = index + 1;
             add_passes(next, collider);
         }
-    next.depenetrate = next.depenetrate && options.depenetration;
+    next.depenetration = next.depenetration && options.depenetration;
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth))
             next.strain_spacing = std::max(next.strain_spacing, strain_spacing(cloth.record));
-    next.commit = next.colliders > 0 || next.attachments > 0 || next.tethers > 0 || next.strain_spacing > 0;
+    next.contact = next.colliders > 0 || next.attachments > 0 || next.tethers > 0 || next.strain_spacing > 0;
     passes = next;
 }
 
