@@ -77,6 +77,8 @@ quick(test_lifetime
     "docs/buffers.md lists who reads and who writes each buffer"
     "a step out of range is refused by name, and nothing is recorded"
     "pins rest and move with their anchor while an upload is due"
+    "substeps of a step hold for every cloth"
+    "a budget of substeps is kept, and what it costs in stiffness is named"
     "statistics in flight survive an upload")
 quick(test_membrane
     "warp and weft follow the texture coordinates, or rotate with a mesh that has none")

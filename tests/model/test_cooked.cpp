@@ -4,7 +4,7 @@
 #include "geometry/bvh_query.hpp"
 #include "geometry/cooked_file.hpp"
 #include "model/cooked_cloth.hpp"
-#include "model/model.hpp"
+#include "model/active_lists.hpp"
 #include "support/bvh_checks.hpp"
 #include "support/odd_meshes.hpp"
 
@@ -87,7 +87,8 @@ void use(const voile::CookedCloth& cooked)
             continue;
         model.cloths.at(0)->attachments.push_back({.vertex = 0});
         (void)voile::make_tethers(*model.cloths.at(0), 0, {});
-        (void)voile::make_patches(model, 32);
+        voile::ActiveLists lists;
+        voile::list_patches(model, voile::assigned_level, 32, lists);
     }
 }
 

@@ -1,6 +1,6 @@
 // What a model makes of cloth meshes, to the bit: the same springs in the same order as ever. The hashes are of IEEE
 // arithmetic without contraction; compilers for other machines than x86-64 contract by default.
-#include "model/model.hpp"
+#include "model/active_lists.hpp"
 #include "support/odd_meshes.hpp"
 #include "support/record_hash.hpp"
 
@@ -108,9 +108,10 @@ uint64_t hash_model(voile::Model model)
     add_joined(hash, model, &voile::ClothModel::positions);
     add_joined(hash, model, &voile::ClothModel::residuals);
     add_joined(hash, model, &voile::ClothModel::velocities);
-    const voile::Patches patches = voile::make_patches(model, 32);
-    hash.add_all(patches.patches);
-    hash.add(patches.rk4);
+    voile::ActiveLists active;
+    voile::list_patches(model, voile::assigned_level, 32, active);
+    hash.add_all(active.patches);
+    hash.add(active.levels[0].rk4_patches);
     add_lists(hash, joined_lists(model, false));
     add_lists(hash, joined_lists(model, true));
     return hash.value();

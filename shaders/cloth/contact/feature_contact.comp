@@ -129,7 +129,7 @@ void visit_colliders(uint part, uint parts)
     if (self.inverse_mass == 0)
         return;
     ColliderWalk walk =
-        walk_colliders(near_patches[gl_WorkGroupID.x], box_around(self.earlier.x, self.proposed.x));
+        walk_colliders(near_patches[push.first_patch + gl_WorkGroupID.x], box_around(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, part, parts);
@@ -148,7 +148,7 @@ void main()
     const uint parts = gl_NumWorkGroups.y;
     const uint thread = gl_LocalInvocationID.x;
     const uint part = thread % parts;
-    self.vertex = patch_vertex(near_patches[gl_WorkGroupID.x],
+    self.vertex = patch_vertex(near_patches[push.first_patch + gl_WorkGroupID.x],
                                (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / parts);
     if (self.vertex.exists)
         visit_colliders(part, parts);

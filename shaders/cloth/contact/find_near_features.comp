@@ -90,5 +90,5 @@ void main()
         return;
     patches[gl_WorkGroupID.x].near_features = near_vertices;
     if (near_vertices != 0)
-        near_patches[atomicAdd(dispatch_size[0], 1)] = gl_WorkGroupID.x;
+        near_patches[push.first_patch + atomicAdd(dispatch_size[push.dispatch_word], 1)] = gl_WorkGroupID.x;
 }

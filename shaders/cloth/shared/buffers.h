@@ -80,7 +80,7 @@ VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features
 VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and the direction that it faces")
 VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they apply")
 VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are near features")
-VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, 3, "workgroups of the indirect dispatch over the patches near features, cleared before they are written")
+VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, VOILE_SUBSTEP_LEVELS * VOILE_DISPATCH_WORDS, "workgroups of the indirect dispatches over the patches near features, one per level of substeps, cleared before they are written")
 
 // Strain limit.
 VOILE_SCRATCH_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")

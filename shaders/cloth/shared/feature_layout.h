@@ -58,6 +58,8 @@ struct NearFeaturesPush
     float progress_to;   // 0..1, of the step, at the next query
     uint colliders;
     uint near_stride;
+    uint first_patch;   // of the dispatch, and of its entries in the list of patches near features
+    uint dispatch_word; // of the size of their dispatch
 };
 
 // Push constants of feature contact.
@@ -69,6 +71,7 @@ struct FeaturePush
     uint colliders;
     uint substep; // counted over all steps
     uint near_stride;
+    uint first_patch; // of the entries in the list of patches near features
 };
 
 VOILE_SHARED_END

@@ -9,6 +9,9 @@
     vec3(0.8f, 0, 0.6f), vec3(-1.2091f, 0.9068f, 1.3099f), vec3(2.4368f, 2.4368f, -2.0307f),                           \
         vec3(1.5689f, -4.7068f, 6.2757f)
 
+// Groups of cloths by the length of their substeps: each level's are twice as long as those of the level below.
+#define VOILE_SUBSTEP_LEVELS 5
+
 #define VOILE_EDIT_MASSES 0    // sets inverse masses from areas and density
 #define VOILE_EDIT_RESET 1     // sets the state to the start
 #define VOILE_EDIT_TRANSFORM 2 // transforms positions by the matrix, velocities by its linear part
@@ -26,7 +29,6 @@ struct StagePush
     vec4 gust_phases;     // rad, of the four waves of the gusts at the current time
     float gust_speed;     // m/s, root mean square of the sum of all waves
     float gust_frequency; // 1/m, of the longest wave
-    uint first_patch;     // of the dispatch
     float kick;           // Verlet: s, the time for which the acceleration acts on the velocity
     float drift;          // Verlet: s, the time for which the position moves; 0 at the end of a step
     uint stage;           // RK4: 1 to 4
@@ -42,7 +44,7 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StagePush) == 72);
+static_assert(sizeof(StagePush) == 68);
 static_assert(offsetof(StagePush, gust_phases) == 32);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif

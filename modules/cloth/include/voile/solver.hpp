@@ -119,14 +119,18 @@ struct SolverOptions
 struct Step
 {
     float duration = 1.f / 60;    // s, 1e-6..10
-    uint32_t substeps = 0;        // 0..1000000; 0: as many as stability asks for, stable_substeps(duration)
-    uint32_t max_substeps = 2000; // of those, 1..1000000; a cloth for which they are too few is softened, see stability
-    Vec3 gravity{0, -9.81f, 0};   // m/s^2, -1e4..1e4
-    Vec3 wind{0.f};               // m/s, -1e3..1e3
-    float gust = 0;               // root mean square of the gusts as a share of the wind's speed, 0..10
-    float gust_length = 4;        // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
-    double time = 0;              // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
-    float air_density = 1.225f;   // kg/m^3, 0..1e5
+    uint32_t substeps = 0;        // of every cloth, 0..1000000; 0: each cloth takes as many as it needs, see Stability
+    uint32_t max_substeps = 2000; // of those, 1..1000000; a cloth for which they are too few is softened
+    // A budget: the sum over all cloths of vertices times substeps. What exceeds it is taken from the substeps of all
+    // cloths by the same fraction; Solver::stability reports what that costs in stiffness. 0: no budget. At least one
+    // substep per cloth is taken.
+    uint64_t max_vertex_substeps = 0;
+    Vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
+    Vec3 wind{0.f};             // m/s, -1e3..1e3
+    float gust = 0;             // root mean square of the gusts as a share of the wind's speed, 0..10
+    float gust_length = 4;      // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;            // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
+    float air_density = 1.225f; // kg/m^3, 0..1e5
 };
 
 // Errors: a member out of its range, with its name and value.
@@ -140,11 +144,11 @@ struct DeviceVertices
     uint32_t stride = 12;    // bytes from one vertex to the next: 12 to 64, a multiple of 4
 };
 
-// What the substeps of a step mean for a cloth.
+// What the substeps of a step are for a cloth beside those that the solver has now.
 struct Stability
 {
     uint32_t needed = 0;       // substeps that bear all of its stiffness and damping
-    uint32_t used = 0;         // substeps that the step takes
+    uint32_t used = 0;         // substeps that it takes: at least as many, unless a maximum or the budget are smaller
     float stiffness_scale = 1; // of its stiffness that it has in this step, 0..1
     float damping_scale = 1;   // likewise
     float load = 0; // fraction of what the integrator bears that the step takes up, 0..0.95; 1 would be its bound
@@ -349,12 +353,15 @@ public:
     // All 0 for a slot that nothing was recorded into, or that does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
-    // The substeps with which every cloth is stable at its full stiffness, with a margin of 5 %; at most max_substeps.
-    // 0 for a duration that record refuses. From bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of
-    // the cloth, crumpled and stretched: RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping.
-    // Where springs of one direction carry nearly all, Verlet takes up to 16 % more substeps, or it would heat up.
+    // The substeps with which every enabled cloth is stable at its full stiffness, with a margin of 5 %, the largest
+    // number that one of them needs; at most max_substeps. 0 for a duration that record refuses. From bounds of the
+    // spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched: RK4 takes omega h
+    // <= 2.6, velocity Verlet omega h <= 2, less with damping. Where springs of one direction carry nearly all, Verlet
+    // takes up to 16 % more substeps, or it would heat up.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
-    // needed and used are 0 for a step that record refuses.
+    // Cloths that need fewer substeps than others take fewer: a half, a quarter ... down to a sixteenth of the largest
+    // number, where that saves time. Each group of cloths that take the same number has dispatches of its own, so that
+    // on a large GPU only large cloths are worth a group. needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;

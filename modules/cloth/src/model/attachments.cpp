@@ -1,5 +1,5 @@
 // Attachments: the functions that make them, their validation, and their records.
-#include "model/model.hpp"
+#include "model/active_lists.hpp"
 
 #include <cmath>
 
@@ -159,22 +159,57 @@ Result<void> validate_attachments(const Model& model, const ClothModel& cloth, s
     return {};
 }
 
-AttachmentLists make_attachment_lists(const Model& model)
+AttachmentCounts count_attachments(const Model& model)
 {
-    AttachmentLists lists;
-    for (const bool pins : {true, false})
-    {
-        for (const auto [index, cloth] : model.cloths)
-            for (const Attachment& attachment : cloth.attachments)
-                if (is_active(cloth) && is_pin(attachment) == pins)
-                    lists.attachments.push_back(make_record(model, cloth, index, attachment));
-        if (pins)
-            lists.pins = static_cast<uint32_t>(lists.attachments.size());
-    }
+    AttachmentCounts counts;
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth))
-            lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());
-    return lists;
+        {
+            counts.attachments += cloth.attachments.size();
+            counts.tethers += cloth.tethers.size();
+        }
+    return counts;
+}
+
+void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& lists)
+{
+    lists.attachments.clear();
+    lists.tethers.clear();
+    const auto add = [&](const ClothModel& cloth, uint32_t index, bool pins)
+    {
+        for (const Attachment& attachment : cloth.attachments)
+            if (is_pin(attachment) == pins)
+                lists.attachments.push_back(make_record(model, cloth, index, attachment));
+    };
+    for (const auto [index, cloth] : model.cloths)
+        if (is_active(cloth))
+            add(cloth, index, true);
+    const auto attachments = [&] { return static_cast<uint32_t>(lists.attachments.size()); };
+    const auto tethers = [&] { return static_cast<uint32_t>(lists.tethers.size()); };
+    lists.pins = attachments();
+    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
+    {
+        LevelLists& list = lists.levels[level];
+        list.attachments.first = attachments();
+        list.tethers.first = tethers();
+        for (const auto [index, cloth] : model.cloths)
+            if (is_active(cloth) && level_of(cloth) == level)
+            {
+                add(cloth, index, false);
+                lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());
+            }
+        list.attachments.count = attachments() - list.attachments.first;
+        list.tethers.count = tethers() - list.tethers.first;
+    }
+}
+
+void merge_levels(ActiveLists& lists)
+{
+    for (LevelLists& list : lists.levels)
+        list.attachments = list.tethers = {};
+    const auto attachments = static_cast<uint32_t>(lists.attachments.size());
+    lists.levels[0].attachments = {lists.pins, attachments - lists.pins};
+    lists.levels[0].tethers = {0, static_cast<uint32_t>(lists.tethers.size())};
 }
 
 } // namespace voile

@@ -39,6 +39,7 @@ struct ClothModel
     std::string name;
     bool enabled = true;
     bool uploaded = false; // its arrays are in the solver's buffers
+    uint32_t level = 0;    // of its substeps (substep_plan.hpp)
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it

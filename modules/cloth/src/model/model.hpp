@@ -39,7 +39,7 @@ struct Model
     Slots<AnchorId, Anchor> anchors; // the first is the world
     RangeAllocator vertices;
     SharedRanges<MeshLists, k_list_arrays> lists;
-    uint64_t patches = 0;    // workgroups over all cloths, see make_patches
+    uint64_t patches = 0;    // workgroups over all cloths, of workgroup_size vertices
     bool interleaved = true; // lists of meshes: SolverOptions::mesh_layout
     DeviceLimits limits;
 
@@ -59,21 +59,6 @@ private:
     std::unordered_map<const MeshTopology*, std::weak_ptr<const MeshLists>> lists_of_;
 };
 
-// Whether a cloth takes part in steps.
-inline bool is_active(const ClothModel& cloth)
-{
-    return cloth.uploaded && cloth.enabled;
-}
-
-// The attachments of active cloths as records, pins first, and the tethers.
-struct AttachmentLists
-{
-    std::vector<shared::AttachmentRecord> attachments;
-    uint32_t pins = 0; // the first ones
-    std::vector<shared::TetherRecord> tethers;
-};
-AttachmentLists make_attachment_lists(const Model& model);
-
 // Errors: an anchor that add_anchor did not give.
 Result<void> check_anchor(const Model& model, AnchorId anchor);
 
@@ -83,18 +68,7 @@ Result<void> validate_attachments(const Model& model, const ClothModel& cloth, s
 // The tethers of a cloth by its present pins; `index`: its slot. Errors: no pin, a value out of range.
 Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, uint32_t index, const Tethers& tethers);
 
-// The patches that cover the active cloths with workgroups of `workgroup_size` vertices, none across two cloths. Those
-// of cloths that use RK4 come first.
-struct Patches
-{
-    std::vector<shared::Patch> patches;
-    uint32_t rk4 = 0; // how many
-
-    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(patches.size()); }
-};
-Patches make_patches(const Model& model, uint32_t workgroup_size);
-
-// How many of them a grid or a mesh has.
+// How many patches a grid or a mesh has: workgroups of `workgroup_size` vertices, none across two cloths.
 uint64_t count_grid_patches(uint32_t columns, uint32_t rows, uint32_t workgroup_size);
 uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size);
 uint64_t count_patches(const shared::ClothRecord& cloth, uint32_t workgroup_size);

@@ -1,5 +1,5 @@
 // What each workgroup works on: tiles of grids, runs of a mesh's vertices.
-#include "model/model.hpp"
+#include "model/active_lists.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -29,6 +29,15 @@ void add_tiles(const shared::ClothRecord& record, uint32_t cloth, uint32_t workg
                                static_cast<uint32_t>(std::countr_zero(width)), 0});
 }
 
+void add_patches(const ClothModel& cloth, uint32_t index, uint32_t workgroup_size, std::vector<shared::Patch>& patches)
+{
+    const shared::ClothRecord& record = cloth.record;
+    if (record.columns > 0)
+        return add_tiles(record, index, workgroup_size, patches);
+    for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
+        patches.push_back({index, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
+}
+
 } // namespace
 
 uint64_t count_grid_patches(uint32_t columns, uint32_t rows, uint32_t workgroup_size)
@@ -49,26 +58,23 @@ uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size)
     return (vertices + workgroup_size - 1) / workgroup_size;
 }
 
-Patches make_patches(const Model& model, uint32_t workgroup_size)
+void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists)
 {
-    Patches result;
-    for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
+    lists.patches.clear();
+    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
     {
-        for (const auto [index, cloth] : model.cloths)
+        LevelLists& list = lists.levels[level];
+        list.patches.first = lists.patch_count();
+        for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
         {
-            const shared::ClothRecord& record = cloth.record;
-            if (!is_active(cloth) || cloth.integrator != integrator)
-                continue;
-            if (record.columns > 0)
-                add_tiles(record, index, workgroup_size, result.patches);
-            else
-                for (uint32_t first = 0; first < record.vertices; first += workgroup_size)
-                    result.patches.push_back({index, record.first_vertex, 0, record.vertices, first, 0, 0, 0});
+            for (const auto [index, cloth] : model.cloths)
+                if (is_active(cloth) && level_of(cloth) == level && cloth.integrator == integrator)
+                    add_patches(cloth, index, workgroup_size, lists.patches);
+            if (integrator == Integrator::rk4)
+                list.rk4_patches = lists.patch_count() - list.patches.first;
         }
-        if (integrator == Integrator::rk4)
-            result.rk4 = static_cast<uint32_t>(result.patches.size());
+        list.patches.count = lists.patch_count() - list.patches.first;
     }
-    return result;
 }
 
 } // namespace voile

@@ -5,6 +5,7 @@
 #include "model/range_allocator.hpp"
 
 #include "shared/collider_layout.h"
+#include "shared/step_layout.h"
 
 #include <algorithm>
 

@@ -77,10 +77,11 @@ void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved&
     update_records(recorder, solver);
     if (solver.edits.patches)
         record_patches(recorder, solver);
-    if (solver.edits.attachments && solver.attachments_fit())
-        recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.attachment_lists.attachments));
-    if (solver.edits.tethers && solver.tethers_fit())
-        recorder.update(device[buffer::tethers].handle(), 0, bytes_of(solver.attachment_lists.tethers));
+    if (solver.edits.attachments && solver.fits())
+    {
+        recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.lists.attachments));
+        recorder.update(device[buffer::tethers].handle(), 0, bytes_of(solver.lists.tethers));
+    }
     if (moved.anchors)
         update_anchors(recorder, solver);
     if (moved.colliders)
@@ -154,8 +155,7 @@ void finish_edits(Solver::State& solver)
     edits.records.clear();
     edits.colliders.clear();
     edits.pins = edits.candidates = false;
-    edits.attachments = edits.attachments && !solver.attachments_fit();
-    edits.tethers = edits.tethers && !solver.tethers_fit();
+    edits.attachments = edits.attachments && !solver.fits();
 }
 
 // The edits of uploaded cloths. Returns how many there were.
@@ -186,8 +186,7 @@ void Edits::forget(ClothId cloth)
 
 bool Solver::State::changes_due() const
 {
-    const bool lists = (edits.attachments && attachments_fit()) || (edits.tethers && tethers_fit());
-    return lists || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
+    return (edits.attachments && fits()) || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
            !edits.colliders.empty() ||
            std::ranges::any_of(edits.state_edits,
                                [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });
@@ -196,8 +195,8 @@ bool Solver::State::changes_due() const
 void record_patches(gpu::Recorder& recorder, Solver::State& solver)
 {
     DeviceState& device = *solver.device;
-    recorder.update(device[buffer::patches].handle(), 0, bytes_of(solver.patches.patches));
-    device.patch_count = static_cast<uint32_t>(solver.patches.patches.size());
+    recorder.update(device[buffer::patches].handle(), 0, bytes_of(solver.lists.patches));
+    device.patch_count = static_cast<uint32_t>(solver.lists.patches.size());
     solver.edits.patches = false;
 }
 
@@ -225,9 +224,9 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     record_deforming_passes(recorder, solver);
     const size_t edited = record_state_edits(recorder, solver);
     if (due.anchors || edited > 0)
-        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.passes.pins,
+        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.lists.pins,
                           solver.options.tuning.workgroup_size,
-                          shared::AttachmentPush{0, solver.passes.pins, step.duration, 0, 0});
+                          shared::AttachmentPush{0, solver.lists.pins, step.duration, 0, 0});
     solver.history.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;

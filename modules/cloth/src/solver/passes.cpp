@@ -1,15 +1,21 @@
 // What takes part in steps: the lists over active cloths, and the passes that these and the colliders need.
+#include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace voile
 {
 
 namespace
 {
+
+// The vertices that take as long to step as the dispatches of a substep do without any.
+constexpr uint64_t k_dispatch_vertices = 32768;
+constexpr uint64_t k_dispatch_vertices_cpu = 256;
 
 // The passes that one collider needs.
 void add_passes(Passes& passes, const ColliderModel& collider)
@@ -37,34 +43,71 @@ uint32_t strain_spacing(const shared::ClothRecord& cloth)
 
 } // namespace
 
-bool Solver::State::attachments_fit() const
+bool Solver::State::fits() const
 {
     return device && model.anchors.size() <= device->capacities.anchors &&
-           attachment_lists.attachments.size() <= device->capacities.attachments;
-}
-
-bool Solver::State::tethers_fit() const
-{
-    return device && attachment_lists.tethers.size() <= device->capacities.tethers;
+           attachment_counts.attachments <= device->capacities.attachments &&
+           attachment_counts.tethers <= device->capacities.tethers;
 }
 
 void Solver::State::update_patches()
 {
     if (!device)
         return;
-    patches = make_patches(model, options.tuning.workgroup_size);
+    list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
+    needs.reserve(model.cloths.size());
     edits.patches = true;
     update_attachments();
 }
 
 void Solver::State::update_attachments()
 {
-    edits.attachments = edits.tethers = edits.pins = true;
+    edits.attachments = edits.pins = true;
     if (!device)
         return;
-    attachment_lists = make_attachment_lists(model);
-    dirty |= !attachments_fit() || !tethers_fit();
+    attachment_counts = count_attachments(model);
+    if (fits()) // else those in the buffers go on
+        list_attachments(model, assigned_level, lists);
+    else
+        dirty = true;
     update_passes();
+}
+
+SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& needed, const ClothModel* other) const
+{
+    if (step.substeps > 0)
+        return uniform_plan(step.substeps);
+    needed.clear();
+    const auto duration = static_cast<double>(step.duration);
+    for (const auto [index, cloth] : model.cloths)
+        if (is_active(cloth) || &cloth == other)
+            needed.push_back({voile::stable_substeps(cloth.record, duration), cloth.record.vertices});
+    // Measured: bench/NOTES.md, "Levels of substeps".
+    const bool software = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    return plan_substeps(needed, {.substeps = step.max_substeps,
+                                  .vertex_substeps = step.max_vertex_substeps,
+                                  .dispatch_vertices = software ? k_dispatch_vertices_cpu : k_dispatch_vertices,
+                                  .levels = fits() ? VOILE_SUBSTEP_LEVELS : 1u});
+}
+
+void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
+{
+    bool changes = false;
+    for (auto [index, cloth] : model.cloths)
+    {
+        if (!is_active(cloth))
+            continue;
+        const uint32_t level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
+        changes |= std::exchange(cloth.level, level) != level;
+    }
+    if (!changes)
+        return;
+    list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
+    if (fits())
+        list_attachments(model, assigned_level, lists);
+    else
+        merge_levels(lists); // those in the buffers go on
+    edits.patches = edits.attachments = true;
 }
 
 void Solver::State::update_passes()
@@ -72,16 +115,6 @@ void Solver::State::update_passes()
     if (!device)
         return;
     Passes next;
-    next.pins = passes.pins;
-    next.attachments = passes.attachments;
-    next.tethers = passes.tethers;
-    if (attachments_fit()) // else the list in the buffer is that of before
-    {
-        next.pins = attachment_lists.pins;
-        next.attachments = static_cast<uint32_t>(attachment_lists.attachments.size()) - attachment_lists.pins;
-    }
-    if (tethers_fit())
-        next.tethers = static_cast<uint32_t>(attachment_lists.tethers.size());
     for (const auto [index, collider] : collider_models.colliders)
         if (is_active(collider))
         {
@@ -92,7 +125,8 @@ void Solver::State::update_passes()
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth))
             next.strain_spacing = std::max(next.strain_spacing, strain_spacing(cloth.record));
-    next.contact = next.colliders > 0 || next.attachments > 0 || next.tethers > 0 || next.strain_spacing > 0;
+    const bool attached = lists.attachments.size() > lists.pins || !lists.tethers.empty();
+    next.contact = next.colliders > 0 || attached || next.strain_spacing > 0;
     passes = next;
 }
 

@@ -1,4 +1,5 @@
 // The recording of a step: the list of passes, as ARCHITECTURE.md shows it.
+#include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 #include "solver/substeps.hpp"
 
@@ -49,7 +50,7 @@ uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, St
 void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const uint32_t group = solver.options.tuning.workgroup_size;
-    recorder.dispatch(solver.kernels.normals, solver.device->sets.normals, solver.patches.count() * group, group,
+    recorder.dispatch(solver.kernels.normals, solver.device->sets.normals, solver.lists.patch_count() * group, group,
                       std::span<const std::byte>{});
 }
 
@@ -75,7 +76,7 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
     const VkBuffer depenetrations = device[buffer::depenetrations].handle();
     clear_dispatch(recorder, depenetrations, depenetration_word(next), 1, device[k_depenetration_votes[next]].handle());
     if (all)
-        recorder.dispatch(kernel, device.sets.depenetrate[next], solver.patches.count() * group, group, push);
+        recorder.dispatch(kernel, device.sets.depenetrate[next], solver.lists.patch_count() * group, group, push);
     else
         recorder.dispatch_indirect(kernel, device.sets.depenetrate[next], depenetrations,
                                    depenetration_word(now) * sizeof(uint32_t), push);
@@ -84,12 +85,13 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
 
 // Everything of a step but what the host has changed. It changes nothing but `history`, so that a dry recorder can
 // count what the next step takes.
-void record_passes(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step,
-                   uint32_t substeps)
+void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, StepHistory& history,
+                   const Step& step, const SubstepPlan& plan)
 {
-    const uint32_t first_substep = count_substeps(recorder, solver, history, substeps);
-    SubstepRecorder passes(recorder, solver, history, step, substeps, first_substep);
-    passes.record_near_colliders(0);
+    const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
+    const StepContext context{recorder, solver, lists, history, step, plan, first_substep};
+    StepRecorder passes(context);
+    passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
     passes.record();
     record_normals(recorder, solver);
@@ -155,9 +157,11 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     state_->lifetime.begin(recorder.cmd());
     begin_scope(recorder, state_->options);
     state_->history.depenetration_due |= state_->changes_due();
+    const SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
+    state_->assign_levels(plan, step);
     record_edits(recorder, *state_, step);
-    if (state_->patches.count() > 0)
-        record_passes(recorder, *state_, state_->history, step, State::substeps(*this, step));
+    if (state_->lists.patch_count() > 0)
+        record_passes(recorder, *state_, state_->lists, state_->history, step, plan);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
     return {};
@@ -188,12 +192,19 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
 
 uint32_t Solver::dispatches(const Step& step) const
 {
-    if (!state_->device || state_->patches.count() == 0 || !validate(step))
+    if (!state_->device || state_->lists.patch_count() == 0 || !validate(step))
         return 0;
     gpu::Recorder dry(state_->context);
     StepHistory history = state_->history;
     history.normals_due = false; // what follows an upload is not counted
-    record_passes(dry, *state_, history, step, State::substeps(*this, step));
+    std::vector<SubstepNeed> needs;
+    const SubstepPlan plan = state_->plan(step, needs, nullptr);
+    const LevelOf level_of = [&](const ClothModel& cloth)
+    { return plan.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration))); };
+    ActiveLists lists;
+    list_patches(state_->model, level_of, state_->options.tuning.workgroup_size, lists);
+    list_attachments(state_->model, level_of, lists);
+    record_passes(dry, *state_, lists, history, step, plan);
     return dry.dispatches();
 }
 

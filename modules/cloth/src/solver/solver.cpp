@@ -208,7 +208,9 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
         return result;
     const shared::ClothRecord& record = model->record;
     result.needed = voile::stable_substeps(record, static_cast<double>(step.duration));
-    result.used = state_->substeps(*this, step);
+    std::vector<SubstepNeed> needs;
+    const SubstepPlan plan = state_->plan(step, needs, model);
+    result.used = plan.substeps_of(plan.level_of(result.needed));
     const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
     result.stiffness_scale = static_cast<float>(scales.stiffness);
     result.damping_scale = static_cast<float>(scales.damping);

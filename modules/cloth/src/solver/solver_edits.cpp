@@ -127,7 +127,7 @@ Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
     if (auto valid = check_frame("anchor", world_from_anchor); !valid)
         return valid.error();
     const AnchorId id = s.model.anchors.add({world_from_anchor, world_from_anchor, world_from_anchor});
-    s.dirty |= s.device && !s.attachments_fit();
+    s.dirty |= s.device && !s.fits();
     s.edits.pins = true;
     return id;
 }

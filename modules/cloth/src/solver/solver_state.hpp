@@ -4,7 +4,8 @@
 #include "voile/solver.hpp"
 
 #include "colliders/collider_motion.hpp"
-#include "model/model.hpp"
+#include "model/active_lists.hpp"
+#include "model/substep_plan.hpp"
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
 
@@ -24,10 +25,9 @@ struct Edits
     std::vector<uint32_t> colliders;           // colliders whose record changed, or that were removed
     std::vector<shared::EditPush> state_edits; // in order
     bool patches = false;
-    bool attachments = false;
-    bool tethers = false;
-    bool pins = false;       // they must be set again
-    bool candidates = false; // lists of near triangles must be made anew
+    bool attachments = false; // the lists of attachments and tethers
+    bool pins = false;        // they must be set again
+    bool candidates = false;  // lists of near triangles must be made anew
 
     // What concerns a cloth that was removed.
     void forget(ClothId cloth);
@@ -39,9 +39,6 @@ constexpr uint32_t k_substeps_counted = 1u << (32 - VOILE_CANDIDATE_COUNT_BITS);
 // Which of the optional passes a step has, by what there is.
 struct Passes
 {
-    uint32_t pins = 0;
-    uint32_t attachments = 0; // others than pins
-    uint32_t tethers = 0;
     bool moving = false;         // colliders that move or deform
     bool convex = false;         // colliders with a formula, other than planes
     bool features = false;       // colliders with corners or edges that vertices alone do not feel
@@ -82,9 +79,10 @@ struct Solver::State
     bool colliders_moved = false; // in the last step
     float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded, if there are features
     StepHistory history;
-    Patches patches; // of the active cloths
-    AttachmentLists attachment_lists;
-    gpu::Buffer statistics; // one record a slot; the host reads it. Uploads leave it alone
+    ActiveLists lists;                  // those of attachments: as they were when they fitted their buffers last
+    AttachmentCounts attachment_counts; // of the active cloths
+    std::vector<SubstepNeed> needs;     // of the active cloths, in no order; kept so that recording does not allocate
+    gpu::Buffer statistics;             // one record a slot; the host reads it. Uploads leave it alone
     Edits edits;
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
@@ -102,11 +100,10 @@ struct Solver::State
         return collider_models.colliders.check("collider", collider);
     }
 
-    // Substeps that a step takes.
-    [[nodiscard]] static uint32_t substeps(const Solver& solver, const Step& step)
-    {
-        return step.substeps > 0 ? step.substeps : solver.stable_substeps(step.duration, step.max_substeps);
-    }
+    // The substeps of the active cloths, and of one more if it is not active. Overwrites `needed`.
+    [[nodiscard]] SubstepPlan plan(const Step& step, std::vector<SubstepNeed>& needed, const ClothModel* other) const;
+    // Gives cloths the levels of a plan and lists them anew, if that changes any.
+    void assign_levels(const SubstepPlan& next, const Step& step);
 
     // Whether the next record has edits to record.
     [[nodiscard]] bool changes_due() const;
@@ -127,9 +124,8 @@ struct Solver::State
     {
         return check_dispatch(model.limits, "cloth", name, "with it the solver has", model.patches + added);
     }
-    // Whether the lists of attachments, with their anchors, and of tethers fit their buffers.
-    [[nodiscard]] bool attachments_fit() const;
-    [[nodiscard]] bool tethers_fit() const;
+    // Whether the attachments, with their anchors, and the tethers of the active cloths fit their buffers.
+    [[nodiscard]] bool fits() const;
 };
 
 // Takes the vertices of deforming meshes into their positions: first the copies, then, once these are visible to

@@ -15,6 +15,7 @@ namespace voile::gpu
     use(vkCmdBindPipeline);                                                                                            \
     use(vkCmdCopyBuffer);                                                                                              \
     use(vkCmdDispatch);                                                                                                \
+    use(vkCmdDispatchBase);                                                                                            \
     use(vkCmdDispatchIndirect);                                                                                        \
     use(vkCmdFillBuffer);                                                                                              \
     use(vkCmdPipelineBarrier2KHR);                                                                                     \

@@ -1,0 +1,68 @@
+// ActiveLists: what the dispatches of a step work on, level by level of substeps.
+#pragma once
+
+#include "model/model.hpp"
+
+#include "shared/step_layout.h"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace voile
+{
+
+struct EntryRange
+{
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+// The entries of cloths that take the same number of substeps.
+struct LevelLists
+{
+    EntryRange patches;
+    uint32_t rk4_patches = 0; // the first ones; the others use Verlet
+    EntryRange attachments;   // others than pins
+    EntryRange tethers;
+};
+
+// Of the active cloths, those of level 0 first.
+struct ActiveLists
+{
+    std::array<LevelLists, VOILE_SUBSTEP_LEVELS> levels;
+    std::vector<shared::Patch> patches;
+    std::vector<shared::AttachmentRecord> attachments;
+    uint32_t pins = 0; // the first ones, of all levels
+    std::vector<shared::TetherRecord> tethers;
+
+    [[nodiscard]] uint32_t patch_count() const { return static_cast<uint32_t>(patches.size()); }
+};
+
+// Whether a cloth takes part in steps.
+inline bool is_active(const ClothModel& cloth)
+{
+    return cloth.uploaded && cloth.enabled;
+}
+
+struct AttachmentCounts
+{
+    size_t attachments = 0;
+    size_t tethers = 0;
+};
+AttachmentCounts count_attachments(const Model& model);
+
+// The level of a cloth: as it was assigned, or that of a plan.
+using LevelOf = std::function<uint32_t(const ClothModel&)>;
+inline uint32_t assigned_level(const ClothModel& cloth)
+{
+    return cloth.level;
+}
+
+// Patches and attachments are listed apart. Neither allocates where the lists have the capacity.
+void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists);
+void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& lists);
+// What is attached takes the substeps of level 0, without being listed anew.
+void merge_levels(ActiveLists& lists);
+
+} // namespace voile

@@ -1,0 +1,128 @@
+#include "model/substep_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voile
+{
+
+namespace
+{
+
+// Sorted by what they need, each number once; `vertices` is the sum up to and with the entry.
+using Needs = std::span<const SubstepNeed>;
+
+uint32_t reduced(uint32_t needed, double fraction)
+{
+    return std::max(1u, static_cast<uint32_t>(std::ceil(fraction * needed - 1e-9)));
+}
+
+Needs accumulate(std::span<SubstepNeed> needs)
+{
+    std::ranges::sort(needs, {}, &SubstepNeed::substeps);
+    size_t last = 0;
+    for (size_t i = 1; i < needs.size(); ++i)
+    {
+        const uint64_t sum = needs[last].vertices + needs[i].vertices;
+        last += needs[i].substeps == needs[last].substeps ? 0 : 1;
+        needs[last] = {needs[i].substeps, sum};
+    }
+    return needs.first(last + 1);
+}
+
+struct Work
+{
+    uint64_t vertex_substeps = 0;
+    uint64_t substeps = 0; // of all levels that are used
+};
+
+Work work_of(const SubstepPlan& plan, Needs needs)
+{
+    Work work;
+    uint64_t above = 0; // vertices of the levels with fewer substeps
+    for (uint32_t level = plan.levels; level-- > 0;)
+    {
+        const uint32_t substeps = plan.substeps_of(level);
+        const auto fits = [&](const SubstepNeed& need) { return reduced(need.substeps, plan.fraction) <= substeps; };
+        const auto end = level == 0 ? needs.end() : std::ranges::partition_point(needs, fits);
+        const uint64_t below = end == needs.begin() ? 0 : std::prev(end)->vertices;
+        if (below == above)
+            continue;
+        work.vertex_substeps += (below - above) * substeps;
+        work.substeps += substeps;
+        above = below;
+    }
+    return work;
+}
+
+uint64_t cost_of(const SubstepPlan& plan, Needs needs, const SubstepLimits& limits)
+{
+    const Work work = work_of(plan, needs);
+    return work.vertex_substeps + limits.dispatch_vertices * work.substeps;
+}
+
+// The cheapest plan in which each cloth takes `fraction` of the substeps that it needs, or more. With more substeps of
+// level 0 than any cloth needs, another cloth may fit a level above.
+SubstepPlan cheapest_plan(Needs needs, double fraction, const SubstepLimits& limits)
+{
+    constexpr uint32_t k_tries = 32; // per number of levels
+    const uint32_t least_substeps = std::min(reduced(needs.back().substeps, fraction), limits.substeps);
+    const uint32_t most_substeps = std::min(least_substeps + least_substeps / 4, limits.substeps);
+    SubstepPlan best{.substeps = least_substeps, .levels = 1, .fraction = fraction};
+    if (reduced(needs.front().substeps, fraction) > most_substeps / 2)
+        return best; // no cloth fits a level above
+    uint64_t least = cost_of(best, needs, limits);
+    for (uint32_t levels = 2; levels <= limits.levels; ++levels)
+    {
+        const uint32_t multiple = 1u << (levels - 1);
+        const uint32_t first = (least_substeps + multiple - 1) / multiple * multiple;
+        const uint32_t last = std::min(most_substeps, first + (k_tries - 1) * multiple);
+        for (uint32_t substeps = first; substeps <= last; substeps += multiple)
+        {
+            const SubstepPlan plan{.substeps = substeps, .levels = levels, .fraction = fraction};
+            if (const uint64_t cost = cost_of(plan, needs, limits); cost < least)
+            {
+                best = plan;
+                least = cost;
+            }
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+uint32_t SubstepPlan::level_of(uint32_t needed) const
+{
+    const uint32_t enough = reduced(needed, fraction);
+    uint32_t level = 0;
+    while (level + 1 < levels && substeps_of(level + 1) >= enough)
+        ++level;
+    return level;
+}
+
+SubstepPlan plan_substeps(std::span<SubstepNeed> cloths, const SubstepLimits& limits)
+{
+    if (cloths.empty())
+        return uniform_plan(1);
+    const Needs needs = accumulate(cloths);
+    const SubstepPlan whole = cheapest_plan(needs, 1, limits);
+    const auto within = [&](const SubstepPlan& plan)
+    { return limits.vertex_substeps == 0 || work_of(plan, needs).vertex_substeps <= limits.vertex_substeps; };
+    if (within(whole))
+        return whole;
+    double low = 0;
+    double high = 1;
+    SubstepPlan best = cheapest_plan(needs, low, limits);
+    for (int i = 0; i < 20; ++i)
+    {
+        const double middle = 0.5 * (low + high);
+        const SubstepPlan plan = cheapest_plan(needs, middle, limits);
+        const bool fits = within(plan);
+        (fits ? low : high) = middle;
+        best = fits ? plan : best;
+    }
+    return best;
+}
+
+} // namespace voile

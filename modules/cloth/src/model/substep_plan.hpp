@@ -1,0 +1,51 @@
+// SubstepPlan: how many substeps each cloth takes in a step.
+//
+// Cloths are grouped by level. A cloth of level k takes one substep where one of level 0 takes 2^k, so that all meet at
+// the end of each of the longest substeps. The number of substeps and the levels are those with the least work.
+#pragma once
+
+#include "shared/step_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace voile
+{
+
+// Of one cloth that takes part.
+struct SubstepNeed
+{
+    uint32_t substeps = 1; // that keep all of its stiffness
+    uint64_t vertices = 0;
+};
+
+struct SubstepLimits
+{
+    uint32_t substeps = 0;          // of each cloth, at most
+    uint64_t vertex_substeps = 0;   // sum of vertices times substeps, at most; 0: no limit
+    uint64_t dispatch_vertices = 0; // the vertices that take as long as the dispatches of a substep do without any
+    uint32_t levels = VOILE_SUBSTEP_LEVELS;
+};
+
+struct SubstepPlan
+{
+    uint32_t substeps = 1; // of level 0
+    uint32_t levels = 1;   // that may be used
+    double fraction = 1;   // of the needed substeps that the limits leave, 0..1
+
+    // The level of a cloth that needs so many substeps.
+    [[nodiscard]] uint32_t level_of(uint32_t needed) const;
+    [[nodiscard]] uint32_t substeps_of(uint32_t level) const { return substeps >> level; }
+};
+
+// All cloths take the same number of substeps.
+inline SubstepPlan uniform_plan(uint32_t substeps)
+{
+    return {.substeps = substeps};
+}
+
+// Overwrites `cloths`; does not allocate. A budget that is too small for one substep per cloth is exceeded.
+SubstepPlan plan_substeps(std::span<SubstepNeed> cloths, const SubstepLimits& limits);
+
+} // namespace voile

@@ -1,0 +1,129 @@
+// The passes of one step: those of all levels in the order of time, then the strain limit.
+#include "solver/substeps.hpp"
+
+#include <bit>
+
+namespace voile
+{
+
+uint32_t limit_passes(uint32_t widest_spacing)
+{
+    const auto levels = static_cast<uint32_t>(std::bit_width(widest_spacing));
+    return (levels * (k_strain_passes + 1) - 1) | 1u;
+}
+
+StepRecorder::StepRecorder(const StepContext& context)
+    : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
+      device_(*solver_.device), patches_{0, context.lists.patch_count()}
+{
+    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
+        if (context.lists.levels[level].patches.count > 0)
+            levels_[level].emplace(context, level);
+}
+
+template <typename Use>
+void StepRecorder::for_each_level(const Use& use)
+{
+    for (std::optional<LevelRecorder>& level : levels_)
+        if (level)
+            use(*level);
+}
+
+void StepRecorder::record_near_colliders()
+{
+    for_each_level([](LevelRecorder& level) { level.record_near_colliders(0); });
+}
+
+// A level takes its substep at the beginning of the time that the substep covers.
+void StepRecorder::record()
+{
+    if (solver_.passes.strain_spacing > 0)
+        keep_state(k_step_start);
+    for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
+        for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
+            if (levels_[level] && substep % (1u << level) == 0)
+                levels_[level]->record_substep(substep >> level);
+    for_each_level([](LevelRecorder& level) { level.finish(); });
+    if (solver_.passes.strain_spacing > 0)
+        record_strain_limit();
+}
+
+// Attachments and contact have the last word on positions; then the guard measures what all of it has done to the
+// energy.
+void StepRecorder::record_strain_limit()
+{
+    record_limit_passes();
+    keep_state(k_before_limit);
+    for_each_level([](LevelRecorder& level) { level.record_bounds(); });
+    record_limit_guard();
+}
+
+// The guard of the strain limit compares states of a step.
+void StepRecorder::keep_state(const StateBuffers& kept)
+{
+    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    const auto copy = [&](buffer::Name from, buffer::Name to, VkDeviceSize bytes_per_vertex)
+    {
+        const VkBufferCopy region{0, 0, device_.vertices * bytes_per_vertex};
+        recorder_.copy(device_[from].handle(), device_[to].handle(), region);
+    };
+    recorder_.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_copy,
+                      VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    copy(k_state.positions, kept.positions, sizeof(glm::vec4));
+    copy(k_state.residuals, kept.residuals, sizeof(glm::uvec2));
+    copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
+    recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+}
+
+void StepRecorder::record_limit_guard()
+{
+    for (const VkDescriptorSet set : device_.sets.limit_work)
+        for_each_level([&](LevelRecorder& level) { level.record_limit_work(set); });
+    for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
+    {
+        if (measurement > 0) // at what is left of the limit's changes
+            for_each_level([&](LevelRecorder& level) { level.record_limit_work(device_.sets.limit_work[3]); });
+        recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, patches_,
+                           shared::LimitScalePush{patches_.count, 1 / context_.step.duration, measurement});
+        recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, patches_, std::span<const std::byte>{});
+    }
+}
+
+// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it: an even number
+// has one more.
+void StepRecorder::record_limit_passes()
+{
+    const uint32_t passes = limit_passes(solver_.passes.strain_spacing);
+    uint32_t pass = 0;
+    const auto record_pass = [&](uint32_t spacing, bool between, bool first, float acceleration)
+    {
+        const VkDescriptorSet set = pass == 0       ? device_.sets.strain_first
+                                    : pass % 2 == 1 ? device_.sets.strain_back
+                                                    : device_.sets.strain_forth;
+        ++pass;
+        const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
+                                      pass == passes ? 1u : 0u};
+        recorder_.dispatch(kernels_.limit_strain, set, patches_, push);
+    };
+    for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
+    {
+        if (spacing < solver_.passes.strain_spacing)
+            record_pass(spacing, true, false, 1);
+        float acceleration = 1;
+        for (uint32_t i = 0; i < k_strain_passes; ++i)
+        {
+            record_pass(spacing, false, i == 0, acceleration);
+            // Golub and Varga 1961, after Wang 2015, "A Chebyshev semi-iterative approach for accelerating projective
+            // and position-based dynamics".
+            if (i > 0)
+                acceleration = i == 1 ? 2 / (2 - k_strain_radius * k_strain_radius)
+                                      : 4 / (4 - k_strain_radius * k_strain_radius * acceleration);
+        }
+    }
+    if (pass < passes)
+        record_pass(1, false, false, 1);
+}
+
+} // namespace voile
