@@ -146,7 +146,7 @@ void measure_cloth(const voile::Handles& handles, uint32_t side, std::vector<Hos
         [&] { (void)voile::engine::take(solver->add_cloth(instance)); }));
 }
 
-// A cloth of 1,024 vertices beside a closed mesh of 998,000 triangles, which meets a cloth already.
+// A cloth of 1,024 vertices beside a closed mesh of 998,000 triangles, which collides with another cloth already.
 void measure_beside(TimedQueue& queue, std::vector<HostCost>& costs)
 {
     constexpr uint32_t k_repetitions = 5;

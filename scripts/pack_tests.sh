@@ -37,7 +37,7 @@ trap 'rm -rf "$work"' EXIT
 pack=$work/voile_tests
 mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples,sources/docs}
 
-# The tests that ctest knows: a build folder keeps programs of deleted tests.
+# The tests that ctest lists: a build folder keeps programs of deleted tests.
 mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
 for program in "${tests[@]}" viewer hello_cloth; do
   [ -x "$programs/$program" ] || fail "$programs/$program is not built; run scripts/build.sh"

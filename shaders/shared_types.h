@@ -1,4 +1,4 @@
-// Types of the headers that GLSL and C++ compile alike. In C++ they are GLM's, in namespace NAME::shared.
+// Types of the headers that both GLSL and C++ compile. In C++ they are GLM's, in namespace NAME::shared.
 // Structs there are written so that std430 (and std140 for uniforms) lays them out as C++ does: a vec3 starts at a
 // multiple of 16 bytes and a scalar follows it. The shader compiler can then read 16 bytes at a time.
 //

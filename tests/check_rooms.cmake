@@ -34,15 +34,15 @@ check(engine/src "voile/engine/" gpu assets scene render app)
 check(engine/src "" gpu assets scene render app)
 check(engine/include/voile/engine "voile/engine/" gpu assets scene render app)
 
-# The engine knows nothing of cloth, cloth nothing of the engine.
+# Neither the engine nor the cloth module includes headers of the other.
 function(check_strangers folder stranger)
     file(GLOB_RECURSE files ${sources}/${folder}/*.hpp ${sources}/${folder}/*.cpp)
     foreach(file IN LISTS files)
         file(STRINGS ${file} includes REGEX "^#include \"${stranger}")
         foreach(include IN LISTS includes)
             string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" header ${include})
-            if(NOT EXISTS ${sources}/modules/gpu/include/${header}) # which all know
-                message(SEND_ERROR "${file}: ${folder} does not know ${stranger}: ${include}")
+            if(NOT EXISTS ${sources}/modules/gpu/include/${header}) # which all may include
+                message(SEND_ERROR "${file}: ${folder} must not include ${stranger}: ${include}")
             endif()
         endforeach()
         math(EXPR checked "${checked} + 1")

@@ -27,6 +27,13 @@ function(quick subject)
 endfunction()
 
 quick(test_assets)
+quick(test_attachments
+    "pins follow an anchor exactly, move with its velocity, and stop with it"
+    "pins change at run time, and released vertices fall"
+    "a max-distance constraint keeps a vertex near a moving point, a backstop in front of it"
+    "tethers measure distances along the cloth"
+    "attachments and tethers refuse bad input, and nothing changes"
+    "vertices are attached to a collider's surface")
 quick(test_bvh)
 quick(test_contact
     "a substep with planes and spheres equals their formulas"
@@ -37,6 +44,9 @@ quick(test_contact
     "no path crosses an analytic solid, however fast, flat or thin, and no path that misses it is stopped"
     "lists of near triangles change no bit of contact"
     "a round mesh has no features, a box of triangles has 12 edges and 8 corners")
+quick(test_depenetration
+    "a small cloth leaves the inside of a ball of 20,736 triangles"
+    "the inside test is right at edges, at corners and in slivers")
 quick(test_edits
     "a material changes while the cloth hangs, without new buffers"
     "a material that does not fit the cloth is refused, and the old one is kept"
@@ -56,13 +66,6 @@ quick(test_hard_contacts
     "the depth of a strip through an open ground is its shorter end")
 quick(test_hazards)
 quick(test_hello_cloth)
-quick(test_attachments
-    "pins follow an anchor exactly, move with its velocity, and stop with it"
-    "pins change at run time, and released vertices fall"
-    "a max-distance constraint keeps a vertex near a moving point, a backstop in front of it"
-    "tethers measure distances along the cloth"
-    "attachments and tethers refuse bad input, and nothing changes"
-    "vertices are attached to a collider's surface")
 quick(test_integration
     "a short trajectory follows the reference"
     "a spring pair swings with period 2 pi sqrt(m / 2 k)"
@@ -85,6 +88,7 @@ quick(test_membrane
 quick(test_mesh_cloth
     "a cantilever with isometric bending sags equally as a mesh and as a grid"
     "a mesh that cannot be a cloth is refused by name, and the solver is unchanged")
+quick(test_model)
 quick(test_moving_colliders
     "an upload preserves a deformed mesh"
     "invalid input of a deforming collider is refused"
@@ -93,10 +97,6 @@ quick(test_moving_colliders
 quick(test_physics
     "a spring pair swings with its exact period under either integrator"
     "a falling plate reaches its terminal speed all over")
-quick(test_depenetration
-    "a small cloth leaves the inside of a ball of 20,736 triangles"
-    "the inside test is right at edges, at corners and in slivers")
-quick(test_model)
 quick(test_refit)
 quick(test_renderer)
 quick(test_scene_meshes)

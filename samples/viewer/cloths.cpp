@@ -112,7 +112,7 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
                                 "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
                                     ", but it has " + std::to_string(vertices.start.size()) + " vertices");
             voile::Attachment attachment = make_attachment(pin, vertex);
-            if (anchor) // as seen from the anchor, which is at its place of time 0
+            if (anchor) // relative to the anchor, which is at its pose of time 0
                 attachment = attachment.to(*anchor).at(
                     glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(vertices.start[vertex], 1)));
             attached[vertex] = attachment;
@@ -154,21 +154,21 @@ voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& s
     return id ? id : error_at(scene, entry.location, id.error().message);
 }
 
-void tell(const voile::MeshReport& report, const std::string& name)
+void note_irregularities(const voile::MeshReport& report, const std::string& name)
 {
-    std::string odd;
+    std::string list;
     const auto add = [&](uint32_t count, const char* what)
     {
         if (count > 0)
-            odd += (odd.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+            list += (list.empty() ? "" : ", ") + std::to_string(count) + " " + what;
     };
     add(report.degenerate_triangles, "triangles without area, which have no springs");
     add(report.isolated_vertices, "vertices without a triangle, which stay where they are");
     add(report.non_manifold_edges, "edges of three or more triangles, each pair of which bends");
-    add(report.coincident_vertices, "vertices at the place of another and not joined to it: open seams");
+    add(report.coincident_vertices, "vertices at the position of another and not joined to it: open seams");
     add(report.softened_edges, "edges of slivers, softer than the material so that they cost no substeps");
-    if (!odd.empty())
-        note("cloth " + in_quotes(name) + ": " + odd);
+    if (!list.empty())
+        note("cloth " + in_quotes(name) + ": " + list);
 }
 
 voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
@@ -198,7 +198,7 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
         return error_at(scene, entry.location, voile::engine::path_text(file) + ": " + id.error().message);
     voile::MeshReport report = solver.mesh_report(id.value());
     report.degenerate_triangles += changes.degenerate_triangles;
-    tell(report, entry.name);
+    note_irregularities(report, entry.name);
     return id;
 }
 

@@ -23,8 +23,8 @@ struct AddedCloth
     std::vector<MovingPin> moving_pins;
 };
 
-// Reads the mesh, if it has one, and adds the cloth with its pins and tethers. What is odd about a mesh goes to
-// standard error, in one line. Errors name the file and the place in it.
+// Reads the mesh, if it has one, and adds the cloth with its pins and tethers. Irregularities of a mesh go to
+// standard error, in one line. Errors name the file and the position in it.
 voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
                                     const Options& options);
 

@@ -28,7 +28,7 @@ voile::engine::Bounds transformed(const voile::engine::Bounds& box, const glm::m
     return result;
 }
 
-// The box around a cloth at the start. Of a mesh that cannot be read, which is told later, a point.
+// The box around a cloth at the start. A point for a mesh that cannot be read, which is reported later.
 voile::engine::Bounds cloth_bounds(const ClothEntry& cloth)
 {
     voile::engine::Bounds box;
@@ -66,7 +66,7 @@ BoxShape scaled(const BoxShape& box, float scale)
     return {scale * box.min, scale * box.max};
 }
 
-// The solver is told of both ends of a frame and takes the shorter way between them.
+// The solver gets the poses at both ends of a frame and takes the shorter rotation between them.
 voile::Result<void> check_spin(const SceneFile& scene, const ColliderEntry& entry)
 {
     const glm::vec3 spin = entry.motion ? glm::abs(entry.motion->spin) : glm::vec3(0);
@@ -217,7 +217,7 @@ std::optional<voile::engine::Bounds> Solid::bounds() const
     return std::nullopt;
 }
 
-std::optional<voile::engine::Bounds> Solid::reach() const
+std::optional<voile::engine::Bounds> Solid::swept_bounds() const
 {
     const auto still = frames ? transformed(frames->bounds(), transform) : bounds();
     if (!still || !motion)

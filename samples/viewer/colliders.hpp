@@ -30,14 +30,13 @@ struct Solid
     [[nodiscard]] std::optional<float> ground_height() const;
     // In the scene at time 0. A plane has none.
     [[nodiscard]] std::optional<voile::engine::Bounds> bounds() const;
-    // Of all forms that it takes, at all places that it spins and sways through; its velocity is not looked at.
-    [[nodiscard]] std::optional<voile::engine::Bounds> reach() const;
+    // Of all shapes that it takes, at all poses of its spin and sway. Its velocity is left out.
+    [[nodiscard]] std::optional<voile::engine::Bounds> swept_bounds() const;
 };
 
-// Loads all meshes. The files of --collider take the place of the scene's meshes (its ground stays): each is scaled
-// evenly, centerd and set on the floor of the box that those filled, side by side where there are several. In a scene
-// without such a mesh the box lies below the cloths. They move, and meet cloth, as the first of the meshes did whose
-// place they take; they do not deform. Errors name the file.
+// Loads all meshes. The files of --collider replace the scene's meshes (its ground stays): each is scaled evenly, centered
+// and set on the floor of the box around the replaced meshes, several side by side. In a scene without such a mesh the box
+// lies below the cloths. Motion and layers are those of the first replaced mesh; they do not deform. Errors name the file.
 voile::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
 voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const voile::engine::Bounds& b);

@@ -30,7 +30,7 @@ std::string location_text(std::string_view text, size_t offset)
     return std::to_string(line) + ":" + std::to_string(column);
 }
 
-// Feeds the parser and tells how far it has read, which nlohmann::json's callbacks do not.
+// Feeds the parser and counts how far it has read, which nlohmann::json's callbacks do not report.
 class CountingIterator
 {
 public:
@@ -110,7 +110,7 @@ public:
         constexpr int k_number_overflow = 406;
         if (problem.id == k_number_overflow)
             return fail("number " + voile::gpu::printable(token) + " is beyond the largest that can be held");
-        // "[json.exception.parse_error.101] parse error at line 3, column 5: REASON": the place is ours to say.
+        // "[json.exception.parse_error.101] parse error at line 3, column 5: REASON": fail() adds the position.
         std::string reason = problem.what();
         if (const size_t at = reason.find(": "); at != std::string::npos)
             reason = reason.substr(at + 2);

@@ -1,4 +1,4 @@
-// A JSON document as a tree whose nodes know their line, so that what is wrong with a value can be said with its place.
+// A JSON document as a tree. Its nodes have line numbers, so messages about a value can name its line.
 #pragma once
 
 #include "voile/result.hpp"

@@ -29,7 +29,7 @@ struct MovingSolid
     glm::mat4 pose{1.f}; // from where it was added to where it is after the frames so far
 };
 
-// A solid that deforms, likewise. It may move too.
+// A solid that deforms. It may move, too.
 struct DeformingSolid
 {
     size_t solid = 0;
@@ -48,7 +48,7 @@ public:
 
     std::vector<MovingPin> pins;
     std::vector<MovingSolid> solids;       // by their numbers, ascending
-    std::vector<DeformingSolid> deforming; // likewise
+    std::vector<DeformingSolid> deforming; // by their numbers, ascending
 
     // From where a solid was added to where it is after the frames so far.
     [[nodiscard]] glm::mat4 pose(size_t solid) const;

@@ -27,7 +27,7 @@ constexpr uint32_t k_largest_side = 16384;      // pixels
 constexpr uint32_t k_deepest_box = 48;          // the deepest level of a hierarchy
 constexpr uint32_t k_most_frames = 100'000'000; // 19 days of simulated time
 
-// CLI11 would write "[scene(0x)]", for what it was told about repetitions.
+// CLI11 would write "[scene(0x)]", because of its setting for repetitions.
 class Formatter : public CLI::Formatter
 {
 public:
@@ -125,7 +125,7 @@ void declare_device(CLI::App& app, Typed& typed, Options& options)
         ->group(group);
 }
 
-// Words the first problem that it meets; later calls do nothing.
+// Reports the first problem; later calls do nothing.
 class Converter
 {
 public:

@@ -1,4 +1,4 @@
-// What the viewer writes must not take the place of what it reads.
+// Outputs of the viewer must not replace its inputs.
 #pragma once
 
 #include "samples/viewer/options.hpp"

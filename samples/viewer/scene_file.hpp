@@ -24,7 +24,7 @@ constexpr uint32_t k_least_grid_vertices = 2;   // along a side
 constexpr uint32_t k_most_grid_vertices = 8192; // along a side
 constexpr uint32_t k_most_substeps = 1000;      // of a frame
 
-// Where an entry stands in the file, for messages about it.
+// The location of an entry in the file, for messages.
 struct Location
 {
     uint32_t line = 0;
@@ -65,7 +65,7 @@ struct FrameSequence
 struct WindEntry
 {
     glm::vec3 velocity{0.f}; // m/s
-    float gust = 0.f;        // root mean square of the gusts as a share of the speed, 0..10
+    float gust = 0.f;        // root mean square of the gusts as a fraction of the speed, 0..10
     float gust_length = 4.f; // m, wavelength of the longest gusts, 0.01..1e6
 };
 
@@ -133,7 +133,7 @@ struct PinEntry
     std::optional<MotionEntry> motion;                      // absent: it stays where it is
     std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
     float damping = 0.f;                                    // N·s/m, >= 0, of that spring
-    std::optional<float> max_distance;                      // m, >= 0, from the place
+    std::optional<float> max_distance;                      // m, >= 0, from the point
     Location location;
 };
 
@@ -231,8 +231,8 @@ struct SceneFile
     std::vector<StepKey> step_keys;    // those that are written
 };
 
-// Parses a scene's text. `path` serves the messages and is what relative paths are relative to; nothing is read.
-// Errors name the file, the line, the place as cloths[0].grid.size, and the reason, in one line.
+// Parses a scene's text. `path` is for messages and for relative paths; no file is read.
+// Errors are one line with the file, the line, the path of the key (cloths[0].grid.size) and the reason.
 voile::Result<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path);
 
 // Reads and parses a scene, and checks that the files it names are there.
@@ -243,8 +243,8 @@ voile::Error error_at(const SceneFile& scene, const Location& location, const st
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
 voile::Error step_error(const SceneFile& scene, const std::string& reason);
 
-// The meshes of a sequence in their order: from number 0 (or 1, where there is no 0) up to the last. An error if there
-// are none, if one between them is missing, or if the pattern has no place for a number.
+// The meshes of a sequence in their order: from number 0 (or 1, if there is no 0) up to the last. Errors: there are none,
+// one between them is missing, the pattern has no number.
 voile::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);

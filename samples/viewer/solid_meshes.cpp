@@ -44,7 +44,7 @@ std::shared_ptr<const voile::engine::MeshBuffers> SolidMeshes::unit(Unit unit, u
     return buffers;
 }
 
-// Of a sphere of 48, whose outline looks round where it fills a picture.
+// Of a sphere of 48 segments, whose outline is round even if it fills a picture.
 uint32_t SolidMeshes::rings(float radius) const
 {
     const float fraction = radius / extent_;

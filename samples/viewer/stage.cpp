@@ -128,7 +128,7 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
     stage.colliders.push_back(collider);
 }
 
-// What the camera looks at and the shadow map covers: cloths, solids above ground, and the ground below them.
+// The box that the camera shows and the shadow map covers: cloths, solids above ground, and the ground below them.
 voile::engine::Bounds bounds_of(const std::vector<glm::vec3>& positions)
 {
     voile::engine::Bounds box{positions.front(), positions.front()};
@@ -149,8 +149,8 @@ voile::engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const 
     {
         if (const auto height = solid.ground_height())
             box->min.y = std::min(box->min.y, *height);
-        else if (const auto reach = solid.reach())
-            box = merge(box, *reach);
+        else if (const auto swept = solid.swept_bounds())
+            box = merge(box, *swept);
     }
     return *box;
 }

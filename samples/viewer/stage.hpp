@@ -22,12 +22,12 @@ struct StageCloth
 struct Stage
 {
     voile::component::ClothWorld* world = nullptr; // owned by the scene
-    Motions* motions = nullptr;                    // likewise
+    Motions* motions = nullptr;                    // owned by the scene
     std::vector<StageCloth> cloths;
-    std::vector<voile::ColliderId> colliders; // one a solid
+    std::vector<voile::ColliderId> colliders; // one per solid
 };
 
-// Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the place in it.
+// Adds cloths, solids, ground, camera and light to `app`. Errors name the file and the position in it.
 voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, const std::vector<Solid>& solids,
                                const Options& options);
 

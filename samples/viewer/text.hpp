@@ -12,7 +12,7 @@ namespace viewer
 // The text in quotation marks, fit for a message (voile::gpu::printable).
 std::string in_quotes(std::string_view text);
 
-// A path likewise.
+// A path in quotation marks.
 std::string path_in_quotes(const std::filesystem::path& path);
 
 // "viewer: note: TEXT" on standard error.

@@ -1,4 +1,4 @@
-// The look of woven cloth: a check of colored yarns, and the threads themselves if they are large enough to be visible.
+// The color of woven cloth: a check of colored yarns, and the threads themselves if they are large enough to be visible.
 // Every pattern is filtered by its footprint in the pixel, so that it fades into its mean and does not shimmer.
 #ifndef VOILE_FABRIC_GLSL
 #define VOILE_FABRIC_GLSL

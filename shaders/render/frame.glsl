@@ -1,4 +1,4 @@
-// The descriptor set that all of the renderer's shaders share.
+// The descriptor set of all of the renderer's shaders.
 #ifndef VOILE_FRAME_GLSL
 #define VOILE_FRAME_GLSL
 

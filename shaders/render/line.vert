@@ -4,13 +4,13 @@
 #include "marks.glsl"
 
 layout(location = 0) in vec4 from;
-layout(location = 1) in vec4 to; // the other end; with push.reach, the direction to it
+layout(location = 1) in vec4 to; // the other end; if push.extent > 0, the direction to it
 layout(location = 0) out vec2 out_offset;
 
 void main()
 {
     vec4 a = project_mark(from.xyz);
-    vec4 b = project_mark(push.reach > 0 ? from.xyz + push.reach * to.xyz : to.xyz);
+    vec4 b = project_mark(push.extent > 0 ? from.xyz + push.extent * to.xyz : to.xyz);
     out_offset = vec2(0);
     gl_Position = vec4(2, 2, 2, 1); // outside
     const float nearest = 1e-3 * frame.focus_radius;

@@ -45,7 +45,7 @@ struct MarkPush
     vec3 color;
     float size;  // pixels
     vec2 pixel;  // its width and height in clip space
-    float reach; // m; 0: the second stream holds ends, not directions
+    float extent; // m, along the directions in the second stream; 0: it holds ends
     uint mask;   // of flags; 0: all are shown
 };
 

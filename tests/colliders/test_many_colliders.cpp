@@ -28,7 +28,7 @@ struct Shot
 class Scene : public ClothHarness
 {
 public:
-    explicit Scene(bool crowded)
+    explicit Scene(bool many)
     {
         for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
         {
@@ -36,7 +36,7 @@ public:
             grid.integrator = integrator;
             cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }
-        crowd(crowded, 70); // so that the near colliders are not in the first word of bits
+        add_colliders(many, 70); // so that the near colliders are not in the first word of bits
         capsule_ = voile::engine::take(solver.add_collider(
             voile::CapsuleCollider{.from = {-0.4f, 0.5f, 0.2f}, .to = {-0.2f, 0.5f, -0.3f}, .radius = 0.02f}));
         box_ =
@@ -44,7 +44,7 @@ public:
         mesh_ = voile::engine::take(solver.add_collider(collider(ball_)));
         soft_ = voile::engine::take(solver.add_collider(deforming(bump_)));
         (void)voile::engine::take(solver.add_collider(voile::PlaneCollider{}));
-        crowd(crowded, 30);
+        add_colliders(many, 30);
         upload();
     }
 
@@ -65,9 +65,9 @@ public:
     std::vector<voile::ClothId> cloths;
 
 private:
-    void crowd(bool crowded, int count)
+    void add_colliders(bool many, int count)
     {
-        for (int i = 0; crowded && i < count; ++i)
+        for (int i = 0; many && i < count; ++i)
         {
             const glm::vec3 position(20, 0, static_cast<float>(i));
             (void)voile::engine::take(
@@ -89,13 +89,13 @@ private:
 TEST_CASE("a hundred distant colliders change no bit of the result")
 {
     Scene alone(false);
-    Scene crowded(true);
+    Scene many(true);
     for (const Shot& shot : {Shot{"slow", 1, 0.1f, 0.01f, 40}, Shot{"fast cloth", 300, 0.3f, 0, 20},
                              Shot{"fast colliders", 10, 2.5f, 0.4f, 17}, Shot{"one substep", 20, 1.5f, 0.2f, 1}})
     {
         CAPTURE(std::string(shot.name));
         uint32_t contacts = 0;
-        for (Scene* scene : {&alone, &crowded})
+        for (Scene* scene : {&alone, &many})
             for (const voile::ClothId cloth : scene->cloths)
             {
                 REQUIRE(scene->solver.reset(cloth));
@@ -104,17 +104,17 @@ TEST_CASE("a hundred distant colliders change no bit of the result")
         for (int frame = 0; frame < 6; ++frame)
         {
             alone.run(shot, frame);
-            crowded.run(shot, frame);
+            many.run(shot, frame);
             for (size_t i = 0; i < alone.cloths.size(); ++i)
             {
                 const auto x = alone.positions(alone.cloths[i]);
                 const auto v = alone.velocities(alone.cloths[i]);
-                const auto crowded_x = crowded.positions(crowded.cloths[i]);
-                const auto crowded_v = crowded.velocities(crowded.cloths[i]);
-                CHECK(std::memcmp(x.data(), crowded_x.data(), x.size() * sizeof(glm::vec4)) == 0);
-                CHECK(std::memcmp(v.data(), crowded_v.data(), v.size() * sizeof(glm::vec4)) == 0);
+                const auto many_x = many.positions(many.cloths[i]);
+                const auto many_v = many.velocities(many.cloths[i]);
+                CHECK(std::memcmp(x.data(), many_x.data(), x.size() * sizeof(glm::vec4)) == 0);
+                CHECK(std::memcmp(v.data(), many_v.data(), v.size() * sizeof(glm::vec4)) == 0);
             }
-            const voile::Statistics found = crowded.statistics();
+            const voile::Statistics found = many.statistics();
             CHECK(found.penetrating_vertices == alone.statistics().penetrating_vertices);
             contacts = std::max(contacts, found.contacts);
         }

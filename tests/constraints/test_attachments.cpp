@@ -191,7 +191,7 @@ TEST_CASE("a spring holds a vertex at m g / k below its target")
         harness.upload();
         harness.step({.substeps = 20}, 120);
         const double sag = 0.02 * k_gravity / static_cast<double>(stiffness);
-        // Backward Euler looks half of g h^2 ahead: 3.4e-6 m.
+        // Backward Euler is half of g h^2 ahead: 3.4e-6 m.
         for (const glm::vec4& x : harness.positions(id))
             CHECK(std::abs(2 - static_cast<double>(x.y) - sag) < 5e-6 + 1e-4 * sag);
     }

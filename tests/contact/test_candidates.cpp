@@ -115,7 +115,7 @@ TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists
 {
     voile::engine::Mesh ball = voile::engine::make_sphere({0, 0, 0}, 0.3f, 240); // edges of 4 mm and less
     for (glm::vec3& p : ball.positions)
-        p = glm::vec3(p.y, p.z - 0.3f, p.x); // moves its poles, where slivers meet, to the side
+        p = glm::vec3(p.y, p.z - 0.3f, p.x); // moves its poles, where slivers are, to the side
     ClothHarness harness;
     voile::GridCloth grid = tests::flat_sheet(24, 0.3f, 0.031f);
     tests::fabric_of(grid).thickness = 0.03f;

@@ -134,7 +134,7 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
 }
 
 // At any distance, sheets end within a thousandth of their displacement.
-void check_alike(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
+void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
 {
     for (size_t i = 0; i < scenes.size(); ++i)
     {
@@ -309,7 +309,7 @@ std::vector<Scene> moving_scenes()
 TEST_CASE("colliders of every kind hold cloth 16 km from the origin as at the origin")
 {
     for (const std::vector<Scene>& scenes : {still_scenes(), moving_scenes()})
-        check_alike(scenes, run(scenes, glm::vec3(0), 9), run(scenes, k_far, 9));
+        check_same(scenes, run(scenes, glm::vec3(0), 9), run(scenes, k_far, 9));
 }
 
 TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
@@ -322,7 +322,7 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
         scene.start = glm::vec3(13, -100, 7) / 1024.f;
     const Outcomes here = run(scenes, glm::vec3(0), 6);
     REQUIRE(here.before.penetrating_vertices > 100);
-    check_alike(scenes, here, run(scenes, k_far, 6));
+    check_same(scenes, here, run(scenes, k_far, 6));
 }
 
 TEST_CASE("cloth 132 km from the origin falls through no kind of collider and stays finite")

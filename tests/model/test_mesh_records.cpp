@@ -49,7 +49,7 @@ uint64_t hash_topology(const voile::MeshTopology& mesh)
     }
     hash.add_all(mesh.areas);
     add_report(hash, mesh.report);
-    for (const voile::MeshTopology::Bounds& bounds : {mesh.fabric, mesh.alike})
+    for (const voile::MeshTopology::Bounds& bounds : {mesh.fabric, mesh.uniform})
         for (const double bound : {bounds.edge, bounds.opposite, bounds.bending})
             hash.add(bound);
     hash.add(mesh.mean_area);
@@ -134,7 +134,7 @@ struct Expected
 {
     std::string name;
     std::function<tests::ClothMesh()> make;
-    std::array<uint64_t, 4> topology; // a Fabric with springs across edges, an isometric one, a Material likewise
+    std::array<uint64_t, 4> topology; // a Fabric with springs across edges, an isometric one, and both with a Material
 };
 
 const Expected k_expected[] = {

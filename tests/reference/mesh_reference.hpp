@@ -41,7 +41,7 @@ public:
             }
         take_material(mesh.material);
         for (size_t i = 0; i < rest_.size(); ++i)
-            inverse_mass.push_back(areas_[i] > 0 ? 1 / (masses_alike_ ? density_ : density_ * areas_[i]) : 0);
+            inverse_mass.push_back(areas_[i] > 0 ? 1 / (uniform_masses_ ? density_ : density_ * areas_[i]) : 0);
         for (size_t i = 0; i < mesh.inverse_masses.size(); ++i)
             inverse_mass[i] = areas_[i] > 0 ? double(mesh.inverse_masses[i]) : 0;
         for (const uint32_t held : mesh.pins)
@@ -202,7 +202,7 @@ private:
         if (const auto* raw = std::get_if<voile::Material>(&material))
         {
             density_ = double(raw->vertex_mass);
-            masses_alike_ = true;
+            uniform_masses_ = true;
             bending_ = double(raw->bending_stiffness);
             bending_time_ = double(raw->bending_time);
             linear_drag_ = double(raw->linear_drag);
@@ -413,7 +413,7 @@ private:
     std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> edges_;
     std::map<std::pair<uint32_t, uint32_t>, double> bending_form_; // 1/m^2, both halves
     double density_ = 0;                                           // kg/m^2, or kg per vertex
-    bool masses_alike_ = false;
+    bool uniform_masses_ = false;
     double bending_ = 0; // N m
     double bending_time_ = 0;
     double linear_drag_ = 0;

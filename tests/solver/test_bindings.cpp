@@ -1,4 +1,4 @@
-// That buffers and constants reach kernels by name: what is wrong or missing is an error with the kernel and the name.
+// Buffers and constants are bound to kernels by name. A wrong or missing one is an error with the kernel and the name.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/test_paths.hpp"

@@ -209,7 +209,7 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
 }
 
-// Validation layers of 2023 do not look at what vkCmdDispatchBase accesses. They see as many workgroups from the first.
+// Validation layers of 2023 ignore accesses of vkCmdDispatchBase. They see a dispatch of as many workgroups from 0.
 TEST_CASE("a step with several levels of substeps has no hazard, each dispatch in its own command buffer")
 {
     ClothHarness harness;

@@ -24,7 +24,7 @@ bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
 }
 
-// A sheet that falls onto things of its own, with all that a cloth can have, in a place and on a layer of its own.
+// A sheet with all kinds of attachments and colliders of its own, at a position and on a layer of its own.
 struct Place
 {
     float stiffness = 1; // times that of the default fabric; substeps grow with its root
@@ -204,7 +204,7 @@ TEST_CASE("levels follow the duration, the material and what is enabled from ste
     for (uint32_t i = 0; i < 4; ++i)
     {
         harness.step(i % 2 == 0 ? usual : brief);
-        CHECK(harness.solver.dispatches(usual) == two_levels); // what is due from step to step aside, the same
+        CHECK(harness.solver.dispatches(usual) == two_levels); // the same from step to step
         CHECK(harness.solver.stability(soft, brief).used == 1);
     }
     take(harness.solver.set_enabled(stiff, false));

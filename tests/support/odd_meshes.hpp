@@ -94,7 +94,7 @@ inline ClothMesh open_seam()
     return mesh;
 }
 
-// A fan of four sheets around one edge, and two that meet in one vertex alone.
+// A fan of four sheets around one edge, and two with only a vertex in common.
 inline ClothMesh fan()
 {
     ClothMesh mesh;

@@ -71,7 +71,7 @@ class Frame:
 def check_order(frame):
     names = [labels[-1] for labels, _ in frame.steps]
     expect(len(frame.command_buffers) == 1, f"command buffers: {frame.command_buffers}")
-    expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step stands outside the label \"frame\"")
+    expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step is outside the label \"frame\"")
     dispatches = [labels[-1] for labels, action in frame.steps if action.flags & rd.ActionFlags.Dispatch]
     cloth = [labels[-1] for labels, _ in frame.steps if labels[1] == "cloth"]
     expect(cloth[0] == "cloth depenetrate", f"the first pass of the cloth is {cloth[0]}")
@@ -88,7 +88,7 @@ def check_order(frame):
     expect(order == sorted(order), f"passes begin at {order} of {names}")
     last_dispatch = max(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Dispatch)
     first_draw = min(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Drawcall)
-    expect(last_dispatch < first_draw, "a draw stands before the last dispatch")
+    expect(last_dispatch < first_draw, "a draw comes before the last dispatch")
 
 
 def binding_of(name):

@@ -54,7 +54,7 @@ std::vector<uint8_t> frame(uint32_t width, uint32_t height, uint8_t red)
     return pixels;
 }
 
-// A program that stands in for the encoder.
+// A program that replaces the encoder.
 std::string stand_in(const TestFolder& folder, const std::string& script)
 {
     folder.write("encoder", "#!/bin/sh\n" + script + "\n");

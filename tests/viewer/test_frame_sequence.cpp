@@ -52,7 +52,7 @@ TEST_CASE("vertices move along straight lines from file to file and stay at the 
     CHECK(corner(0.175) == tests::close_to(1.25, 1e-7));
     CHECK(corner(0.2) == 1.f);
     CHECK(corner(100) == 1.f);
-    folder.write("one_0.obj", quad(1)); // a sequence of one file stands still
+    folder.write("one_0.obj", quad(1)); // a sequence of one file does not move
     const auto one = viewer::MeshSequence::load({folder / "one_%d.obj", 10});
     REQUIRE(one);
     CHECK(one.value().duration() == 0);

@@ -1,4 +1,4 @@
-// Scene files that are refused: how every kind of bad input is worded, in one line with file, line, place and reason.
+// Scene files that are refused: every kind of bad input has a message of one line with file, line, path and reason.
 #include "support/test_folder.hpp"
 #include "viewer/scene_text.hpp"
 

@@ -186,7 +186,7 @@ TEST_CASE("the gem is closed once its faces are joined, wound outward, and lies 
 {
     voile::engine::Mesh gem = scenes::make_gem();
     CHECK(gem.triangles.size() == 80);
-    std::vector<glm::vec3> points; // each place once
+    std::vector<glm::vec3> points; // each position once
     for (glm::uvec3& t : gem.triangles)
         for (int i = 0; i < 3; ++i)
         {

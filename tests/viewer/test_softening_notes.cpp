@@ -67,7 +67,7 @@ TEST_CASE("a cloth is noted when it is first softened, and not again")
 
     REQUIRE(world.solver().set_material(stage.cloths[0].id, stiff));
     CHECK(errors_of([&] { notes.check(stage, k_frame); }).starts_with("viewer: note: cloth \"first\" needs "));
-    // Fewer than are set soften likewise.
+    // Fewer substeps than are set soften, too.
     world.step.substeps = 1;
     viewer::SofteningNotes fewer;
     CHECK(errors_of([&] { fewer.check(stage, k_frame); }).find("gets 1: it has ") != std::string::npos);

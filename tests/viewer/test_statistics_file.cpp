@@ -1,4 +1,4 @@
-// The statistics file: its keys, what stands for a missing value, the percentiles, the hash.
+// The statistics file: its keys, missing values, the percentiles, the hash.
 #include "samples/viewer/statistics_file.hpp"
 #include "support/test_folder.hpp"
 

@@ -244,7 +244,7 @@ TEST_CASE("a scene of meshes, moving pins, tethers and gusts runs, and irregular
     CHECK(run.exit_code == 0);
     CHECK(
         run.errors.find("note: cloth \"mesh\": 1 vertices without a triangle, which stay where they are, 1 vertices at "
-                        "the place of another and not joined to it: open seams") != std::string::npos);
+                        "the position of another and not joined to it: open seams") != std::string::npos);
     // The file's order of vertices is kept; the isolated one has not moved.
     const std::string mesh = text_of(folder / "end_mesh.obj");
     CHECK(mesh.find("v 2.5 2.5 2.5\n") != std::string::npos);

@@ -65,11 +65,11 @@ TEST_CASE("a rising sheet lifts the cloth on it, and the exact checks use its cu
     CHECK(bounds(lifted).max.y > 0.58f);
     CHECK(bounds(lifted).min.y > 0.45f);
     CHECK(lifted.deepest < 1e-5);
-    // The solver's own statistics know it too, and the run is the same to the bit.
+    // The solver's statistics count it, too, and the run is the same to the bit.
     const SceneResult again = runs.run(text, 40, "--validate");
     CHECK(again.deepest < 1e-5);
     CHECK(again.hash == lifted.hash);
-    // Cloth that does not meet the sheet of its layer would be seen: one of no layer falls, and is not held against it.
+    // The check can fail: a cloth without a layer falls through the sheet.
     const SceneResult through =
         runs.run(scene(R"({"frames": "dome_%d.obj", "rate": 2})", R"(, "layers": [])", 0.35f), 30);
     CHECK(bounds(through).max.y < 0.1f);
@@ -153,7 +153,7 @@ TEST_CASE("--debug, --export and --collider work with deforming meshes")
     const Run cache = run_viewer(base + "--export " + (runs.folder() / "c.pc2").string());
     CHECK(cache.exit_code == 0);
     CHECK(fs::file_size(runs.folder() / "c.pc2") == 32 + 12 * 12 * 12 * 12);
-    // In its place a mesh that keeps its shape: no note.
+    // With a mesh that keeps its shape instead: no note.
     const Run replaced = run_viewer(base + "--debug boxes --collider " + (runs.folder() / "plate.obj").string());
     CHECK(replaced.exit_code == 0);
     CHECK(replaced.errors.find("note:") == std::string::npos);

@@ -1,5 +1,4 @@
-// Solids of scene files in a run: where their transforms put them, how they move, which cloth they meet, and that the
-// picture and the exact checks know it.
+// Solids of scene files in a run: their transforms, motions and layers, in the solver, the picture and the exact checks.
 #include "support/close_to.hpp"
 #include "viewer/viewer_scenes.hpp"
 
@@ -70,7 +69,7 @@ TEST_CASE("solids move, and the exact checks use their current positions")
         voile::engine::take(
             voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({0, 0.25f, 0}, 0.25f, 16)));
         const SceneResult result = runs.run(scene(shape + lift), 40);
-        // It has sunk 0.3 m: at the place of time 0 nearly all of the cloth would be inside.
+        // It has sunk 0.3 m: at its pose of time 0 nearly all of the cloth would be inside.
         CHECK(bounds(result).max.y == tests::close_to(0.202, 0.03)); // the fabric's thickness above; measured: 0.2037
         CHECK(result.deepest < 1e-5);
         if (shape.find("mesh") != std::string::npos)

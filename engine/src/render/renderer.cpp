@@ -75,8 +75,8 @@ constexpr std::array<VertexStream, 3> k_streams{
 glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_radius)
 {
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
-    const float reach = glm::distance(camera.position, camera.target) + 100 * focus_radius;
-    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(camera.fov), aspect, reach * 1e-4f, reach);
+    const float far_plane = glm::distance(camera.position, camera.target) + 100 * focus_radius;
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(camera.fov), aspect, far_plane * 1e-4f, far_plane);
     projection[1][1] *= -1; // Vulkan's y points down
     const glm::vec3 forward = camera.target - camera.position;
     const bool vertical = std::abs(forward.x) + std::abs(forward.z) < 1e-4f * glm::length(forward);

@@ -28,7 +28,7 @@ layout(VOILE_BINDING(limit_scales)) buffer LimitScales { LimitScale scales[]; };
 
 layout(push_constant, std430) uniform Push { LimitScalePush push; };
 
-const float k_kept = 0.9; // of the reserve, per step
+const float k_reserve_decay = 0.9; // of the reserve, per step
 // A limit whose displacements are at most this many times the step's own, at the same vertices, undoes the step.
 const float k_undoing = 5;
 const float k_overdraft = 1.001; // the largest cost over the available energy; the reserve owes the rest
@@ -37,7 +37,7 @@ const float k_near = 1.1;
 
 struct Energies
 {
-    float lost;  // J, in the step before the limit
+    float dissipated; // J, in the step before the limit
     float slope; // J, derivative of the cost by the fraction of the displacements that is kept, at 0
     float cost;  // J, of the displacements as they are now
     float v_dv;  // this and the following: of the limit, see LimitWork
@@ -52,25 +52,25 @@ shared Energies sums[gl_WorkGroupSize.x];
 
 Energies add(Energies a, Energies b)
 {
-    return Energies(a.lost + b.lost, a.slope + b.slope, a.cost + b.cost, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv,
+    return Energies(a.dissipated + b.dissipated, a.slope + b.slope, a.cost + b.cost, a.v_dv + b.v_dv, a.dv_dv + b.dv_dv,
                     a.v_dx + b.v_dx, a.dx_dx + b.dx_dx, a.dv_dx + b.dv_dx, a.undone + b.undone);
 }
 
-// J: the energy that displacements from one state to the other add. `kept`: their fraction of those in the work of the
-// first.
-float stored(LimitWork from, LimitWork to, float kept)
+// J: the energy that displacements from one state to the other add. `fraction`: of the displacements in the work of
+// the first.
+float stored(LimitWork from, LimitWork to, float fraction)
 {
-    return to.energy - from.energy - 0.5 * (kept * from.linear_work + to.linear_work);
+    return to.energy - from.energy - 0.5 * (fraction * from.linear_work + to.linear_work);
 }
 
-// `kept`: the current fraction of the limit's displacements.
-Energies energies_of(uint patch_index, float kept)
+// `fraction`: of the limit's displacements, as they are now.
+Energies energies_of(uint patch_index, float fraction)
 {
     const LimitWork first = step_works_first[patch_index];
     const LimitWork last = step_works_last[patch_index];
     const LimitWork before = works_before[patch_index];
     const LimitWork after = works_after[patch_index];
-    return Energies(-stored(first, last, 1) - first.v_dv - 0.5 * first.dv_dv, -before.work, stored(before, after, kept),
+    return Energies(-stored(first, last, 1) - first.v_dv - 0.5 * first.dv_dv, -before.work, stored(before, after, fraction),
                     before.v_dv, before.dv_dv, before.v_dx, before.dx_dx, before.dv_dx, before.undone);
 }
 
@@ -98,31 +98,31 @@ LimitScale scale_of(float reserve, Energies e)
         shift = least(e.v_dx + v * e.dv_dx, e.dx_dx, push.rate);
     }
     const float kinetic = v * e.v_dv + shift * e.v_dx + v * shift * e.dv_dx + 0.5 * (v * v * e.dv_dv + shift * shift * e.dx_dx);
-    const float saved = reserve - kinetic;
+    const float remaining = reserve - kinetic;
     const float undone = e.dx_dx > 0 ? clamp(k_undoing * e.undone / e.dx_dx, 0, 1) : 1;
-    const float lost = undone * max(e.lost, 0);
-    const float x = affordable(e.slope, e.cost, max(saved + lost, 0));
-    const float sum = x + v + shift + saved + lost;
-    return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, saved, lost);
+    const float dissipated = undone * max(e.dissipated, 0);
+    const float x = affordable(e.slope, e.cost, max(remaining + dissipated, 0));
+    const float sum = x + v + shift + remaining + dissipated;
+    return isnan(sum) || isinf(sum) ? LimitScale(0, 0, 0, 0, 0, 0) : LimitScale(x, v, shift, x, remaining, dissipated);
 }
 
 // The second and later measurements, of the displacements that are kept. Velocities are final.
 LimitScale rescaled(LimitScale s, Energies e)
 {
     const bool last = push.measurement == VOILE_LIMIT_MEASUREMENTS;
-    const float available = max(s.saved + s.lost, 0);
+    const float available = max(s.reserve + s.dissipated, 0);
     float x = 1;
     if (!(e.cost <= k_overdraft * available))
-        x = last && !(e.cost <= k_near * available) ? 0 : affordable(e.slope * s.kept, e.cost, available);
+        x = last && !(e.cost <= k_near * available) ? 0 : affordable(e.slope * s.fraction, e.cost, available);
     x = isnan(x) ? 0 : x;
-    float saved = s.saved;
+    float reserve = s.reserve;
     if (last)
     {
         const float cost = x * e.cost;
-        saved -= cost > 0 ? max(cost - s.lost, 0) : cost;
-        saved *= saved > 0 ? k_kept : 1;
+        reserve -= cost > 0 ? max(cost - s.dissipated, 0) : cost;
+        reserve *= reserve > 0 ? k_reserve_decay : 1;
     }
-    return LimitScale(x, 1, 0, x * s.kept, isnan(saved) || isinf(saved) ? 0 : saved, s.lost);
+    return LimitScale(x, 1, 0, x * s.fraction, isnan(reserve) || isinf(reserve) ? 0 : reserve, s.dissipated);
 }
 
 void main()
@@ -133,10 +133,10 @@ void main()
         return;
     const uint thread = gl_LocalInvocationID.x;
     const LimitScale scale = scales[cloth];
-    const float kept = push.measurement == 0 ? 1 : scale.kept;
+    const float fraction = push.measurement == 0 ? 1 : scale.fraction;
     Energies sum = Energies(0, 0, 0, 0, 0, 0, 0, 0, 0);
     for (uint c = first + thread; c < push.patches && patches[c].cloth == cloth; c += gl_WorkGroupSize.x)
-        sum = add(sum, energies_of(c, kept));
+        sum = add(sum, energies_of(c, fraction));
     sums[thread] = sum;
     barrier();
     for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)
@@ -146,5 +146,5 @@ void main()
         barrier();
     }
     if (thread == 0)
-        scales[cloth] = push.measurement == 0 ? scale_of(scale.saved, sums[0]) : rescaled(scale, sums[0]);
+        scales[cloth] = push.measurement == 0 ? scale_of(scale.reserve, sums[0]) : rescaled(scale, sums[0]);
 }

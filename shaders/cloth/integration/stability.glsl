@@ -25,12 +25,12 @@ Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float d
 }
 
 // The stability scale of the air's force, whose decay rate is `decay`, in a substep of h seconds. A force quadratic in
-// the velocity grows twice as fast with it as its rate says. It may use what the margin leaves of the stability region.
+// the velocity grows twice as fast with it as its rate says. It may use the margin of the stability region.
 float air_scale(bool verlet, float decay, float h)
 {
-    const float reach = verlet ? 1 - VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN
+    const float region = verlet ? 1 - VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN
                                : VOILE_RK4_RADIUS * (1 - VOILE_STABILITY_MARGIN);
-    return min(1, 0.5 * reach / max(decay * h, 1e-30));
+    return min(1, 0.5 * region / max(decay * h, 1e-30));
 }
 
 #endif

@@ -38,9 +38,9 @@ struct LimitScale
     float position;   // 0..1, of the current displacements
     float velocity;   // 0..1, of the changes of velocity
     float shift_rate; // 1/s; displacements times this are added to the velocities
-    float kept;       // 0..1, of the limit's original displacements
-    float saved; // J, that displacements may cost; after the last measurement, that those of the next step may cost
-    float lost;  // J, that displacements may cost in addition: the energy dissipated in this step
+    float fraction;   // 0..1, of the limit's original displacements
+    float reserve;    // J, that displacements may cost; after the last measurement, that those of the next step may cost
+    float dissipated; // J, by this step; displacements may cost it in addition
 };
 
 // The number of measurements of the energy of the displacements that are kept.

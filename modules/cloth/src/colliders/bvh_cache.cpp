@@ -29,7 +29,7 @@ bool same_bits(const glm::vec3& a, const glm::vec3& b)
 
 MeshKey make_mesh_key(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
 {
-    // Only meshes that nobody chose to look alike must be told apart: what is found is compared.
+    // The hash need not resist chosen collisions: a mesh that is found is compared.
     return {hash_bytes(std::as_bytes(triangles), hash_bytes(std::as_bytes(positions))), positions.size(),
             triangles.size()};
 }

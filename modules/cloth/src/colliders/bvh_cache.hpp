@@ -42,7 +42,7 @@ public:
     struct Counts
     {
         uint64_t builds = 0; // since the start
-        uint64_t hits = 0;   // likewise, calls that found what they wanted
+        uint64_t hits = 0;   // since the start, calls that found the hierarchy
         size_t entries = 0;  // now
         uint64_t bytes = 0;  // now
     };
@@ -70,7 +70,7 @@ private:
     std::unordered_map<MeshKey, std::list<Entry>::iterator, Hash> index_;
 };
 
-// The one that all solvers of the process share.
+// The cache of the process, for all solvers.
 BvhCache& bvh_cache();
 
 } // namespace voile

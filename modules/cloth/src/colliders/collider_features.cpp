@@ -1,4 +1,4 @@
-// The features of all colliders: primitives, and the hierarchies over what there is.
+// The features of all colliders, and the hierarchies over them.
 #include "colliders/collider_features.hpp"
 
 #include "colliders/collider_model.hpp"
@@ -77,7 +77,7 @@ std::vector<Feature> features_of(const ColliderModel& collider, const FeatureSca
     }
 }
 
-// The same mesh, seen alike.
+// The same mesh, with the same sides.
 bool same_mesh(const ColliderModel& a, const ColliderModel& b)
 {
     constexpr uint32_t k_flags = VOILE_COLLIDER_CLOSED | VOILE_COLLIDER_ONE_SIDED;

@@ -1,4 +1,4 @@
-// Corners and edges of colliders that can stand between the vertices of a cloth.
+// Features: edges and corners of colliders that can protrude between the vertices of a cloth.
 #pragma once
 
 #include "model/model.hpp"
@@ -15,8 +15,8 @@ namespace voile
 struct ColliderModel; // collider_model.hpp
 struct ColliderModels;
 
-// What decides whether a cloth's own vertices feel a corner or an edge: vertices keep `thickness` from the surface, and
-// a chord of length `edge` between two of them sinks towards it by as much as the surface bends on the way.
+// Decides whether contact of a cloth's vertices is enough at a corner or an edge: vertices keep `thickness` from the
+// surface, and a chord of length `edge` between two of them sinks towards it by as much as the surface bends.
 struct FeatureScale
 {
     float edge = 0;      // m, the longest of the cloths
@@ -25,11 +25,11 @@ struct FeatureScale
     bool operator==(const FeatureScale&) const = default;
 };
 
-// The share of the thickness that an edge, or a mesh that bends within an edge's length, may take away from what
-// vertices keep. At 1 the cloth would lie on the surface itself, at rest and not stretched.
+// The fraction of the thickness by which cloth may sink at an edge, or where a mesh bends within an edge's length. At 1
+// the cloth would lie on the surface itself, at rest and not stretched.
 constexpr float k_allowed_fraction = 0.75f;
 
-// Of the cloths that meet colliders of these layers, as they were added. edge == 0: there is none.
+// Of the cloths that share a layer with these, as they were added. edge == 0: there is no such cloth.
 FeatureScale feature_scale(const Model& model, uint32_t layers);
 
 // The features of one collider, with a hierarchy over them; offsets in `set` are counted from its own first ones.
@@ -47,7 +47,7 @@ struct ColliderFeatures
 // deform have none.
 ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale);
 
-// Whether features that were found for one scale hold what another one asks for.
+// Whether features that were found for one scale include those that another one needs.
 inline bool covers(const FeatureScale& found, const FeatureScale& needed)
 {
     return needed.edge == 0 || (found.edge >= needed.edge && found.thickness <= needed.thickness);
@@ -57,8 +57,8 @@ inline bool covers(const FeatureScale& found, const FeatureScale& needed)
 // longer edges than all before.
 bool needs_features(const ColliderModel& collider, const Model& model);
 
-// Finds the features of the colliders that need them. The others keep theirs, and colliders of the same mesh share
-// them.
+// Finds the features of the colliders that need them. The others keep theirs. Colliders of the same mesh share
+// features.
 void update_features(ColliderModels& colliders, const Model& model);
 
 } // namespace voile

@@ -1,4 +1,4 @@
-// Colliders as the solver remembers them, each with arrays of its own in the layout that is uploaded.
+// Colliders on the host, each with arrays of its own in the layout that is uploaded.
 #pragma once
 
 #include "voile/descriptions.hpp"
@@ -39,7 +39,7 @@ struct DeformingMesh
     std::vector<glm::vec4> positions; // as they were added. Empty once they are uploaded
     std::vector<shared::PaddedLeaf> leaves;
     uint64_t first_range = 0; // of its boxes, with the room for their alignment
-    uint64_t boxes = 0;       // likewise
+    uint64_t boxes = 0;       // with the same room
 
     uint32_t now = 0;                     // the half of its positions that holds them at the end of the last step
     bool due = false;                     // new vertices were given: the next step goes to them, in the other half
@@ -61,7 +61,7 @@ constexpr uint32_t k_most_stride = 64;
 struct ColliderModel
 {
     shared::ColliderRecord record{};
-    glm::dvec3 origin{0.0};                 // m, before the placement: the record is told from there
+    glm::dvec3 origin{0.0};                 // m, before the placement; the record is relative to it
     glm::mat4 placement{1.f};               // the world when it was added; of a box from its space
     std::optional<float> plane_offset{};    // m, of a plane as it was added: normal . x = offset
     std::shared_ptr<const Bvh> hierarchy{}; // of a mesh that keeps its shape; colliders of the same mesh share it
@@ -74,13 +74,13 @@ struct ColliderModel
     bool uploaded = false; // its arrays are in the solver's buffers
 };
 
-// Whether cloth feels the collider.
+// Whether cloth collides with it.
 inline bool is_active(const ColliderModel& collider)
 {
     return collider.uploaded && collider.enabled;
 }
 
-// The record as kernels see it: a disabled collider meets no cloth.
+// The record as kernels see it: no cloth collides with a disabled collider.
 inline shared::ColliderRecord shown_record(const ColliderModel& collider)
 {
     shared::ColliderRecord record = collider.record;
@@ -139,7 +139,7 @@ void set_plane_origin(ColliderModel& plane, const glm::dvec3& point);
 // Friction of its own, or none.
 void set_record_friction(shared::ColliderRecord& record, const std::optional<Friction>& friction);
 
-// What the validation of colliders shares.
+// For all kinds of collider.
 Result<void> check_friction(const std::string& name, const std::optional<Friction>& friction);
 shared::ColliderRecord make_collider_record(uint32_t kind, uint32_t layers, const std::optional<Friction>& friction);
 

@@ -32,7 +32,7 @@ bool within_mesh(const glm::vec3& p)
     return within(p, k_most_offset);
 }
 
-// A box that is none, min above max, stands where a root has one child alone.
+// A root with one child has an empty box, min above max, for the other.
 bool is_box(const glm::vec3& min, const glm::vec3& max, bool may_be_none)
 {
     if (may_be_none && min.x > max.x)
@@ -44,7 +44,7 @@ const char* problem_of(const CookedCollider::State& state)
 {
     const Bvh& bvh = *state.hierarchy;
     if (!finite(state.transform) || !within(state.origin, 2 * k_most_coordinate))
-        return "a collider's place is out of range";
+        return "a collider's origin is out of range";
     if (!is_depth_first(bvh))
         return "a hierarchy is not one tree over its triangles";
     const shared::BvhNode* root = bvh.nodes.data();
@@ -147,7 +147,7 @@ Result<CookedCollider> CookedCollider::load(std::span<const std::byte> given, st
     bvh.triangles = {reader.value().take<shared::BvhTriangle>(head.triangles), kept.owner};
     bvh.depth = head.depth;
     if (!reader.value().ok())
-        return Error{"cooked data: a collider's arrays are longer or shorter than they are told to be"};
+        return Error{"cooked data: a collider's arrays have other lengths than its header states"};
     if (head.closed > 1 || head.depth > VOILE_BVH_MAX_DEPTH || head.nodes > VOILE_BVH_FIRST_MASK ||
         head.triangles > VOILE_BVH_FIRST_MASK)
         return Error{"cooked data: a collider of these sizes does not exist"};

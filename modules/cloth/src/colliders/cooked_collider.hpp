@@ -13,7 +13,7 @@ namespace voile
 struct CookedCollider::State
 {
     glm::mat4 transform{1.f}; // that gives the shape
-    glm::vec3 origin{0.f};    // m, in the world with that transform: the hierarchy is told from there
+    glm::vec3 origin{0.f};    // m, in the world with that transform; the hierarchy is relative to it
     bool closed = false;
     std::shared_ptr<const Bvh> hierarchy;
 };

@@ -113,10 +113,10 @@ uint64_t ColliderModels::bytes_with_deforming(const MeshInput& mesh) const
                      vertices * std::max(2 * sizeof(glm::vec4), size_t{k_most_stride})});
 }
 
-// A word of contact's lists tells a triangle, or a slot of a padded tree, of which a mesh has less than two a triangle.
+// A word of contact's lists names a triangle, or a slot of a padded tree, which has fewer than two slots per triangle.
 constexpr size_t k_most_triangles = size_t{1} << VOILE_CANDIDATE_TRIANGLE_BITS;
 
-// Errors: more triangles than the buffers hold, or than contact's lists can tell apart.
+// Errors: more triangles than the buffers hold, or than a word of contact's lists can name.
 Result<void> ColliderModels::check_triangles(const std::string& name, size_t count, bool deforms) const
 {
     const std::string contents = std::to_string(count) + " triangles";

@@ -1,9 +1,10 @@
-// Which edges and corners of a mesh stand out.
+// Selects the feature edges and feature vertices of a mesh.
 //
-// A triangle is taken into account if the normals around it spread enough (normal_cones.hpp); of a smooth mesh, however
-// many triangles it has, none is. Where two of those that are meet in an edge, the angle between them says whether it
-// stands out by itself. Where the mesh is narrow, a wire or a needle, all edges that turn at all do; of a long one the
-// mesh must be narrow across, not at its ends: the flats of a cylinder are no edges because they reach its rims.
+// A triangle is a candidate if the normals around it spread enough (normal_cones.hpp). A smooth mesh has no candidates,
+// however many triangles it has. An edge between two candidates is a feature if the angle between them is large enough.
+// Where the mesh is narrow, as a wire or a needle, every edge with an angle is a feature. Around a long edge the mesh
+// must be narrow across the edge, not at its ends: the flats of a cylinder are no features although they end at its
+// rims.
 #include "colliders/mesh_features.hpp"
 
 #include "geometry/closedness.hpp"
@@ -22,12 +23,12 @@ namespace
 
 using shared::Feature;
 
-constexpr float k_flat = 0.035f; // rad; edges that turn by less are none
+constexpr float k_flat = 0.035f; // rad; an edge that turns by less is no feature
 
 struct Corner
 {
     glm::vec3 normal{0.f}; // sum over its triangles, by their angles
-    bool stands_out = false;
+    bool is_feature = false;
     bool any_direction = false; // on the border of an open mesh
     float cosine = 1;
 };
@@ -73,7 +74,8 @@ public:
     }
 
 private:
-    // Which triangles matter, and their corners as one where they are one place. An open mesh has a border anywhere.
+    // Selects the candidates and welds their corners. All triangles of an open mesh are candidates: it may have a
+    // border anywhere.
     void select_triangles()
     {
         surroundings_ = surroundings(tree_, scale_.edge, std::max(bend_, crease_));
@@ -165,7 +167,7 @@ private:
     {
         for (const uint32_t v : {side.low, side.high})
         {
-            corners_[v].stands_out = true;
+            corners_[v].is_feature = true;
             corners_[v].any_direction |= edge.cosine == -1;
         }
         if (glm::distance(edge.a, edge.b) > spacing_)
@@ -178,7 +180,7 @@ private:
         std::unordered_map<uint64_t, uint32_t> cells;
         for (uint32_t v = 0; v < corners_.size(); ++v)
         {
-            if (!corners_[v].stands_out)
+            if (!corners_[v].is_feature)
                 continue;
             const auto [cell, is_new] = cells.emplace(cell_of(positions_[v]), v);
             if (!is_new && sharpness(v) > sharpness(cell->second))
@@ -187,7 +189,7 @@ private:
         std::vector<uint32_t> kept;
         for (const auto& [cell, v] : cells)
             kept.push_back(v);
-        std::sort(kept.begin(), kept.end()); // the order of the table is nobody's
+        std::sort(kept.begin(), kept.end()); // the order of the table is not defined
         for (const uint32_t v : kept)
         {
             const Corner& corner = corners_[v];
@@ -215,8 +217,8 @@ private:
     float spacing_; // m, of corners, and the length of edges
     std::vector<Surroundings> surroundings_;
     std::vector<uint32_t> chosen_;     // triangles
-    std::vector<glm::vec3> positions_; // three a chosen triangle
-    std::vector<uint32_t> vertices_;   // and the first at the same place
+    std::vector<glm::vec3> positions_; // three per chosen triangle
+    std::vector<uint32_t> vertices_;   // and the first one at the same position
     std::vector<Side> sides_;
     std::vector<Corner> corners_; // of the positions; those that are not the first at theirs are empty
     std::vector<Feature> features_;

@@ -14,14 +14,14 @@ struct RefitKernels
     gpu::Kernel leaves; // starts from the vertices
     gpu::Kernel levels; // goes on from boxes
     uint32_t group = 0;
-    uint32_t run = 0; // neighboring subtrees a workgroup takes
+    uint32_t run = 0; // neighboring subtrees per workgroup
     uint32_t levels_per_dispatch = 0;
 };
 
-// `workgroup_size`: a power of two, 2 to the device's limit; what the device does not take is lowered to what it does.
+// `workgroup_size`: a power of two, 2 to the device's limit; more than the device's limit is lowered to it.
 Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
 
-// Where a tree stands in its buffers.
+// The offsets of a tree in its buffers.
 struct RefitTree
 {
     uint32_t first_box = 0;
@@ -31,8 +31,8 @@ struct RefitTree
     uint32_t triangles = 0;  // nothing is recorded for 0
 };
 
-// The first place for a tree's boxes from `first` on that lets all of its levels but the top ones begin at multiples of
-// 256 bytes: runs of boxes then fill whole cache lines.
+// The first index from `first` on at which a tree's boxes can begin so that all of its levels but the top ones begin at
+// multiples of 256 bytes: runs of boxes then fill whole cache lines.
 constexpr uint32_t aligned_first_box(uint32_t first)
 {
     constexpr uint32_t k_line = VOILE_REFIT_RUN;

@@ -14,7 +14,7 @@ namespace voile
 struct BvhOptions
 {
     uint32_t triangles_per_leaf = 2;       // at most, 1..4
-    uint32_t threads = 0;                  // at most; 0: one a core
+    uint32_t threads = 0;                  // at most; 0: one per core
     uint32_t triangles_per_subtree = 4096; // at most, of what one thread builds on its own; >= 1
 };
 
@@ -26,10 +26,10 @@ struct Bvh
 };
 
 // Splits top down by the surface area heuristic, binned (Wald 2007, "On fast construction of SAH-based bounding volume
-// hierarchies"): 16 bins of centroids along each axis, the plane with the least sum of area times count. Where no plane
-// separates the centroids, or the tree grows too deep, the triangles are halved in their order along the widest axis.
+// hierarchies"): 16 bins of centroids along each axis, the plane with the least sum of area times count. If no plane
+// separates the centroids, or the tree is too deep, the triangles are halved in their order along the widest axis.
 // Needs at least one triangle, indices in range and finite positions. The result depends on the mesh and the leaves'
-// size alone: however many threads build it, and whatever they share out, it is the same to the bit.
+// size alone: it is the same to the bit for any number of threads and any division of the work.
 Bvh build_bvh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
               const BvhOptions& options = {});
 

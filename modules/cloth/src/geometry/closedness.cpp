@@ -1,4 +1,4 @@
-// Which vertices of a mesh are one place, and whether its triangles leave no border.
+// Which vertices of a mesh have the same position, and whether the mesh is closed.
 #include "geometry/closedness.hpp"
 
 #include "geometry/parallel.hpp"
@@ -16,11 +16,11 @@ namespace voile
 namespace
 {
 
-constexpr size_t k_piece = 16384; // vertices or triangles that one thread looks at at a time
+constexpr size_t k_piece = 16384; // vertices or triangles per piece of work
 
 uint64_t hash(const glm::vec3& p)
 {
-    const auto bits = std::bit_cast<std::array<uint32_t, 3>>(p + 0.f); // + 0: -0 and 0 are one place
+    const auto bits = std::bit_cast<std::array<uint32_t, 3>>(p + 0.f); // + 0: -0 and 0 are equal
     uint64_t h = (uint64_t{bits[1]} << 32 | bits[0]) * 0x9e3779b97f4a7c15u;
     h = (h ^ h >> 32 ^ bits[2]) * 0xbf58476d1ce4e5b9u;
     return h ^ h >> 29;
@@ -71,15 +71,15 @@ std::vector<uint32_t> weld(std::span<const glm::vec3> positions)
     return result;
 }
 
-// Edges are sorted in at their lower vertices, which have a few each; sorting all of them as one list takes several
-// times as long.
+// Edges are grouped by their lower vertices, which have a few each. Sorting all of them as one list takes several times
+// as long.
 bool is_closed(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)
 {
     std::vector<uint32_t> first(welded.size() + 1); // of each vertex's entries in the lists below
     std::vector<uint32_t> downwards(welded.size() + 1);
     for_each_edge(welded, triangles,
                   [&](uint32_t low, uint32_t, bool upwards) { ++(upwards ? first : downwards)[low]; });
-    if (first != downwards) // most open meshes are told here
+    if (first != downwards) // most open meshes return here
         return false;
     std::exclusive_scan(first.begin(), first.end(), first.begin(), 0u);
     std::vector<uint32_t> up(first.back());

@@ -87,7 +87,7 @@ Result<CookedReader> CookedReader::open(std::span<const std::byte> bytes, Cooked
     if (header.kind != kind)
         return bad(kind == CookedKind::cloth ? "it is not a cloth" : "it is not a collider");
     if (header.bytes != bytes.size())
-        return bad(std::to_string(bytes.size()) + " bytes, its header tells of " + std::to_string(header.bytes));
+        return bad(std::to_string(bytes.size()) + " bytes, its header states " + std::to_string(header.bytes));
     if (checksum_of(bytes) != header.checksum)
         return bad("its checksum is wrong: it was changed or damaged");
     return CookedReader(bytes);

@@ -1,5 +1,4 @@
-// Which parts of a closed mesh lie in others: rays from their vertices, all in one direction, cross what is around
-// them.
+// Which parts of a closed mesh lie in others: parallel rays from their vertices cross the parts around them.
 #include "geometry/mesh_parts.hpp"
 
 #include "geometry/bvh_split.hpp"
@@ -14,7 +13,7 @@ namespace voile
 namespace
 {
 
-// The two vertices of a part that reach farthest along each axis: 2 * axis for the lower end, and the upper one.
+// The two farthest vertices of a part along each axis: 2 * axis for the lower end, and the upper one.
 struct Extent
 {
     std::array<uint32_t, 6> vertices{};
@@ -73,7 +72,7 @@ Axes axes_of(std::span<const Extent> extents)
 using Corners = std::array<glm::dvec3, 3>;
 
 // How often the triangle, seen along the rays, winds around a point: 0, or 1 or -1 for its two sides. What an edge adds
-// is the same, to the bit, for both of its triangles: no ray slips between them, and none meets both.
+// is the same, to the bit, for both of its triangles: no ray passes between them, and none hits both.
 int winding(const Axes& axes, const Corners& corners, const glm::dvec3& p)
 {
     int result = 0;
@@ -162,7 +161,7 @@ private:
         }
     }
 
-    // Adds what a triangle does to those of the rays that meet it.
+    // Adds the winding of a triangle to the rays that hit it.
     void cross(const Corners& corners, std::vector<Ray>& rays) const
     {
         const auto [low, high] =

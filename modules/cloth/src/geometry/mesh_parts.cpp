@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr uint32_t k_none = std::numeric_limits<uint32_t>::max();
-constexpr size_t k_piece = 16384; // triangles that one thread looks at at a time
+constexpr size_t k_piece = 16384; // triangles per piece of work
 
 // For each vertex, the lowest one of its part. A vertex leads to a lower one, so that a chain ends.
 std::vector<uint32_t> lowest_vertices(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)

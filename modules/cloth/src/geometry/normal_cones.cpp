@@ -1,4 +1,4 @@
-// Cones of normals: merging, of a tree's nodes, and around places.
+// Cones of normals: merging, of a tree's nodes, and around triangles and edges.
 #include "geometry/normal_cones.hpp"
 
 #include "geometry/bvh_split.hpp"

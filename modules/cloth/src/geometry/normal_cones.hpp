@@ -28,15 +28,15 @@ struct MeshTree
 
 glm::vec3 unit_normal(const shared::BvhTriangle& triangle);
 
-// What a triangle stands in.
+// The mesh around a triangle.
 struct Surroundings
 {
     float spread = 0;    // rad, half the angle of the cone of the normals nearby; pi at most. Beyond `enough`: some
                          // value beyond it
-    bool narrow = false; // the place they were looked for at is narrow: they spread over a short way
+    bool narrow = false; // the mesh is narrow there: normals spread over a short distance
 };
 
-// For each triangle, of a place around it that is some `width` (m) wide, or as large as the triangle.
+// For each triangle, of a region around it about `width` (m) wide, or as large as the triangle.
 std::vector<Surroundings> surroundings(const MeshTree& tree, float width, float enough);
 
 // How far the mesh turns about an edge: rad, half the angle of the fan of the normals across it, of all triangles that

@@ -1,5 +1,4 @@
-// Work on all cores of the host, for what is too much for one: large meshes. By the host's job system, or by threads
-// that live as long as the call.
+// Work on large meshes on several threads: by the host's job system, or by threads that live as long as the call.
 #pragma once
 
 #include "voile/jobs.hpp"
@@ -11,7 +10,7 @@
 namespace voile
 {
 
-// While one lives, what its thread shares out goes to these jobs. The innermost counts.
+// While one lives, these jobs do the parallel work that its thread starts. The innermost one counts.
 class JobScope
 {
 public:
@@ -28,13 +27,13 @@ private:
 // `parts` of work.
 uint32_t thread_count(uint32_t wanted, size_t parts);
 
-// Calls work() on up to `threads` threads and returns when all calls have returned. There are fewer where the system
-// gives no more, and jobs may be run one after the other, so work() must share out what there is to do and not count on
-// a second call. The first exception of a call is thrown on once all have returned.
+// Calls work() on up to `threads` threads and returns when all calls have returned. There may be fewer
+// threads, and jobs may run one after the other, so work() must take the work that is left and not depend on a second
+// call. The first exception of a call is rethrown once all have returned.
 void run_together(uint32_t threads, const std::function<void()>& work);
 
-// Calls body(first, last) for consecutive pieces of [0, count) in any order, on up to `threads` threads (0: all). Where
-// pieces begin depends on `piece`, their size, alone, so that results need not depend on the number of threads.
+// Calls body(first, last) for consecutive pieces of [0, count) in any order, on up to `threads` threads (0: all). Only
+// `piece`, their size, decides where pieces begin, so results need not depend on the number of threads.
 void parallel_for(size_t count, size_t piece, const std::function<void(size_t, size_t)>& body, uint32_t threads = 0);
 
 } // namespace voile

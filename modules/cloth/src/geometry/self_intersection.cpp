@@ -1,4 +1,4 @@
-// Self-intersection of a mesh: every pair of triangles whose boxes meet, once.
+// Self-intersection of a mesh: every pair of triangles whose boxes overlap, once.
 #include "voile/mesh_checks.hpp"
 
 #include "geometry/bvh_query.hpp"

@@ -10,7 +10,7 @@
 namespace voile
 {
 
-// Copies share the values. They lie in a vector that was moved in, or in memory that somebody else keeps: that of
+// Copies share the values. They lie in a vector that was moved in, or in memory of another owner, such as
 // cooked data, which is not copied.
 template <typename T>
 class SharedArray

@@ -1,4 +1,4 @@
-// ActiveLists: what the dispatches of a step work on, level by level of substeps.
+// ActiveLists: the patches, attachments and tethers that the dispatches of a step work on, ordered by level.
 #pragma once
 
 #include "model/model.hpp"
@@ -27,7 +27,7 @@ struct LevelLists
     EntryRange tethers;
 };
 
-// Of the active cloths, those of level 0 first.
+// Of the active cloths, level 0 first.
 struct ActiveLists
 {
     std::array<LevelLists, VOILE_SUBSTEP_LEVELS> levels;
@@ -52,17 +52,18 @@ struct AttachmentCounts
 };
 AttachmentCounts count_attachments(const Model& model);
 
-// The level of a cloth: as it was assigned, or that of a plan.
+// The level of a cloth: the assigned one, or that of a plan.
 using LevelOf = std::function<uint32_t(const ClothModel&)>;
 inline uint32_t assigned_level(const ClothModel& cloth)
 {
     return cloth.level;
 }
 
-// Patches and attachments are listed apart. Neither allocates where the lists have the capacity.
+// Neither allocates if the lists have the capacity.
 void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists);
 void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& lists);
-// What is attached takes the substeps of level 0, without being listed anew.
+// Moves all attachments and tethers to level 0, in the order that they have. For lists that cannot be written again
+// yet.
 void merge_levels(ActiveLists& lists);
 
 } // namespace voile

@@ -98,8 +98,8 @@ Rates grid_rates(const shared::ClothRecord& record, const glm::vec2& spacing, do
     return largest;
 }
 
-// Verlet heats up where modes of the flat cloth, whose springs lie along the way, take up nearly all of its reach: they
-// may take up this share of it (bench/NOTES.md has the energies).
+// Verlet gains energy if modes of the flat cloth take up nearly all of its stability region. They may take up this
+// fraction of it (bench/NOTES.md has the energies).
 constexpr double k_flat_fraction = 0.75;
 
 // 1/s^2, for the substeps.
@@ -200,9 +200,10 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
     record.springs[VOILE_CLASS_EDGE] = spring_class(m.springs.structural_warp, std::sqrt(mesh.mean_area));
     record.springs[VOILE_CLASS_OPPOSITE] = spring_class(m.springs.bend_warp, 0);
     record.bending = glm::vec3(m.bending_stiffness, 0, 0);
-    const double bending = static_cast<double>(m.bending_stiffness) * mesh.alike.bending / mass;
-    const auto rate = [&](float edge, float opposite) {
-        return (static_cast<double>(edge) * mesh.alike.edge + static_cast<double>(opposite) * mesh.alike.opposite) /
+    const double bending = static_cast<double>(m.bending_stiffness) * mesh.uniform.bending / mass;
+    const auto rate = [&](float edge, float opposite)
+    {
+        return (static_cast<double>(edge) * mesh.uniform.edge + static_cast<double>(opposite) * mesh.uniform.opposite) /
                mass;
     };
     record.omega_squared =
@@ -217,7 +218,7 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
 // their diagonals, and more than half of each correction would overshoot.
 constexpr float k_strain_relaxation = 0.5f;
 
-// What both kinds of material give alike.
+// The members that both kinds of material have.
 template <typename M>
 void apply_surface(const M& m, shared::ClothRecord& record)
 {
@@ -269,7 +270,7 @@ void apply_material(ClothModel& cloth)
     }
     // A mesh's vertex may have many more: what all of them make together stays below twice the correction.
     if (cloth.mesh)
-        record.strain_relaxation = std::min(k_strain_relaxation, static_cast<float>(3.6 / cloth.mesh->alike.edge));
+        record.strain_relaxation = std::min(k_strain_relaxation, static_cast<float>(3.6 / cloth.mesh->uniform.edge));
     record.inverse_density = cloth.own_inverse_mass > 0 ? 1 : static_cast<float>(1 / density(cloth.material));
     if (bends_isometrically(cloth.material))
         record.flags |= VOILE_CLOTH_ISOMETRIC;

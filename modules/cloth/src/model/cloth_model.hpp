@@ -1,4 +1,4 @@
-// ClothModel: one cloth as the solver remembers it, with arrays of its own in the layout that is uploaded.
+// ClothModel: one cloth on the host, with arrays of its own in the layout that is uploaded.
 #pragma once
 
 #include "voile/attachments.hpp"
@@ -19,7 +19,7 @@
 namespace voile
 {
 
-// An axis-aligned box around places; empty at first.
+// An axis-aligned box around positions; empty at first.
 struct Extent
 {
     glm::dvec3 min{std::numeric_limits<double>::infinity()};
@@ -43,10 +43,10 @@ struct ClothModel
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it
-    std::shared_ptr<const MeshLists> lists;   // of a mesh, as they are uploaded; shared likewise
+    std::shared_ptr<const MeshLists> lists;   // of a mesh, as they are uploaded; shared, too
     glm::vec2 spacing{0.f};                   // m, of a grid along a row and along a column
-    // Masses that were given, as a share of those of the material: the largest inverse one in 1/kg times the vertex's
-    // area (fabric) or share (material). 0: all are the material's.
+    // Masses that the host gave, relative to those of the material: the largest inverse mass in 1/kg times the vertex's
+    // area (Fabric) or mass scale (Material). 0: all are the material's.
     double own_inverse_mass = 0;
     glm::vec3 velocity{0.f};             // m/s, at the start
     std::vector<Attachment> attachments; // pins and others, in the order given
@@ -54,15 +54,15 @@ struct ClothModel
     std::vector<shared::TetherRecord> tethers;
 
     shared::ClothRecord record{};
-    std::vector<glm::vec4> start;      // places; w: inverse of the area or share that the density multiplies
+    std::vector<glm::vec4> start;      // positions; w: inverse of the area or mass scale that the density multiplies
     std::vector<glm::uvec2> residuals; // of the positions at the start (fine_position.glsl)
     std::vector<glm::vec4> positions;  // at the start; w: inverse mass, 0 if pinned. Empty once they are uploaded
-    std::vector<glm::vec4> velocities; // at the start; likewise
-    Extent extent;                     // m, of the places at the start
+    std::vector<glm::vec4> velocities; // at the start. Empty once they are uploaded
+    Extent extent;                     // m, of the positions at the start
     float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
 };
 
-// What the validation of grids and meshes shares: transform, velocity, material, pinned vertices, inverse masses.
+// The input that grids and meshes have in common: transform, velocity, material, pinned vertices, inverse masses.
 struct ClothInput
 {
     const std::string& name;
@@ -87,7 +87,7 @@ double density(const ClothMaterial& material);
 // Whether a material bends by the isometric model.
 bool bends_isometrically(const ClothMaterial& material);
 
-// The record that follows from a material; places (first_vertex, first_list) and sizes of the record are kept.
+// Sets the members of the record that follow from the material, not offsets (first_vertex, first_list) and sizes.
 void apply_material(ClothModel& cloth);
 
 // Fills the start of a cloth whose record is complete: masses from the material unless they are given.

@@ -26,7 +26,7 @@ double vertex_scale(const shared::ClothRecord& record, int row, int column)
     return border_factor(record, row, record.rows) * border_factor(record, column, record.columns);
 }
 
-// What a float position leaves of a place, as fine_position.glsl packs it.
+// The rounding error of a float position, packed as in fine_position.glsl.
 glm::uvec2 residual_of(const glm::dvec3& position)
 {
     const glm::vec3 x = rounded(position);
@@ -36,8 +36,8 @@ glm::uvec2 residual_of(const glm::dvec3& position)
     return shared::pack_fraction(glm::uvec3(fraction), unit);
 }
 
-// What the material's density is multiplied with: the vertex's area (m^2) for a fabric, its share of an inner vertex
-// for masses given outright.
+// What the material's density is multiplied by: the vertex's area (m^2) for a Fabric, its fraction of an inner vertex's
+// mass for a Material.
 double mass_measure(const ClothModel& cloth, uint32_t vertex)
 {
     const shared::ClothRecord& record = cloth.record;

@@ -15,7 +15,7 @@ namespace
 
 constexpr float k_most = std::numeric_limits<float>::max();
 
-// What stands before the arrays.
+// The part before the arrays.
 struct Head
 {
     glm::mat4 transform;
@@ -26,10 +26,10 @@ struct Head
     uint64_t membrane; // triangles; 0: springs along the edges
     double mean_area;
     MeshTopology::Bounds fabric;
-    MeshTopology::Bounds alike;
+    MeshTopology::Bounds uniform;
     MeshReport report;
     uint32_t isometric;
-    uint32_t masses_alike;
+    uint32_t uniform_masses;
 };
 static_assert(sizeof(MeshReport) == 32 && sizeof(Head) == 64 + 48 + 48 + 32 + 8);
 
@@ -104,7 +104,7 @@ const char* problem_of(const CookedCloth::State& state)
         return "a triangle of its membrane is out of range";
     if (!all_of(mesh.areas, positive) || !positive(mesh.mean_area))
         return "an area is out of range";
-    for (const MeshTopology::Bounds& bounds : {mesh.fabric, mesh.alike})
+    for (const MeshTopology::Bounds& bounds : {mesh.fabric, mesh.uniform})
         if (!positive(bounds.edge) || !positive(bounds.opposite) || !positive(bounds.bending))
             return "a bound is out of range";
     return nullptr;
@@ -119,8 +119,8 @@ std::vector<std::byte> CookedCloth::bytes() const
     const MeshTopology& mesh = *state_->mesh;
     CookedWriter writer(CookedKind::cloth);
     writer.add(Head{state_->transform, state_->positions.size(), mesh.triangles.size(), mesh.lists.springs.size(),
-                    mesh.lists.corners.size(), mesh.membrane.size(), mesh.mean_area, mesh.fabric, mesh.alike,
-                    mesh.report, mesh.isometric ? 1u : 0u, mesh.masses_alike ? 1u : 0u});
+                    mesh.lists.corners.size(), mesh.membrane.size(), mesh.mean_area, mesh.fabric, mesh.uniform,
+                    mesh.report, mesh.isometric ? 1u : 0u, mesh.uniform_masses ? 1u : 0u});
     const auto add = [&](const auto& array) { writer.add(std::span(array)); };
     add(state_->positions);
     add(mesh.triangles);
@@ -158,17 +158,17 @@ Result<CookedCloth> CookedCloth::load(std::span<const std::byte> given, std::sha
     take(mesh.lists.membrane, head.corners);
     take(mesh.membrane, head.membrane);
     if (!reader.value().ok())
-        return Error{"cooked data: a cloth's arrays are longer or shorter than they are told to be"};
+        return Error{"cooked data: a cloth's arrays have other lengths than its header states"};
     if (head.vertices == 0 || head.springs == 0 || head.vertices > UINT32_MAX / 2 || head.springs > UINT32_MAX ||
-        head.corners > UINT32_MAX || head.masses_alike > 1 || head.isometric > 1 ||
-        head.membrane != (head.masses_alike != 0 ? 0 : head.corners / 3))
+        head.corners > UINT32_MAX || head.uniform_masses > 1 || head.isometric > 1 ||
+        head.membrane != (head.uniform_masses != 0 ? 0 : head.corners / 3))
         return Error{"cooked data: a cloth of these sizes does not exist"};
     mesh.mean_area = head.mean_area;
     mesh.fabric = head.fabric;
-    mesh.alike = head.alike;
+    mesh.uniform = head.uniform;
     mesh.report = head.report;
     mesh.isometric = head.isometric != 0;
-    mesh.masses_alike = head.masses_alike != 0;
+    mesh.uniform_masses = head.uniform_masses != 0;
     state->transform = head.transform;
     state->mesh = std::make_shared<const MeshTopology>(std::move(mesh));
     if (const char* problem = problem_of(*state))

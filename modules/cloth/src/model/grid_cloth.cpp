@@ -1,4 +1,4 @@
-// Grids: validation and the places of their vertices.
+// Grids: validation and the positions of their vertices.
 #include "model/model.hpp"
 
 #include <cmath>

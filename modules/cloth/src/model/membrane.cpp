@@ -102,7 +102,7 @@ MembraneSprings make_membrane_springs(const Fabric& fabric, double spacing)
 
 // The energy of a spring along d is at most its tangent plus 1/2 stiffness |F' d|^2 in any shape, so a triangle is at
 // most as stiff as weight * g_i . M g_j between its corners i and j along each axis, with g their gradients and M the
-// sum of stiffness * d d^T. A triangle shares its corners with others: it may count on as much of a vertex's mass as it
+// sum of stiffness * d d^T. Triangles share corners: a triangle is assigned as much of a vertex's mass as it
 // has of the stiffness there. Then the fastest mode of the whole is at most that of the fastest triangle alone (the
 // element eigenvalue theorem, Irons and Treharne 1971).
 std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, std::span<const double> areas,

@@ -19,12 +19,12 @@ namespace voile
 struct FabricCoordinates
 {
     std::span<const glm::vec2> texture;   // one per vertex, or none
-    std::span<const glm::vec2> projected; // likewise, for triangles where those have no area
+    std::span<const glm::vec2> projected; // one per vertex, for triangles where those have no area
     glm::dvec3 view{0, 1, 0};             // unit length, the direction of the projection
 };
 
-// A triangle at rest. Its strain is uniform: F d, with F the deformation gradient, is what becomes of a unit vector d
-// of the fabric.
+// A triangle at rest. Its strain is uniform: the deformation gradient F takes a unit vector d of the fabric to
+// F d.
 struct MembraneTriangle
 {
     uint32_t corner[3];     // counter-clockwise from the one with the largest angle
@@ -43,7 +43,7 @@ MembraneTriangle make_membrane_triangle(std::span<const glm::dvec3> positions, c
 shared::MembraneCorner make_membrane_corner(const MembraneTriangle& triangle, uint32_t vertex);
 
 // Springs of every triangle along the warp, the weft and both diagonals between them: energy per area
-// 1/2 stiffness (|F d| - 1)^2, damping likewise by the rate of |F d|.
+// 1/2 stiffness (|F d| - 1)^2, and damping by the rate of |F d|.
 struct MembraneSprings
 {
     Spring warp; // N/m, N s/m

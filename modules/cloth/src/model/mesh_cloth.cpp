@@ -1,4 +1,4 @@
-// Meshes as cloth: validation, their places and topology.
+// Meshes as cloth: validation, positions and topology.
 #include "model/model.hpp"
 
 #include "geometry/parallel.hpp"
@@ -93,9 +93,9 @@ Result<void> validate_cooked(const MeshCloth& cloth)
     const CookedCloth::State& cooked = *cloth.cooked.state();
     if (!cloth.positions.empty() || !cloth.triangles.empty() || !cloth.texture_coordinates.empty())
         return bad("it is cooked, so its positions, triangles and texture coordinates must be empty");
-    if (cooked.mesh->masses_alike != std::holds_alternative<Material>(cloth.material))
-        return bad(cooked.mesh->masses_alike ? "it was cooked with a Material and cannot have a Fabric"
-                                             : "it was cooked with a Fabric and cannot have a Material");
+    if (cooked.mesh->uniform_masses != std::holds_alternative<Material>(cloth.material))
+        return bad(cooked.mesh->uniform_masses ? "it was cooked with a Material and cannot have a Fabric"
+                                               : "it was cooked with a Fabric and cannot have a Material");
     if (bends_isometrically(cloth.material) && !cooked.mesh->isometric)
         return bad("isometric bending of a mesh must be there when it is cooked");
     if (auto affine = check_affine(subject("cloth", cloth.name), cloth.transform); !affine)

@@ -202,10 +202,10 @@ void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> s
         }
 }
 
-uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool masses_alike)
+uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool uniform_masses)
 {
     std::vector<uint32_t> edges;
-    if (masses_alike)
+    if (uniform_masses)
         soften_stiffest(elements.hinges, std::vector<double>(areas.size(), 1.0), k_bending_ahead, edges);
     else
     {

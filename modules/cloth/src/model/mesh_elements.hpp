@@ -61,14 +61,15 @@ struct MeshElements
 // The springs and folds of an edge, given all of its sides; it is noted with the triangles, if there are any.
 void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> sides, MeshElements& elements);
 
-// Slivers: a triangle of next to no height has edges between vertices that weigh next to nothing, or shorter than all
-// others, and folds that turn over when a vertex moves by its height. One of them would set the substeps of the whole
-// cloth. Here what is by far stiffer against the mass it moves than nearly all others of its kind is softened to the
-// stiffest of these, as a whole: forces stay equal and opposite, forms of bending positive, and bounds that are taken
-// of the result are true ones. Returns how many edges have something that was. MeshCloth tells the rule.
+// Softens slivers. A sliver is a triangle of nearly no height. Its edges connect vertices of nearly no mass or are
+// shorter than all others, and its folds turn over when a vertex moves by its height. One of them would set the
+// substeps of the whole cloth. An element that is far stiffer, relative to the mass it moves, than nearly all others of
+// its kind gets the stiffness of the stiffest other (MeshCloth has the rule). An element is softened as a whole, so
+// forces stay equal and opposite, bending energies positive, and bounds of the result valid. Returns the number of
+// edges with a softened element.
 //
-// `areas`: of the vertices. `masses_alike`: masses are not in proportion to them and springs have no weights: folds
-// alone are looked at.
-uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool masses_alike);
+// `areas`: of the vertices. `uniform_masses`: masses are not in proportion to them and springs have no weights, so only
+// folds are softened.
+uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool uniform_masses);
 
 } // namespace voile

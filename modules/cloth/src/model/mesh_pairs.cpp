@@ -178,7 +178,7 @@ private:
     std::vector<uint32_t> vertices_; // of the hinges of a triangle
     std::vector<Corners> local_;     // of these, one per hinge
     std::vector<uint32_t> numbers_;  // of the pairs of vertices_
-    std::vector<uint32_t> slots_;    // where each pair stands
+    std::vector<uint32_t> slots_;    // the index of each pair
     std::vector<double> sums_;       // its sum so far
 };
 

@@ -17,7 +17,7 @@ namespace voile
 namespace
 {
 
-// A triangle is degenerate where float cannot tell its height from 0.
+// A triangle is degenerate if its height is 0 within the precision of float.
 bool degenerate(std::span<const glm::dvec3> x, const glm::uvec3& t)
 {
     const double longest =
@@ -184,7 +184,7 @@ std::vector<double> areas_of(std::span<const glm::dvec3> positions, std::span<co
 
 uint32_t count_coincident(std::span<const glm::dvec3> positions, std::span<const double> areas)
 {
-    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be one place to float
+    std::vector<glm::vec3> offsets; // from one vertex: far from the origin neighbors would be equal as floats
     offsets.reserve(positions.size());
     for (const glm::dvec3& x : positions)
         offsets.emplace_back(x - positions.front());
@@ -195,16 +195,16 @@ uint32_t count_coincident(std::span<const glm::dvec3> positions, std::span<const
     return count;
 }
 
-// Bounds for every shape that the mesh can take (see grid_rates). A spring shares each of its ends with others: it may
-// count on as much of the vertex's mass as it has of the stiffness there. Then the fastest mode of the whole is at most
+// Bounds for every shape that the mesh can take (see grid_rates). Springs share their ends: a spring is
+// assigned as much of a vertex's mass as it has of the stiffness there. Then the fastest mode of the whole is at most
 // that of the fastest spring alone (the element eigenvalue theorem, Irons and Treharne 1971), stiffness over mass at
 // one end plus the same at the other.
 void find_bounds(MeshTopology& mesh)
 {
     struct Sums // of a vertex
     {
-        double opposite = 0;      // weights
-        double alike[2] = {0, 0}; // by kind: edges, opposite vertices
+        double opposite = 0;        // weights
+        double uniform[2] = {0, 0}; // by kind: edges, opposite vertices
         double bending = 0;
     };
     std::vector<Sums> sums(mesh.lists.vertices.size());
@@ -223,16 +223,16 @@ void find_bounds(MeshTopology& mesh)
         [&](size_t i, uint32_t, int kind, const shared::MeshSpring& spring)
         {
             sums[i].opposite += kind == VOILE_CLASS_OPPOSITE ? static_cast<double>(spring.weight) : 0;
-            sums[i].alike[kind] += spring.weight > 0 ? 1 : 0;
+            sums[i].uniform[kind] += spring.weight > 0 ? 1 : 0;
             sums[i].bending += std::abs(static_cast<double>(spring.bending));
         });
-    double* const alike[] = {&mesh.alike.edge, &mesh.alike.opposite};
+    double* const uniform[] = {&mesh.uniform.edge, &mesh.uniform.opposite};
     const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
     visit_springs(
         [&](size_t i, uint32_t j, int kind, const shared::MeshSpring& spring)
         {
             if (spring.weight > 0)
-                raise(*alike[kind], sums[i].alike[kind] + sums[j].alike[kind]);
+                raise(*uniform[kind], sums[i].uniform[kind] + sums[j].uniform[kind]);
             if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
                 raise(mesh.fabric.opposite, sums[i].opposite / mesh.areas[i] + sums[j].opposite / mesh.areas[j]);
         });
@@ -240,14 +240,14 @@ void find_bounds(MeshTopology& mesh)
         if (mesh.areas[i] > 0)
         {
             raise(mesh.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
-            raise(mesh.alike.bending, 2 * sums[i].bending);
+            raise(mesh.uniform.bending, 2 * sums[i].bending);
         }
 }
 
 } // namespace
 
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                                const FabricCoordinates& fabric, bool isometric, bool masses_alike)
+                                const FabricCoordinates& fabric, bool isometric, bool uniform_masses)
 {
     std::vector<glm::uvec3> solid;
     solid.reserve(triangles.size());
@@ -255,7 +255,7 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
                  [&](const glm::uvec3& t) { return !degenerate(positions, t); });
     MeshTopology mesh;
     mesh.isometric = isometric;
-    mesh.masses_alike = masses_alike;
+    mesh.uniform_masses = uniform_masses;
     mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
     mesh.report.components = count_components(positions.size(), solid);
     mesh.report.shortest_edge = std::numeric_limits<float>::max();
@@ -268,8 +268,8 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
     mesh.report.coincident_vertices = count_coincident(positions, mesh.areas);
 
-    MeshElements elements = elements_of(positions, solid, masses_alike ? nullptr : &fabric, mesh.report);
-    mesh.report.softened_edges = soften_slivers(elements, mesh.areas, masses_alike);
+    MeshElements elements = elements_of(positions, solid, uniform_masses ? nullptr : &fabric, mesh.report);
+    mesh.report.softened_edges = soften_slivers(elements, mesh.areas, uniform_masses);
     Vertices vertices(positions.size());
     mesh.lists.springs =
         fill_springs(vertices, positions, make_pairs(elements, positions.size(), solid.size(), isometric));

@@ -13,7 +13,7 @@ namespace voile
 {
 
 // Lists one after the other: vertex i has springs first_spring .. + springs, in ascending order of neighbors, and
-// corners likewise, in the order of the triangles. Each spring stands twice, once for either end. A fabric's mesh has a
+// the same for corners, in the order of the triangles. Each spring is listed twice, once per end. A fabric's mesh has a
 // membrane corner for each corner.
 struct MeshTopology
 {
@@ -23,26 +23,26 @@ struct MeshTopology
     SharedArray<glm::uvec3> triangles;          // as they were given
     SharedArray<glm::vec2> texture_coordinates; // m of fabric, as they were given or projected
     MeshReport report;
-    bool isometric = false;    // it has the coefficients of isometric bending
-    bool masses_alike = false; // it has springs along its edges in place of a membrane
+    bool isometric = false;      // it has the coefficients of isometric bending
+    bool uniform_masses = false; // it has springs along its edges in place of a membrane
 
-    // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of springs all alike; the
+    // Bounds for the fastest modes of a fabric (a vertex of mass areal density * area) and of uniform springs; the
     // membrane's follows from the fabric (membrane_rates).
     struct Bounds
     {
-        double edge = 0;     // alike: 1 (times k / m)
-        double opposite = 0; // fabric: 1/m^4 (times B / rho); alike: 1
-        double bending = 0;  // of the isometric model: 1/m^4 (times B / rho); alike: 1/m^2 (times B / m)
+        double edge = 0;     // uniform: 1 (times k / m)
+        double opposite = 0; // fabric: 1/m^4 (times B / rho); uniform: 1
+        double bending = 0;  // of the isometric model: 1/m^4 (times B / rho); uniform: 1/m^2 (times B / m)
     };
     Bounds fabric;
-    Bounds alike;
+    Bounds uniform;
     double mean_area = 0; // m^2, of the vertices that have any
 };
 
 // `positions`: the shape at rest. Indices must be within it. `isometric`: with the coefficients of isometric bending,
-// which reaches half as many vertices again as springs do. `masses_alike`: the vertices' masses are not in proportion
+// which reaches half as many vertices again as springs do. `uniform_masses`: the vertices' masses are not in proportion
 // to their areas, and springs along the edges take the place of a membrane; else `fabric` has its direction.
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                                const FabricCoordinates& fabric, bool isometric, bool masses_alike);
+                                const FabricCoordinates& fabric, bool isometric, bool uniform_masses);
 
 } // namespace voile

@@ -1,4 +1,4 @@
-// Model: appending a cloth, and what the validation of all cloths shares.
+// Model: adding and removing cloths, and validation for all kinds of cloth.
 #include "model/model.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Model: the host's copy of the cloths that were added to a solver, in the layout that is uploaded.
+// Model: the cloths and anchors of a solver on the host, in the layout that is uploaded.
 #pragma once
 
 #include "model/cloth_model.hpp"

@@ -1,4 +1,4 @@
-// What the validation of all input shares: is a value within its range, and the words where it is not.
+// Checks of input values against their ranges, and the messages of values outside.
 #pragma once
 
 #include "voile/ranges.hpp"

@@ -1,7 +1,8 @@
 // SubstepPlan: how many substeps each cloth takes in a step.
 //
-// Cloths are grouped by level. A cloth of level k takes one substep where one of level 0 takes 2^k, so that all meet at
-// the end of each of the longest substeps. The number of substeps and the levels are those with the least work.
+// Cloths are grouped by level. A cloth of level k takes one substep where one of level 0 takes 2^k, so all
+// levels end each of the longest substeps at the same time. The number of substeps and the levels are those with the
+// least work.
 #pragma once
 
 #include "shared/step_layout.h"
@@ -13,18 +14,19 @@
 namespace voile
 {
 
-// Of one cloth that takes part.
+// Of one active cloth.
 struct SubstepNeed
 {
-    uint32_t substeps = 1; // that keep all of its stiffness
+    uint32_t substeps = 1; // with which it keeps all of its stiffness
     uint64_t vertices = 0;
 };
 
 struct SubstepLimits
 {
-    uint32_t substeps = 0;          // of each cloth, at most
-    uint64_t vertex_substeps = 0;   // sum of vertices times substeps, at most; 0: no limit
-    uint64_t dispatch_vertices = 0; // the vertices that take as long as the dispatches of a substep do without any
+    uint32_t substeps = 0;        // of each cloth, at most
+    uint64_t vertex_substeps = 0; // sum of vertices times substeps, at most; 0: no limit
+    uint64_t dispatch_vertices =
+        0; // vertices whose substep takes as long as the dispatches of a substep without vertices
     uint32_t levels = VOILE_SUBSTEP_LEVELS;
 };
 

@@ -120,7 +120,7 @@ std::vector<Path> paths_from(const Surface& surface, std::span<const uint32_t> p
     return paths;
 }
 
-// Pins that hang together by edges, group by group, the largest first.
+// Groups of pins that are connected by edges, the largest first.
 std::vector<std::vector<uint32_t>> pin_groups(const Surface& surface)
 {
     std::vector<bool> waiting(surface.positions.size());

@@ -39,7 +39,7 @@ static_assert(std::ranges::all_of(k_declarations,
                                       return std::ranges::count(k_declarations, declared.number,
                                                                 &BufferDeclaration::number) == 1;
                                   }),
-              "a number stands twice");
+              "two declarations have the same number");
 static_assert(std::ranges::all_of(k_declarations,
                                   [](const BufferDeclaration& declared) {
                                       return (declared.kind == BufferKind::role) ==

@@ -18,7 +18,7 @@ Result<const BufferDeclaration*> declaration_of(const gpu::Kernel& kernel, const
     const std::string name = std::string("kernel \"") + kernel.name() + "\": binding ";
     const BufferDeclaration* declared = find_declaration(binding.number);
     if (declared == nullptr)
-        return Error{name + std::to_string(binding.number) + " stands in no table of buffers"};
+        return Error{name + std::to_string(binding.number) + " is in no table of buffers"};
     if (binding.stride == 0 || declared->entry_bytes % binding.stride != 0) // it may be read in parts
         return Error{name + '"' + declared->name + "\" has entries of " + std::to_string(binding.stride) +
                      " bytes, a " + declared->entry + " has " + std::to_string(declared->entry_bytes)};

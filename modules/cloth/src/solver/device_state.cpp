@@ -33,7 +33,7 @@ bool fits(const BufferCounts& counts, uint64_t max_bytes)
         { return declared.number >= entries.size() || entries[declared.number] * declared.entry_bytes <= max_bytes; });
 }
 
-// Room for what is needed; where something must grow, for half more than there was, if the device can bind that.
+// Room for `needed`. A count that must grow grows by at least half, if the device can bind that.
 BufferCounts grown(const BufferCounts& present, const BufferCounts& needed, uint64_t max_bytes)
 {
     BufferCounts roomy = present;
@@ -46,7 +46,7 @@ BufferCounts grown(const BufferCounts& present, const BufferCounts& needed, uint
     return fits(roomy, max_bytes) ? roomy : exact;
 }
 
-// Words per patch of the lists of near colliders; none for a few colliders, nor where the lists would be too large.
+// Words per patch of the lists of near colliders; 0 for a few colliders, or if the lists would be too large.
 uint32_t near_stride(uint64_t colliders, const BufferCounts& capacities, uint64_t max_bytes)
 {
     const auto stride = static_cast<uint32_t>(VOILE_NEAR_WORDS + (capacities.colliders + 31) / 32);

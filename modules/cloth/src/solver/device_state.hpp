@@ -17,13 +17,13 @@
 namespace voile
 {
 
-// Of so many cloths, of one step.
+// Bytes of the votes of one step.
 constexpr VkDeviceSize votes_bytes(size_t cloths)
 {
     return cloths * VOILE_VOTE_WORDS * sizeof(uint32_t);
 }
 
-// Of so many cloths.
+// Bytes of the scales of strain limits.
 constexpr VkDeviceSize scales_bytes(size_t cloths)
 {
     return cloths * sizeof(shared::LimitScale);
@@ -55,18 +55,17 @@ struct BufferCounts
     [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
 };
 
-// Everything is allocated, and every set written, when it is made.
 struct DeviceState
 {
     std::array<gpu::Buffer, buffer::k_numbers> buffers; // by name; those that uploads allocate
     gpu::BindingPool pool;
     DescriptorSets sets;
     BufferCounts capacities;
-    uint32_t vertices = 0;       // that the last upload left in use, with gaps
+    uint32_t vertices = 0;       // in use since the last upload, with gaps
     uint32_t near_stride = 0;    // words per patch of near_colliders; 0: there are few colliders, and no lists
-    uint32_t collider_count = 0; // records that are written; those of removed colliders meet no cloth
+    uint32_t collider_count = 0; // records that are written; no cloth collides with those of removed colliders
 
-    uint32_t patch_count = 0; // that stand in the buffer of patches
+    uint32_t patch_count = 0; // in the buffer of patches
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }
 };
@@ -79,20 +78,20 @@ struct GrowthCopy
     VkDeviceSize bytes;
 };
 
-// The buffers that replace those of `present` which are too small, each by half larger at least, and sets that bind
-// them. What is not replaced is null here and stays.
+// The buffers that replace those of `present` that are too small, each at least half larger, and sets that bind them.
+// A buffer that stays is null here.
 struct Growth
 {
     DeviceState next;
     std::vector<GrowthCopy> copies;
-    bool any = false; // else only the counts of `next` are of use
+    bool any = false; // else `next` has only counts
 };
 
 // Nothing changes on an error: out of memory, beyond the device's limits. `statistics`: where the reduction writes.
 Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const DeviceState* present,
                     const BufferCounts& needed, const gpu::Buffer& statistics);
 
-// Takes what grew into `device`, and returns what was replaced.
+// Moves the new buffers into `device` and returns the replaced ones.
 DeviceState replace_grown(DeviceState& device, Growth growth);
 
 } // namespace voile

@@ -1,4 +1,4 @@
-// Edits: what the host changes between steps, recorded at the beginning of the next one.
+// Edits: changes by the host, recorded at the beginning of the next step.
 #include "solver/solver_state.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values)
     return std::as_bytes(std::span(values));
 }
 
-// The anchors as the GPU sees them, one at a time: recording allocates nothing.
+// One anchor at a time, because recording allocates nothing.
 void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const DeviceState& device = *solver.device;
@@ -64,7 +64,7 @@ void update_records(gpu::Recorder& recorder, const Solver::State& solver)
     }
 }
 
-// What moves in a step, or did in the one before and must come to rest.
+// What moves in this step, or moved in the step before and must be set to rest.
 struct Moved
 {
     bool anchors = false;
@@ -88,7 +88,7 @@ void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved&
         update_motions(recorder, solver);
 }
 
-// m, at most: how far a pose takes what lies within `radius` of `center`.
+// m: a bound for the displacement of points within `radius` of `center`.
 float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::dvec3& center, double radius)
 {
     const glm::dmat4 change = glm::dmat4(to) - glm::dmat4(from);
@@ -98,7 +98,7 @@ float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::
     return static_cast<float>(glm::length(glm::dvec3(change * glm::dvec4(center, 1))) + std::sqrt(squares) * radius);
 }
 
-// Of anchors, and of colliders that have no box, what lies within a meter of their origin counts.
+// Anchors, and colliders without a box, count with the points within a meter of their origin.
 float farthest_motion(const Solver::State& solver)
 {
     float farthest = 0;
@@ -140,7 +140,7 @@ bool refit_due(const Solver::State& solver)
     return false;
 }
 
-// What moved rests at its end, unless it is moved again.
+// Anchors and colliders rest at the end of their motion, unless they are moved again.
 void finish_motions(Solver::State& solver)
 {
     for (auto [index, anchor] : solver.model.anchors)

@@ -1,4 +1,4 @@
-// The hierarchy of a mesh collider as boxes to look at.
+// The boxes of a mesh collider's hierarchy, for debug views.
 #include "solver/solver_state.hpp"
 
 namespace voile

@@ -1,4 +1,4 @@
-// What takes part in steps: the lists over active cloths, and the passes that these and the colliders need.
+// The lists of active cloths, their levels of substeps, and the passes that they and the colliders need.
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
@@ -13,7 +13,7 @@ namespace voile
 namespace
 {
 
-// The vertices that take as long to step as the dispatches of a substep do without any.
+// The number of vertices whose substep takes as long as the dispatches of a substep without vertices.
 constexpr uint64_t k_dispatch_vertices = 32768;
 constexpr uint64_t k_dispatch_vertices_cpu = 256;
 
@@ -66,7 +66,7 @@ void Solver::State::update_attachments()
     if (!device)
         return;
     attachment_counts = count_attachments(model);
-    if (fits()) // else those in the buffers go on
+    if (fits()) // else those in the buffers stay in use
         list_attachments(model, assigned_level, lists);
     else
         dirty = true;
@@ -106,7 +106,7 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
     if (fits())
         list_attachments(model, assigned_level, lists);
     else
-        merge_levels(lists); // those in the buffers go on
+        merge_levels(lists); // those in the buffers stay in use
     edits.patches = edits.attachments = true;
 }
 

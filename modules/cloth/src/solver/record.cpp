@@ -1,4 +1,4 @@
-// The recording of a step: the list of passes, as ARCHITECTURE.md shows it.
+// Records a step: the passes that ARCHITECTURE.md lists.
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 #include "solver/substeps.hpp"
@@ -35,7 +35,7 @@ void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
                      after.accesses | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
-// The number of a step's first substep. Where the numbers are used up, all that is told apart by them is made anew.
+// The number of a step's first substep. Before a number repeats, everything that stores numbers of substeps is cleared.
 uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, uint32_t substeps)
 {
     const uint32_t taken = substeps + 1; // the strain limit has one of its own
@@ -54,10 +54,11 @@ void record_normals(gpu::Recorder& recorder, const Solver::State& solver)
                       std::span<const std::byte>{});
 }
 
-// Finds the way out for vertices inside of colliders. Nothing is recorded where none has an inside.
+// Finds the exits of vertices inside colliders. Records nothing if no collider has an inside.
 //
-// Contact keeps vertices out of what stands still. So all are looked at where something else may have brought them in,
-// and every few steps for what rounding has; besides, as long as the step before has found one inside.
+// Contact keeps vertices out of colliders at rest. So all vertices are checked only if something else may have moved
+// them inside, and every few steps because of rounding. Otherwise an indirect dispatch runs as long as the step before
+// has found a vertex inside.
 void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, const Step& step)
 {
     if (!solver.passes.depenetration)
@@ -83,8 +84,7 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
     publish_dispatch(recorder);
 }
 
-// Everything of a step but what the host has changed. It changes nothing but `history`, so that a dry recorder can
-// count what the next step takes.
+// Everything of a step but edits. Changes only `history`, so a dry recorder can count the dispatches of the next step.
 void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, StepHistory& history,
                    const Step& step, const SubstepPlan& plan)
 {
@@ -136,7 +136,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     fill(buffer::candidate_triangles, 0);
     fill(buffer::feature_corrections, VOILE_NO_SUBSTEP);
     fill(buffer::depenetrations, 0);
-    constexpr uint32_t k_not_a_number = 0xffffffff; // no place is in a box of these
+    constexpr uint32_t k_not_a_number = 0xffffffff; // no position is in a box of these
     fill(buffer::near_colliders, k_not_a_number);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                      k_storage);
@@ -196,7 +196,7 @@ uint32_t Solver::dispatches(const Step& step) const
         return 0;
     gpu::Recorder dry(state_->context);
     StepHistory history = state_->history;
-    history.normals_due = false; // what follows an upload is not counted
+    history.normals_due = false; // passes after an upload are not counted
     std::vector<SubstepNeed> needs;
     const SubstepPlan plan = state_->plan(step, needs, nullptr);
     const LevelOf level_of = [&](const ClothModel& cloth)

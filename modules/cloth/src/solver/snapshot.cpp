@@ -1,4 +1,4 @@
-// Snapshot: the state of all cloths, kept to go back to.
+// Snapshot: a copy of the state of all cloths.
 #include "solver/solver_state.hpp"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ std::span<const std::byte> Snapshot::bytes() const
 namespace
 {
 
-// Positions, residuals and velocities stand in the first 40 bytes per vertex, one stream after the other; the scales of
-// strain limits stand last, before depenetration's step.
+// Positions, residuals and velocities are the first 40 bytes per vertex, one stream after the other. The scales of
+// strain limits come last, before depenetration's step.
 Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, size_t cloths)
 {
     const auto load = [&](size_t offset)
@@ -89,7 +89,7 @@ struct Stream
     bool per_vertex;
 };
 
-// The streams of all vertices, and what depenetration and the strain limit remember from one step to the next.
+// The streams of all vertices, and the data of depenetration and the strain limit that the next step needs.
 std::array<Stream, 6> streams_of(uint32_t depenetration_step)
 {
     return {{{buffer::positions, sizeof(glm::vec4), true},
@@ -213,7 +213,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     state_->context.fn.vkCmdUpdateBuffer(cmd, buffer, end, sizeof(step), &step);
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
-    state_->history.depenetration_due = true; // as after restoring: both go on alike
+    state_->history.depenetration_due = true; // as after restoring, so that both continue the same way
     return {};
 }
 

@@ -17,7 +17,8 @@ namespace voile
 namespace
 {
 
-// Subgroups of a CPU device are few and narrow: a thread of its own for each triangle only repeats what they share.
+// CPU devices have few, narrow subgroups. There several threads per vertex only repeat the work that they have in
+// common.
 uint32_t feature_threads(const gpu::Context& context, const SolverOptions& options)
 {
     constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
@@ -140,7 +141,7 @@ Result<ClothId> Solver::add_cloth(const GridCloth& grid)
 Result<ClothId> Solver::add_cloth(const MeshCloth& mesh)
 {
     const JobScope scope(state_->options.jobs);
-    // About 12 springs of 16 bytes a vertex; a vertex of many triangles makes all lists of its workgroup longer.
+    // About 12 springs of 16 bytes per vertex; a vertex of many triangles makes all lists of its workgroup longer.
     constexpr uint64_t k_bytes_per_vertex = 256;
     const uint64_t vertices = mesh.cooked ? mesh.cooked.vertices() : mesh.positions.size();
     const uint64_t bytes = state_->model.lists.end_with(k_list_vertices, vertices) * k_bytes_per_vertex;

@@ -1,4 +1,4 @@
-// What the host does with colliders that are there already: moving them, and attaching cloth to their surfaces.
+// Changes of colliders by the host: moves, friction, radius, layers, and attachments to their surfaces.
 #include "geometry/bvh_query.hpp"
 #include "solver/solver_state.hpp"
 
@@ -12,7 +12,7 @@ namespace voile
 namespace
 {
 
-// The nearest place of a collider's surface, both in the collider's space, as its record has it.
+// The point of a collider's surface nearest to x, both in the collider's space, as in its record.
 using FindSurface = std::function<std::optional<glm::dvec3>(const glm::dvec3& x)>;
 
 glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& x)

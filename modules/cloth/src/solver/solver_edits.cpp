@@ -1,4 +1,4 @@
-// Changes of cloths that are there already. Each is validated here and recorded by edits.cpp.
+// Changes of cloths and anchors by the host. Each is validated here and recorded by edits.cpp.
 #include "solver/solver_state.hpp"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace voile
 namespace
 {
 
-// The same kind of masses as before: what a vertex's density multiplies is fixed when the cloth is added.
+// A cloth keeps its kind of masses: the measure that the density multiplies is fixed when the cloth is added.
 Result<void> check_kind(const ClothModel& cloth, const ClothMaterial& material)
 {
     if (cloth.material.index() != material.index())

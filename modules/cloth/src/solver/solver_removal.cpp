@@ -45,7 +45,7 @@ Result<void> Solver::remove(AnchorId anchor)
     return {};
 }
 
-// Tethers to pins that are left without any vanish, too, and come back with the next pin.
+// Tethers without a pin end, too. The next pin restores them.
 void Solver::State::remove_attachments(ClothId id, AnchorId anchor)
 {
     ClothModel& cloth = *model.cloths.find(id);

@@ -48,8 +48,7 @@ void StepRecorder::record()
         record_strain_limit();
 }
 
-// Attachments and contact have the last word on positions; then the guard measures what all of it has done to the
-// energy.
+// Attachments and contact correct the positions last. Then the guard measures the change of energy by all of this.
 void StepRecorder::record_strain_limit()
 {
     record_limit_passes();
@@ -83,7 +82,7 @@ void StepRecorder::record_limit_guard()
         for_each_level([&](LevelRecorder& level) { level.record_limit_work(set); });
     for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
     {
-        if (measurement > 0) // at what is left of the limit's changes
+        if (measurement > 0) // of what remains of the limit's changes
             for_each_level([&](LevelRecorder& level) { level.record_limit_work(device_.sets.limit_work[3]); });
         recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, patches_,
                            shared::LimitScalePush{patches_.count, 1 / context_.step.duration, measurement});

@@ -8,7 +8,7 @@
 namespace voile
 {
 
-// Queries of what is near find the state in its own buffers.
+// Near queries read the state in its own buffers, not in stage B.
 static_assert(VOILE_NEAR_PERIOD % 2 == 0 && VOILE_FEATURE_PERIOD % 2 == 0);
 
 namespace
@@ -41,7 +41,7 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
       device_(*solver_.device), lists_(context.lists.levels[level]), level_(level),
       group_(solver_.options.tuning.workgroup_size), substeps_(context.plan.substeps_of(level)),
       h_(context.step.duration / static_cast<float>(substeps_)), has_contact_(solver_.passes.contact),
-      // Rays along normals look at what neighbors propose, which must not change meanwhile.
+      // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point)
 {
 }
@@ -131,13 +131,13 @@ void LevelRecorder::record_attachments(uint32_t substep, float duration)
     recorder_.dispatch(kernels_.tethers, device_.sets.proposed_tethers[from], push.count, group_, push);
 }
 
-// What comes after the last substep, for the strain limit, sees all colliders at their end.
+// Passes after the last substep, for the strain limit, see all colliders at the step's end.
 float LevelRecorder::progress(uint32_t substeps_done) const
 {
     return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
 }
 
-// What something hits or drags becomes no faster than what moves, or than this.
+// An upper bound for the speed of a vertex that something hits or drags.
 float LevelRecorder::sudden_speed() const
 {
     constexpr float k_sudden = 10; // m/s

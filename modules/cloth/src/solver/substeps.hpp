@@ -6,7 +6,7 @@
 namespace voile
 {
 
-// What the passes of a step are recorded from.
+// The input of the recording of a step.
 struct StepContext
 {
     gpu::Recorder& recorder;
@@ -24,8 +24,8 @@ class LevelRecorder
 public:
     LevelRecorder(const StepContext& context, uint32_t level);
 
-    // Which colliders are near which patches, until the next query. Nothing where there are few. The first one comes
-    // before whatever else walks over colliders in the step.
+    // Lists the colliders near each patch, until the next query. Records nothing with few colliders. The first query
+    // comes before all other passes of the step that read colliders.
     void record_near_colliders(uint32_t substep);
     // Integration, attachments, tethers and contact.
     void record_substep(uint32_t substep);
@@ -39,10 +39,10 @@ private:
     [[nodiscard]] shared::StagePush make_push(double substeps) const; // after so many of them
     void record_rk4(uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
-    // At the substep's end, over `duration` s; over 0 springs add nothing, and bounds still hold.
+    // At the substep's end, over `duration` s. With 0, springs add nothing and only bounds hold.
     void record_attachments(uint32_t substep, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
-    // Which patches are near corners and edges of colliders, until the next query.
+    // Lists the patches near features, until the next query.
     void record_near_features(uint32_t substep);
     [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
@@ -50,9 +50,8 @@ private:
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     [[nodiscard]] gpu::Workgroups patches() const;
     [[nodiscard]] gpu::Workgroups verlet_patches() const;
-    // Whether a substep begins in stage B: the state goes back and forth between there and its own buffers. With
-    // contact it ends in these, since the last pass copies if their number is odd. Without contact that is Verlet's
-    // alone.
+    // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
+    // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const
     {
         return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
@@ -68,8 +67,8 @@ private:
     uint32_t group_;
     uint32_t substeps_;
     float h_;          // s
-    bool has_contact_; // the contact pass runs on what is proposed
-    bool swaps_;       // and changes it in place; else it takes all of it from stage B into the state
+    bool has_contact_; // the contact pass runs on the proposed state
+    bool swaps_;       // and changes it in place; otherwise it copies the state from stage B
 };
 
 // The passes of all levels, in the order of time, and the strain limit at the end.
@@ -98,7 +97,7 @@ private:
     std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_LEVELS> levels_; // none for a level without cloths
 };
 
-// Passes of the strain limit whose widest level has that spacing: an odd number.
+// The number of passes of the strain limit whose widest spacing is given; it is odd.
 uint32_t limit_passes(uint32_t widest_spacing);
 
 } // namespace voile

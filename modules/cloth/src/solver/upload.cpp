@@ -1,4 +1,4 @@
-// Upload: what was added goes into the solver's buffers, which grow where it does not fit.
+// Upload: copies new cloths and colliders into the solver's buffers, which grow if they are too small.
 #include "geometry/parallel.hpp"
 #include "solver/solver_state.hpp"
 #include "solver/staging.hpp"
@@ -11,7 +11,7 @@ namespace voile
 namespace
 {
 
-// Planes have their origins near where the cloths that meet them start.
+// The origin of a plane is near the start of the cloths that collide with it.
 void set_plane_origin(const Model& cloths, ColliderModel& plane)
 {
     Extent all;
@@ -113,7 +113,7 @@ Staging stage_new(Solver::State& solver)
     return staging;
 }
 
-// What the buffers must have room for.
+// The entries that the buffers must have room for.
 BufferCounts count_entries(const Solver::State& solver)
 {
     // For attachments and anchors that come later.
@@ -156,7 +156,7 @@ std::vector<ColliderId> new_deforming(const ColliderModels& models)
     return ids;
 }
 
-// From now on the state is the GPU's.
+// From now on the GPU has the state.
 void mark_uploaded(Solver::State& solver)
 {
     for (auto [index, cloth] : solver.model.cloths)
@@ -181,7 +181,7 @@ constexpr VkAccessFlags2KHR k_copy_accesses = VK_ACCESS_2_TRANSFER_READ_BIT_KHR 
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
-// Copies of what was there, then of what is new: these may go into the same buffer.
+// Copies the former contents, then what is new: both may go into the same buffer.
 void record_copies(gpu::Recorder& recorder, const Solver::State& solver, std::span<const GrowthCopy> grown,
                    const Staging& staging, VkBuffer staged)
 {

@@ -1,4 +1,4 @@
-// The cloth module as components of the engine. No other code knows both.
+// The cloth module as components of the engine. No other code uses both.
 #pragma once
 
 #include "voile/solver.hpp"
