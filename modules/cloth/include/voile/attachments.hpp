@@ -46,7 +46,7 @@ struct Attachment
     Vec3 backstop_normal{0.f};
     float backstop = 0; // m, -1e6..1e6
 
-    // The same attachment to an anchor; to a point (m, in the anchor's space); with a limit; with a backstop.
+    // Copies of the attachment: to an anchor; at a point (m, in the anchor's space); with a limit; with a backstop.
     [[nodiscard]] Attachment to(AnchorId frame) const;
     [[nodiscard]] Attachment at(const Vec3& point) const;
     [[nodiscard]] Attachment with_max_distance(float distance) const;

@@ -1,4 +1,4 @@
-// Cooked data: what a mesh costs to add, computed once, kept in a file, shared by all who use the mesh.
+// Cooked data: the expensive part of adding a mesh, computed once, kept in a file, shared by all instances of the mesh.
 //
 //   auto asset = cook(MeshCloth{.positions = ..., .triangles = ..., .material = wool()}); // slow, once
 //   write(asset.value().bytes());                                                     // a file of the host's
@@ -6,10 +6,10 @@
 //   auto asset = CookedCloth::load(bytes, owner);                                       // checked, not copied
 //   solver.add_cloth({.transform = here, .material = wool(), .cooked = asset.value()});  // as often as needed
 //
-// Bytes are for the version of the module that wrote them and for little-endian machines; load refuses others, and data
-// that is damaged: cook the mesh again. They hold no paths, names or pointers. Loading trusts nothing: whatever the
-// bytes are, it returns an error or data that is safe to use. It does not prove that the data is what cook makes of a
-// mesh; a file that somebody made up can hold a cloth with springs of any kind.
+// Bytes are for the version of the module that wrote them and for little-endian machines. load refuses others and
+// damaged data: cook the mesh again. They hold no paths, names or pointers. Loading is safe for any bytes: it returns
+// an error or data that is safe to use. It does not prove that cook made the data; a forged file can hold a cloth with
+// any springs.
 #pragma once
 
 #include "voile/export.hpp"
@@ -29,7 +29,7 @@ namespace voile
 struct MeshCloth;
 struct MeshCollider;
 
-// A cloth mesh with its springs, folds and membrane. Copies share what they hold, which never changes; any thread may
+// A cloth mesh with its springs, folds and membrane. Copies share the data, which never changes; any thread may
 // use them. A default-constructed one holds nothing.
 class VOILE_API CookedCloth
 {
@@ -76,11 +76,11 @@ private:
     std::shared_ptr<const State> state_;
 };
 
-// From the positions, triangles, texture coordinates and transform of the description, and from what its material says
-// of the springs: Fabric or Material, isometric bending or not. Errors: those of Solver::add_cloth.
+// Uses the positions, triangles, texture coordinates and transform of the description, and of its material whether it
+// is a Fabric or a Material and whether it bends isometrically. Errors: those of Solver::add_cloth.
 VOILE_API Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs = {});
 
-// From the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.
+// Uses the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.
 VOILE_API Result<CookedCollider> cook(const MeshCollider& collider, const Jobs& jobs = {});
 
 } // namespace voile

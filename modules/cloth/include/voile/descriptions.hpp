@@ -26,7 +26,8 @@ enum class Integrator
 
 // A rectangular cloth. It lies flat in x and z, centered on the origin, before its transform.
 //
-// Vertex index = row * columns + column. Column c lies at x = (c / (columns - 1) - 1/2) * width, row r likewise in z.
+// Vertex index = row * columns + column. Column c lies at x = (c / (columns - 1) - 1/2) * width, row r in z by the same
+// rule.
 struct GridCloth
 {
     // For messages and captures.
@@ -74,8 +75,8 @@ struct GridCloth
 //   of all, or as all but 12 of 240 and more, or as 95 % of 60 and more. It gets the stiffness of the stiffest other.
 // - A fold, or a spring across an edge, is softened where it is 64 times as stiff.
 // - Masses stay, and forces between vertices stay equal and opposite.
-// - Nothing is softened in a mesh of fewer than 60 triangles, of triangles much alike, or of sizes that change
-//   gradually. Springs of a Material are all alike and are never softened.
+// - Nothing is softened in a mesh of fewer than 60 triangles, of similar triangles, or of sizes that change
+//   gradually. Springs of a Material are uniform and are never softened.
 struct MeshCloth
 {
     // For messages and captures.
@@ -113,14 +114,15 @@ struct MeshCloth
 
     // Bits. The cloth collides with colliders that share one.
     uint32_t layers = 1;
-    // In place of positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest
-    // is that of the transform that it was cooked with; this one may differ from it by a turn and a translation. With
-    // the same transform results equal those of the mesh itself to the bit. The material is of the kind that it was
-    // cooked with, and bends isometrically only if that did.
+
+    // Replaces positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest is
+    // that of the transform at cooking. This transform may differ from that one by a rotation and a translation. With
+    // the same transform results equal those of the mesh itself to the bit. The material must be of the same kind as at
+    // cooking, and may bend isometrically only if that one did.
     CookedCloth cooked{};
 };
 
-// What a mesh is like as a cloth.
+// Irregularities of a mesh as a cloth.
 struct MeshReport
 {
     uint32_t components = 0;           // pieces that are connected by edges
@@ -159,9 +161,9 @@ enum class Sidedness
 //   stretched: of 60 random poses the worst was stretched by 21 %, and of those without gravity the fastest part
 //   reached 2.5 m/s.
 // - Until it is out, a vertex's own motion is slowed to 0.6 m/s, a collider carries it at 0.75 m/s at most, the
-//   collider's edges and corners do not stop its cloth, and no other solid stops the vertex.
+//   collider's edges and corners do not stop the cloth, and no other solid stops the vertex.
 // - A vertex below a plane, or nearer to a surface than the thickness at the start of a substep, rises at 0.75 m/s.
-// - Vertices inside are looked for after uploads, edits and snapshots, where colliders move, as long as any are inside,
+// - Vertices are checked after uploads, edits and snapshots, where colliders move, as long as any are inside,
 //   and every eighth step. A collider that moves onto cloth pushes it at any speed.
 //
 // Edges and corners. Edges and corners of colliders collide with the triangles and edges of cloths
@@ -171,15 +173,15 @@ enum class Sidedness
 //   of a BoxCollider remained, and at 60 m/s a needle stays through the sheet.
 // - Meshes that deform have no edges and corners. Only vertices collide with them, and spikes that turn through cloth
 //   can tear it along (551 m/s at tips of 23 m/s; 35 with edges and corners).
-// - Static friction holds less exactly for cloth that edges, corners, thin spheres and capsules bear between its
+// - Static friction is less exact for cloth that edges, corners, thin spheres and capsules support between its
 //   vertices. It may slip from 0.8 of static friction on, and creeps by less than 0.3 mm/s. Finer cloth, which touches
 //   with its vertices, does neither.
 //
 // Rest. Cloth at rest stays at rest where its vertices touch. Cloth that hangs free swings for long: the hem of coarse
-// wool on a box at some 50 mm/s after 10 s.
+// wool on a box moves at some 50 mm/s after 10 s.
 //
 // Cost. A collider costs time where cloth is near. With more than 8 colliders, the solver lists every 16 substeps which
-// are near which part of a cloth. Planes are near everywhere.
+// are near which part of a cloth. Planes count as near everywhere.
 
 // A triangle mesh.
 //

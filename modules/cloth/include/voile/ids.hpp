@@ -1,7 +1,9 @@
-// Ids of the cloths, colliders and anchors of a solver. A default-constructed id names nothing, and neither does the id
-// of something that was removed: its index is used again, with another generation. Functions answer such an id with an
-// error, or with an empty value if they return no Result (solver.hpp). An id is valid for the solver that returned it;
-// other solvers cannot recognize it as foreign.
+// Ids of the cloths, colliders and anchors of a solver.
+//
+// A default-constructed id is not valid, nor is the id of something that was removed: a later addition may get its
+// index, with another generation. For an invalid id, functions return an error, or an empty value if they return no
+// Result (solver.hpp). An id is valid for the solver that returned it. Other solvers cannot detect that it is not
+// theirs.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +16,7 @@ constexpr uint32_t k_no_index = UINT32_MAX;
 struct ClothId
 {
     uint32_t index = k_no_index;
-    uint32_t generation = 0; // raised each time that the index is given again
+    uint32_t generation = 0; // raised each time that the index becomes free
 
     friend bool operator==(const ClothId&, const ClothId&) = default;
 };
@@ -22,7 +24,7 @@ struct ClothId
 struct ColliderId
 {
     uint32_t index = k_no_index;
-    uint32_t generation = 0; // raised each time that the index is given again
+    uint32_t generation = 0; // raised each time that the index becomes free
 
     friend bool operator==(const ColliderId&, const ColliderId&) = default;
 };
@@ -31,7 +33,7 @@ struct ColliderId
 struct AnchorId
 {
     uint32_t index = k_no_index;
-    uint32_t generation = 0; // raised each time that the index is given again
+    uint32_t generation = 0; // raised each time that the index becomes free
 
     friend bool operator==(const AnchorId&, const AnchorId&) = default;
 };

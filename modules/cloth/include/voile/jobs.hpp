@@ -1,4 +1,4 @@
-// Jobs: the host's job system, for what the module does on several threads of the processor.
+// Jobs: the host's job system, for work of the module on several threads of the processor.
 #pragma once
 
 #include <cstdint>
@@ -6,20 +6,20 @@
 namespace voile
 {
 
-// Adding and cooking large meshes is shared out. Without a job system threads of the module's own do it, one per core,
-// as long as the call takes; results do not depend on who does it, on how many threads or in what order, to the bit.
+// Adding and cooking large meshes uses several threads. Without a job system the module starts its own, one per core,
+// for the duration of the call. Results are equal to the bit for any job system, number of threads and order.
 //
-// `run` calls task(data, index) for every index below `count`, each once, on any threads and in any order, one after
-// the other if it likes, and returns when all calls have returned. A task takes up what is left to do and may wait for
-// other tasks that have begun, never for one that has not. It neither throws nor calls `run`. The calling thread may
-// run tasks itself. `run` must not throw, and `user` is passed on as it is.
+// `run` calls task(data, index) once for every index below `count` and returns when all calls have returned. It may use
+// any threads and any order, also one after the other on the calling thread. A task may wait for tasks that have begun,
+// never for one that has not. It neither throws nor calls `run`. `run` must not throw. `user` is passed to it
+// unchanged.
 struct Jobs
 {
     using Task = void (*)(void* data, uint32_t index);
 
     void (*run)(void* user, uint32_t count, Task task, void* data) = nullptr; // null: the module's own threads
     void* user = nullptr;
-    uint32_t workers = 0; // tasks that can run at the same time, at most what `count` becomes; 0: the number of cores
+    uint32_t workers = 0; // most tasks that can run at the same time, the largest `count`; 0: the number of cores
 };
 
 } // namespace voile

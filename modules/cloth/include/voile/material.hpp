@@ -1,4 +1,4 @@
-// What a cloth is made of: a Fabric, or a Material. SI units.
+// The material of a cloth: a Fabric or a Material. SI units.
 #pragma once
 
 #include "voile/export.hpp"
@@ -11,8 +11,7 @@
 namespace voile
 {
 
-// The members' units, ranges and meanings stand in voile/material_parameters.hpp, one line each. A value outside its
-// range is an error.
+// voile/material_parameters.hpp has the unit, range and meaning of each member. A value outside its range is an error.
 
 // A spring pulls with stiffness * (length - rest length) + damping * (rate of lengthening).
 struct Spring
@@ -35,11 +34,11 @@ struct SpringSet
 // How a cloth resists folding.
 enum class BendingModel
 {
-    springs,   // springs between vertices two apart: no stiffness near flat, more the sharper the fold
+    springs,   // springs between vertices two apart: no stiffness near flat, more in sharper folds
     isometric, // linear in the curvature, as a thin plate (Bergou et al. 2006): follows a cantilever
 };
 
-// A material by the properties of its fabric. It behaves alike at every resolution.
+// A material by the properties of its fabric. It behaves the same at every resolution.
 struct Fabric
 {
     float areal_density = 0.15f;
@@ -56,9 +55,8 @@ struct Fabric
     BendingModel bending_model = BendingModel::springs;
 };
 
-// A material by masses and spring constants of the mesh. The reference scene is given this way. On a mesh, edges are
-// structural_warp springs, and bend_warp springs connect the two vertices opposite an edge. The other families are a
-// grid's, and so is border_scale.
+// A material by masses and spring constants, as in the reference scene. On a mesh, edges are structural_warp springs,
+// and bend_warp springs connect the two vertices opposite an edge. Only grids use the other families and border_scale.
 struct Material
 {
     float vertex_mass = 0.01f;
@@ -75,23 +73,22 @@ struct Material
     float strain_limit = 0;
 };
 
-// The strain limit acts at the end of each step. Its corrections keep linear momentum and take their energy from the
-// cloth, so that they add none. They may take angular momentum: up to (omega h)^2 / 2 of it in a step of h seconds,
-// where they pull together what turns at omega. Corrections undo what the step has stretched; motion and damping pay
-// for the rest.
+// The strain limit acts at the end of each step. Its corrections conserve linear momentum and add no energy: they undo
+// the stretch of the step, and the rest costs kinetic energy or energy that damping has dissipated. They may reduce
+// angular momentum, by up to (omega h)^2 / 2 per step of h seconds for cloth that spins at omega.
 // - A grid whose springs alone would stretch to several times the limit stays below 1.2 times the limit as it swings
 //   down for a second. At rest it hangs within 1.03 times the limit.
-// - Where corrections press stiff springs together, the limit is exceeded for longer. Cotton that falls on a sphere
-//   from 0.1 m stretches to 2 times a limit of 1 % for a moment, and rests at 1.5 times. With a limit of 0.1 % it is 21
+// - The limit is exceeded for longer where corrections would compress stiff springs. Cotton that falls on a sphere from
+//   0.1 m stretches to 2 times a limit of 1 % for a moment, and rests at 1.5 times. With a limit of 0.1 % it is 21
 //   times, and 6 times at rest.
-// - On a mesh corrections have no coarse levels to travel on. The lower end of a very soft cloth follows over some
-//   steps; tethers help.
+// - On a mesh corrections have no coarse levels. The lower end of a very soft cloth follows over some steps; tethers
+//   help.
 
 using ClothMaterial = std::variant<Fabric, Material>;
 
-// The springs and masses of a grid with the given spacing (m; a along rows, b along columns). The grid stretches as the
-// fabric says whatever its spacing, and shears so where its cells are not too oblong. The constants follow from the
-// energy of one cell under uniform strain:
+// The springs and masses of a grid with the given spacing (m; a along rows, b along columns). The grid stretches like
+// the fabric at any spacing, and shears like it if its cells are not too oblong. The constants follow from the energy
+// of one cell under uniform strain:
 // - Diagonals carry the shear stiffness: k_d = K_s (a^2 + b^2) / (2 a b).
 // - Diagonals also resist stretch, so structural springs resist it less. With p = a / b, the stiffness A of a strip
 //   along the warp that is held in its width solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and

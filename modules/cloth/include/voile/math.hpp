@@ -1,7 +1,7 @@
-// The vectors and matrices of the interface: GLM's, always tightly packed. Whatever the host tells GLM about its
-// default types (GLM_FORCE_DEFAULT_ALIGNED_GENTYPES and the like), the public structs keep their layout. With GLM's own
-// defaults Vec3 is glm::vec3. Where it is not, GLM converts single values; arrays of another layout are a compile error
-// and are copied by the host.
+// The vectors and matrices of the interface: GLM's, always tightly packed. Public structs have the same layout whatever
+// settings of GLM the host uses (GLM_FORCE_DEFAULT_ALIGNED_GENTYPES and the like). With GLM's defaults Vec3 is
+// glm::vec3. Otherwise GLM converts single values, and the host copies arrays: passing an array of another layout does
+// not compile.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -22,26 +22,25 @@ public:
 
     // Whether the mesh encloses a volume.
     [[nodiscard]] bool closed() const;
-    // Whether the sign tells two sides of the mesh apart: it is closed, or open with all triangles facing the same half
-    // space (a ground, a height field). Any other open mesh has no inside.
+    // Whether signs are meaningful: the mesh is closed, or open with all triangles facing the same half space (a
+    // ground, a height field). Any other open mesh has no inside.
     [[nodiscard]] bool has_sides() const;
 
     struct Nearest
     {
         DVec3 point{0.0};           // on the mesh, m
         double signed_distance = 0; // m; negative inside a closed mesh, or behind an open one
-        bool on_boundary = false;   // nearest to an edge that only one triangle has: the sign means little there
+        bool on_boundary = false;   // nearest to an edge of only one triangle, where the sign means little
     };
-    // The nearest point of the mesh, its sign from the angle-weighted normal of the feature that the point lies on
-    // (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal"). Of a mesh that
-    // cuts itself, or has parts in each other, the sign says on which side of that triangle the point is; what is
-    // inside, winding_number says.
+    // The nearest point of the mesh. The sign follows from the angle-weighted normal of the triangle, edge or vertex at
+    // that point (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted pseudonormal"). If
+    // the mesh intersects itself, or has parts in each other, use winding_number for the inside.
     [[nodiscard]] Nearest nearest(const DVec3& point) const;
 
-    // How often the mesh winds around the point: 1 inside a closed mesh, 0 outside, near these inside and outside of
-    // one with small holes, negative where it is inside-out (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust
-    // inside-outside segmentation using generalized winding numbers"). Of a closed mesh a whole number, also where it
-    // cuts itself, and found by the hierarchy; an open one takes a look at every triangle.
+    // How often the mesh winds around the point (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust inside-outside
+    // segmentation using generalized winding numbers"): 1 inside a closed mesh, 0 outside, negative inside an
+    // inside-out one, and near 1 and 0 for a mesh with small holes. For a closed mesh it is a whole number, even if it
+    // intersects itself, and the hierarchy finds it. For an open mesh every triangle is summed.
     [[nodiscard]] double winding_number(const DVec3& point) const;
 
     // Where the segment first crosses the mesh, as a fraction of its length.
@@ -53,7 +52,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Pairs of triangles that have no corner in common and cut each other: an edge of one passes through the other (Möller
+// Number of pairs of triangles without a common corner that intersect: an edge of one passes through the other (Möller
 // and Trumbore 1997). Indices must be within `positions`; triangles with a corner that is not finite are left out.
 VOILE_API uint64_t count_self_intersections(std::span<const Vec3> positions, std::span<const UVec3> triangles);
 

@@ -1,4 +1,4 @@
-// What the table in material_parameters.hpp is made of.
+// The types of the table in material_parameters.hpp.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace voile
 {
 
-// A number within a material, by the path of members that leads to it.
+// Access to a number within a material.
 template <typename M>
 struct MaterialMember
 {
@@ -28,12 +28,12 @@ struct ParameterComponent
     MaterialMember<M> member{};
 };
 
-// What a parameter's range does not say.
+// Rules of a parameter beside its range.
 template <typename M>
 struct ParameterRule
 {
     bool or_zero = false; // 0 is valid as well, and means none
-    // Another parameter of the same material that this one must not be below. Null: none.
+    // Another parameter of the same material, a lower bound for this one. Null: none.
     const char* least_name = nullptr;
     MaterialMember<M> least{};
 };

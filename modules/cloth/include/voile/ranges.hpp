@@ -8,12 +8,12 @@
 namespace voile
 {
 
-// Positions along each axis of the world: of the vertices of cloths and colliders where they are added, deformed or
-// moved to, of the centers of colliders, of the origins of anchors. A cloth may leave the range as it moves.
+// Positions along each axis of the world: of vertices of cloths and colliders when they are added, deformed or moved,
+// of centers of colliders and origins of anchors. A cloth may leave the range as it moves.
 //
 // The simulation uses finer positions than floats. Up to 16 km from the origin a scene behaves as at the
 // origin, to 0.1 %. At 130 km positions are known to 1e-7 m: nothing falls through, and all is finite. Input in floats
-// is coarser: 1 mm at 10 km. So give what is far away by a transform, or add it near the origin and move it, which
+// is coarser: 1 mm at 10 km. So place distant objects by a transform, or add them near the origin and move them, which
 // keeps rotations, sizes and the vertices of a mesh exact. The remaining rounding lets stiff cloth slip early on an
 // incline: cotton of 5 cm spacing slips where static friction exceeds the slope by less than 1.3 % at 8 km and 2.7 % at
 // 16 km. Smaller spacing slips earlier.

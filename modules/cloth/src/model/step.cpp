@@ -1,5 +1,5 @@
-// Step: what is refused.
-#include "voile/solver.hpp"
+// Step: validation.
+#include "voile/step.hpp"
 
 #include "model/range_checks.hpp"
 

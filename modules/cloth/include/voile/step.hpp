@@ -1,0 +1,51 @@
+// Step: the input of one call of Solver::record, and Stability: its substeps for one cloth.
+#pragma once
+
+#include "voile/export.hpp"
+#include "voile/math.hpp"
+#include "voile/result.hpp"
+
+#include <cstdint>
+
+namespace voile
+{
+
+// One call of record. All values must be finite and in their range, vectors in each component (voile/ranges.hpp).
+struct Step
+{
+    float duration = 1.f / 60; // s, 1e-6..10
+
+    // Substeps of every cloth, 0..1000000. 0: each cloth takes as many as it needs (Solver::stability). A cloth that
+    // needs more than it takes is softened.
+    uint32_t substeps = 0;
+
+    // The most substeps that a cloth takes if `substeps` is 0, 1..1000000.
+    uint32_t max_substeps = 2000;
+
+    // Budget for the sum of vertices times substeps over all enabled cloths, if `substeps` is 0. If they need more, the
+    // substeps of all cloths are reduced by the same fraction, to at least one per cloth. Solver::stability reports the
+    // remaining stiffness. 0: no budget.
+    uint64_t max_vertex_substeps = 0;
+
+    Vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
+    Vec3 wind{0.f};             // m/s, -1e3..1e3
+    float gust = 0;             // root mean square of the gusts as a fraction of the wind's speed, 0..10
+    float gust_length = 4;      // m, 0.01..1e6: the wavelength of the longest gusts; the shortest are an eighth of it
+    double time = 0;            // s, -1e9..1e9, at the step's start; the gusts depend on it and the position alone
+    float air_density = 1.225f; // kg/m^3, 0..1e5
+};
+
+// Errors: a member out of its range, with its name and value.
+VOILE_API Result<void> validate(const Step& step);
+
+// The substeps of a cloth in a step, with the cloths that the solver has now.
+struct Stability
+{
+    uint32_t needed = 0;       // substeps with which it keeps all of its stiffness and damping
+    uint32_t used = 0;         // substeps that it takes; fewer than needed only if the step limits them
+    float stiffness_scale = 1; // factor of its stiffness in this step, 0..1
+    float damping_scale = 1;   // factor of its damping in this step, 0..1
+    float load = 0;            // fraction of the integrator's stability limit that the substep takes up, 0..0.95
+};
+
+} // namespace voile
