@@ -1,6 +1,6 @@
 voile_add_test(test_hello_cloth SOURCES viewer/test_hello_cloth.cpp LIBRARIES voile::engine)
 add_dependencies(test_hello_cloth hello_cloth)
-voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
+voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_save_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
@@ -10,7 +10,7 @@ voile_add_test(test_refit SOURCES colliders/test_refit.cpp LIBRARIES voile::clot
 voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SOURCE_DIR}/shaders/cloth SHADERS ../../tests/colliders/visit_padded.comp)
 voile_add_test(test_integration SOURCES integration/test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
-    SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_statistics_file.cpp
+    SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_scene_syntax.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_statistics_file.cpp
             viewer/test_film.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
@@ -94,5 +94,5 @@ voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp LIBRARI
 voile_add_test(test_edits SOURCES solver/test_edits.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal.cpp solver/test_substeps.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal.cpp solver/test_collider_changes.cpp solver/test_substeps.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)

@@ -2,6 +2,8 @@
 // it got there. A double-precision query decides what is inside.
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+#include "support/odd_solids.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/mesh_checks.hpp"
@@ -12,22 +14,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <random>
 
 namespace
 {
 
 using tests::ClothHarness;
-
-glm::mat4 moved(const glm::vec3& displacement)
-{
-    return glm::translate(glm::mat4(1.f), displacement);
-}
-
-voile::MeshCollider collider(const voile::engine::Mesh& mesh)
-{
-    return {.positions = mesh.positions, .triangles = mesh.triangles};
-}
+using tests::collider;
+using tests::joined;
+using tests::moved;
+using tests::spire;
 
 voile::GridCloth sheet(uint32_t vertices, float size, const glm::vec3& middle)
 {
@@ -36,25 +31,6 @@ voile::GridCloth sheet(uint32_t vertices, float size, const glm::vec3& middle)
     grid.width = grid.depth = size;
     grid.transform = moved(middle);
     return grid;
-}
-
-// A spire on a triangle: angles of 4 degrees at its top, edges of very different lengths.
-voile::engine::Mesh spire()
-{
-    voile::engine::Mesh mesh;
-    mesh.positions = {{-0.05f, -0.2f, -0.04f}, {0.06f, -0.2f, -0.03f}, {0, -0.2f, 0.07f}, {0.01f, 1.2f, 0.005f}};
-    mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
-    return mesh;
-}
-
-// Both meshes, as separate parts.
-voile::engine::Mesh joined(voile::engine::Mesh mesh, const voile::engine::Mesh& other)
-{
-    const auto first = static_cast<uint32_t>(mesh.positions.size());
-    for (const glm::uvec3& t : other.triangles)
-        mesh.triangles.push_back(t + first);
-    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-    return mesh;
 }
 
 uint32_t count_inside(const voile::MeshDistance& exact, const std::vector<glm::vec4>& positions,
@@ -339,72 +315,6 @@ TEST_CASE("depenetration never leads below the ground")
         for (const glm::vec4& p : harness.positions(id))
             CHECK(p.y > -0.1f);
     }
-}
-
-TEST_CASE("the inside test is right at edges, at corners and in slivers")
-{
-    // Points on lines along the axes through vertices and edge midpoints, where a line hits several triangles at once,
-    // and points near them, up to a few roundings. Vertices inside move.
-    constexpr uint32_t k_side = 64;
-    const voile::engine::Mesh meshes[] = {
-        spire(), voile::engine::make_sphere({0, 0.5f, 0}, 0.5f, 20),
-        voile::engine::make_box({-0.5f, 0, -0.25f}, {0.5f, 1, 0.75f}),
-        joined(spire(), voile::engine::make_box({-0.5f, 0, -0.25f}, {0.5f, 1, 0.75f}))};
-    std::mt19937 random(3);
-    for (const voile::engine::Mesh& mesh : meshes)
-        for (const bool deforms : {false, true})
-        {
-            if (deforms && mesh.triangles.size() > 100)
-                continue;
-            CAPTURE(mesh.triangles.size());
-            voile::MeshCollider description = collider(mesh);
-            const auto exact = voile::engine::take(voile::MeshDistance::create(description));
-            description.deforms = deforms;
-            ClothHarness harness({.feature_contact = false}); // only depenetration moves vertices
-            voile::GridCloth grid = sheet(k_side, 1, {0, 0, 0});
-            voile::Material material;
-            material.thickness = 1e-5f;
-            grid.material = material;
-            const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-            (void)voile::engine::take(harness.solver.add_collider(description));
-            harness.upload();
-            std::vector<glm::vec4> points = harness.positions(id);
-            std::uniform_real_distribution<float> within(-0.6f, 1.3f);
-            for (size_t i = 0; i < points.size(); ++i)
-            {
-                const glm::uvec3& t = mesh.triangles[random() % mesh.triangles.size()];
-                glm::vec3 p = mesh.positions[t.x];
-                if (i % 2 == 0)
-                    p = 0.5f * (p + mesh.positions[t.y]);
-                const float jitter = std::array{0.f, 1e-7f, 1e-3f}[i % 3];
-                p += jitter * glm::vec3(within(random), within(random), within(random));
-                p[static_cast<int>(i / 3 % 3)] = within(random);
-                points[i] = glm::vec4(p, points[i].w);
-            }
-            const voile::VertexStreams streams = harness.solver.vertices(id);
-            harness.run(
-                [&](VkCommandBuffer cmd)
-                {
-                    harness.solver.context().fn.vkCmdUpdateBuffer(cmd, streams.positions, streams.offset,
-                                                                  points.size() * sizeof(glm::vec4), points.data());
-                });
-            harness.step({.substeps = 1, .gravity = glm::vec3(0), .air_density = 0}, 2); // the first step only votes
-            const auto after = harness.positions(id);
-            uint32_t wrong = 0;
-            uint32_t inside = 0;
-            for (size_t i = 0; i < points.size(); ++i)
-            {
-                const glm::dvec3 p(points[i]);
-                if (std::abs(exact.nearest(p).signed_distance) < 2e-5) // left to contact
-                    continue;
-                const bool expected = exact.winding_number(p) > 0.5;
-                inside += expected;
-                // The vertex keeps the residual of its initial position.
-                wrong += expected != (glm::distance(glm::vec3(after[i]), glm::vec3(points[i])) > 1e-6f);
-            }
-            CHECK(inside > 100);
-            CHECK(wrong == 0);
-        }
 }
 
 TEST_CASE("depenetration is recorded only with a solid, and is equal to the bit in every run")

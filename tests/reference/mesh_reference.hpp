@@ -1,18 +1,15 @@
 // A mesh as cloth in double precision on the CPU, from the model's formulas alone: one map of edges, one loop over
-// triangles. A fabric's stretch and shear are springs along four directions of each triangle; bending is the quadratic
-// form of its energy, assembled directly.
+// triangles. A fabric's stretch and shear are springs along four directions of each triangle.
 #pragma once
 
+#include "bending_reference.hpp"
 #include "cloth_reference.hpp"
 
-#include <array>
 #include <map>
 #include <utility>
 
 namespace reference
 {
-
-using Linear = std::map<uint32_t, double>; // sum of coefficient * x over vertices
 
 class MeshCloth
 {
@@ -166,12 +163,6 @@ public:
     std::vector<double> inverse_mass; // 1/kg
 
 private:
-    struct Side
-    {
-        uint32_t opposite;
-        glm::uvec3 triangle;
-    };
-
     // The gradient, in the world, of the second coordinate of the mesh projected along its thinnest axis.
     void find_second_axis(const voile::MeshCloth& mesh)
     {
@@ -190,13 +181,6 @@ private:
         second_axis_ = glm::transpose(glm::inverse(axes))[thinnest == 2 ? 1 : 2];
     }
 
-    static std::pair<uint32_t, uint32_t> ordered(uint32_t a, uint32_t b) { return std::minmax({a, b}); }
-
-    static double area(const glm::uvec3& t, const std::vector<glm::dvec3>& x)
-    {
-        return 0.5 * glm::length(glm::cross(x[t.y] - x[t.x], x[t.z] - x[t.x]));
-    }
-
     void take_material(const voile::ClothMaterial& material)
     {
         if (const auto* raw = std::get_if<voile::Material>(&material))
@@ -208,7 +192,7 @@ private:
             linear_drag_ = double(raw->linear_drag);
             drag_normal_ = double(raw->air_drag_normal);
             drag_tangential_ = double(raw->air_drag_tangential);
-            add_bending_form();
+            bending_form_ = bending_form(rest_, triangles_, edges_);
             const voile::Spring along = raw->springs.structural_warp;
             const voile::Spring across = raw->springs.bend_warp;
             for_each_edge(
@@ -251,7 +235,7 @@ private:
             return;
         }
         bending_ = double(fabric.bending_stiffness);
-        add_bending_form();
+        bending_form_ = bending_form(rest_, triangles_, edges_);
         std::vector<double> row_sums(size());
         for (const auto& [pair, q] : bending_form_)
             if (pair.first != pair.second)
@@ -294,7 +278,7 @@ private:
                 Thread thread{{t.x, t.y, t.z}, {}, area(t, rest_), std::max(stiffness, 0.0), loss};
                 for (int i = 0; i < 3; ++i)
                 {
-                    const glm::dvec3 up = height(t[(i + 1) % 3], t[(i + 2) % 3], t[i]);
+                    const glm::dvec3 up = height(rest_, t[(i + 1) % 3], t[(i + 2) % 3], t[i]);
                     thread.coefficient[i] = glm::dot(up, direction) / glm::dot(up, up);
                 }
                 threads.push_back(thread);
@@ -318,7 +302,7 @@ private:
         for (const auto& [edge, sides] : edges_)
         {
             double around = 0;
-            for (const Side& side : sides)
+            for (const MeshSide& side : sides)
                 around += area(side.triangle, rest_);
             visit(edge.first, edge.second, around, glm::distance(rest_[edge.first], rest_[edge.second]));
         }
@@ -335,62 +319,6 @@ private:
                         visit(sides[i].opposite, sides[j].opposite,
                               area(sides[i].triangle, rest_) + area(sides[j].triangle, rest_),
                               glm::distance(rest_[sides[i].opposite], rest_[sides[j].opposite]));
-    }
-
-    // The foot of the height from `opposite`, as a fraction of the edge from a to b.
-    [[nodiscard]] double foot(uint32_t a, uint32_t b, uint32_t opposite) const
-    {
-        const glm::dvec3 along = rest_[b] - rest_[a];
-        return glm::dot(rest_[opposite] - rest_[a], along) / glm::dot(along, along);
-    }
-    [[nodiscard]] glm::dvec3 height(uint32_t a, uint32_t b, uint32_t opposite) const // from the foot to `opposite`
-    {
-        return rest_[opposite] - glm::mix(rest_[a], rest_[b], foot(a, b, opposite));
-    }
-
-    // The angle of a small fold times the edge's length, along the normal. Each side's height turns by the difference
-    // of foot and top over its length.
-    [[nodiscard]] Linear fold(uint32_t a, uint32_t b, uint32_t first, uint32_t second) const
-    {
-        Linear result;
-        for (const uint32_t opposite : {first, second})
-        {
-            const double t = foot(a, b, opposite);
-            const double turn = glm::distance(rest_[a], rest_[b]) / glm::length(height(a, b, opposite));
-            result[a] += turn * (1 - t);
-            result[b] += turn * t;
-            result[opposite] -= turn;
-        }
-        return result;
-    }
-
-    // Energy of a triangle: 1/2 B A |S|^2, S = sum over its hinges of fold / 2A m m^T, m the edge's normal in its
-    // plane.
-    void add_bending_form()
-    {
-        for (const glm::uvec3& t : triangles_)
-        {
-            const double around = area(t, rest_);
-            std::array<Linear, 9> curvature;
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                const auto [a, b] = ordered(t[corner], t[(corner + 1) % 3]);
-                const uint32_t own = t[(corner + 2) % 3];
-                const glm::dvec3 m = glm::normalize(height(a, b, own));
-                for (const Side& side : edges_.at({a, b}))
-                {
-                    if (side.opposite == own)
-                        continue;
-                    for (const auto& [vertex, coefficient] : fold(a, b, own, side.opposite))
-                        for (int k = 0; k < 9; ++k)
-                            curvature[size_t(k)][vertex] += coefficient / (2 * around) * m[k / 3] * m[k % 3];
-                }
-            }
-            for (const Linear& entry : curvature)
-                for (const auto& [i, left] : entry)
-                    for (const auto& [j, right] : entry)
-                        bending_form_[{i, j}] += around * left * right;
-        }
     }
 
     // Drag on a whole triangle whose velocity relative to the air is -u.
@@ -410,9 +338,9 @@ private:
     std::vector<glm::dvec3> rest_;
     glm::dvec3 second_axis_{0};
     std::vector<double> areas_; // m^2, of each vertex
-    std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> edges_;
-    std::map<std::pair<uint32_t, uint32_t>, double> bending_form_; // 1/m^2, both halves
-    double density_ = 0;                                           // kg/m^2, or kg per vertex
+    MeshEdges edges_;
+    QuadraticForm bending_form_; // 1/m^2
+    double density_ = 0;         // kg/m^2, or kg per vertex
     bool uniform_masses_ = false;
     double bending_ = 0; // N m
     double bending_time_ = 0;

@@ -1,4 +1,5 @@
-// Scene files: what is read from them, and how scenes are found. tests/test_scene_errors.cpp has what is refused.
+// Scene files: reading them and finding them. test_scene_errors.cpp and test_scene_syntax.cpp have those that are
+// refused.
 #include "support/close_to.hpp"
 #include "support/test_folder.hpp"
 #include "support/test_paths.hpp"
