@@ -132,7 +132,7 @@ bool is_replaced(const Solid& solid)
     return std::holds_alternative<voile::engine::Mesh>(solid.shape) && !solid.is_ground();
 }
 
-// Where the scene's meshes stand, above the ground; without one, a cube below the cloths that they cover.
+// The box of the scene's meshes above the ground. Without a mesh, a cube below the cloths.
 voile::engine::Bounds collider_box(const SceneFile& scene, const std::vector<Solid>& solids)
 {
     std::optional<voile::engine::Bounds> box;

@@ -62,7 +62,7 @@ private:
     };
     const voile::Solver* solver_ = nullptr;
     std::vector<Cache> caches_;
-    std::vector<voile::gpu::Buffer> positions_; // one a slot, of all cloths; empty without caches
+    std::vector<voile::gpu::Buffer> positions_; // one per slot, of all cloths; empty without caches
 };
 
 } // namespace viewer

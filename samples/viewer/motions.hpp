@@ -39,8 +39,8 @@ struct DeformingSolid
     std::vector<glm::vec3> positions;             // m, in its mesh's space, after the frames so far
 };
 
-// Each frame, moves them to where they are at the frame's end: the solver goes there during its step, and the picture
-// shows what the step led to. Works in `update`, so that nothing moves while nothing is simulated.
+// Moves pins and solids to their poses at the frame's end, in `update`. The solver moves them there during its step,
+// and the picture shows the result. Nothing moves while nothing is simulated.
 class Motions : public voile::engine::Component
 {
 public:
@@ -50,9 +50,9 @@ public:
     std::vector<MovingSolid> solids;       // by their numbers, ascending
     std::vector<DeformingSolid> deforming; // by their numbers, ascending
 
-    // From where a solid was added to where it is after the frames so far.
+    // The motion of a solid from its start to the frames so far.
     [[nodiscard]] glm::mat4 pose(size_t solid) const;
-    // Where the vertices of a solid that deforms are after the frames so far, in its mesh's space; null for any other.
+    // The vertices of a solid that deforms after the frames so far, in its mesh's space; null for any other.
     [[nodiscard]] const std::vector<glm::vec3>* positions(size_t solid) const;
 
     void update(const voile::engine::FrameInfo& frame) override;

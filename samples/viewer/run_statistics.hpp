@@ -35,7 +35,7 @@ private:
     struct PassSeries
     {
         std::string name;
-        std::vector<double> milliseconds; // one a frame
+        std::vector<double> milliseconds; // one per frame
     };
     void add_pass(const voile::gpu::PassTime& pass);
 

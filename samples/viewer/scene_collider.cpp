@@ -56,7 +56,7 @@ BoxShape parse_box(SceneReader& reader, const Field& field)
     return box;
 }
 
-// Two coefficients, or one number for both. Where one of the two is missing, it equals the other.
+// Two coefficients, or one number for both. If one of the two is missing, it equals the other.
 FrictionEntry parse_friction(SceneReader& reader, const Field& field)
 {
     FrictionEntry friction;
@@ -92,7 +92,7 @@ bool is_frame_pattern(const std::string& name)
     size_t end = percent + 1;
     while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0)
         ++end;
-    // More than two digits of width serve nobody, and would ask for gigabytes of zeros.
+    // More than two digits of width are useless, and would allow gigabytes of zeros.
     const bool width_ok = end == percent + 1 || (name[percent + 1] == '0' && end - percent <= 3);
     return width_ok && end < name.size() && name[end] == 'd';
 }

@@ -21,7 +21,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t k_largest_file = uint64_t{16} << 20; // bytes; a scene is text that somebody wrote
+constexpr uint64_t k_largest_file = uint64_t{16} << 20; // bytes; scenes are written by hand
 
 voile::Result<std::string> read_text(const fs::path& path)
 {

@@ -184,7 +184,7 @@ struct FrictionEntry
     float kinetic_friction = 0.f;
 };
 
-// To which side a mesh pushes. Where it is not written: a closed one outwards, an open one to where cloth comes from.
+// The side to which a mesh pushes. Default: a closed one outwards, an open one to where cloth comes from.
 enum class MeshSides
 {
     one, // to where its triangles face
@@ -243,12 +243,12 @@ voile::Error error_at(const SceneFile& scene, const Location& location, const st
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
 voile::Error step_error(const SceneFile& scene, const std::string& reason);
 
-// The meshes of a sequence in their order: from number 0 (or 1, if there is no 0) up to the last. Errors: there are none,
-// one between them is missing, the pattern has no number.
+// The meshes of a sequence in their order: from number 0 (or 1, if there is no 0) up to the last. Errors: there are
+// none, one between them is missing, the pattern has no number.
 voile::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);
-// Where a point of the placed state is after `seconds`; at 0 the identity.
+// The displacement of points from time 0 to `seconds`; at 0 the identity.
 glm::mat4 matrix(const MotionEntry& motion, double seconds);
 
 // Folders that are searched for scenes by name, in this order: those of the environment variable VOILE_SCENES

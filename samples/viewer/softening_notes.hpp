@@ -16,7 +16,7 @@ public:
     void check(const Stage& stage, float duration);
 
 private:
-    std::vector<bool> noted_; // one a cloth
+    std::vector<bool> noted_; // one per cloth
     size_t count_ = 0;
 };
 

@@ -75,7 +75,7 @@ std::string number_text(float value)
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates)
 {
-    constexpr size_t k_longest_word = 64; // beyond it nobody mistyped a key
+    constexpr size_t k_longest_word = 64; // longer words are no mistyped keys
     if (word.size() > k_longest_word)
         return "";
     const std::string* best = nullptr;

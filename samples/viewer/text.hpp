@@ -18,7 +18,7 @@ std::string path_in_quotes(const std::filesystem::path& path);
 // "viewer: note: TEXT" on standard error.
 void note(const std::string& text);
 
-// A number as somebody would write it: 0.2, not 0.200000003.
+// A number as people write it: 0.2, not 0.200000003.
 std::string number_text(double value);
 std::string number_text(float value);
 

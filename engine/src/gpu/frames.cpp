@@ -62,7 +62,7 @@ void FrameRing::submit(const Frame& frame, VkSemaphore acquired, VkSemaphore ren
     const gpu::Context& context = device_.context();
     const Slot& slot = slots_[frame.slot];
     check(context.fn.vkEndCommandBuffer(frame.cmd), "command buffer");
-    // Reset only here: a frame that fails before its submission leaves its fence signaled, so nobody waits forever.
+    // Reset only here: a frame that fails before its submission leaves its fence signaled, so no wait is endless.
     check(context.fn.vkResetFences(context.device(), 1, &slot.fence), "fence");
 
     VkSemaphoreSubmitInfoKHR wait_info{};

@@ -335,7 +335,7 @@ Result<ShaderInterface> reflect(std::span<const uint32_t> spirv, std::span<const
         const uint32_t length = spirv[at] >> 16;
         const uint32_t opcode = spirv[at] & 0xffff;
         if (length == 0 || at + length > spirv.size() || opcode == k_function)
-            break; // what is no SPIR-V, the driver refuses
+            break; // the driver refuses what is not SPIR-V
         reader.read(opcode, spirv.subspan(at + 1, length - 1));
         at += length;
     }

@@ -121,7 +121,7 @@ vec3 world_direction(RelativeMotion relative, vec3 direction)
 }
 
 // m: the correction along the contact's direction. What came closer than the thickness in this substep is put back at
-// once. What was too close before is lifted slowly, and what was inside no faster than that: neighbors that part faster
+// once. A vertex that was too close before is lifted slowly, and one inside no faster: neighbors that part faster
 // would load the springs.
 float lift_of(Contact contact, float thickness)
 {

@@ -65,7 +65,7 @@ ConvexSurface convex_surface(ColliderRecord collider, vec3 p)
     return box_surface(collider.shape.xyz, p);
 }
 
-// Where a straight path first enters a solid.
+// The point at which a straight path first enters a solid.
 struct Entry
 {
     float time;     // 0..1, along the path; 2: nowhere

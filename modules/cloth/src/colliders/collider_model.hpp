@@ -42,7 +42,7 @@ struct DeformingMesh
     uint64_t boxes = 0;       // with the same room
 
     uint32_t now = 0;                     // the half of its positions that holds them at the end of the last step
-    bool due = false;                     // new vertices were given: the next step goes to them, in the other half
+    bool due = false;                     // the host gave new vertices: the next step moves to them, in the other half
     bool refit_due = false;               // its boxes do not fit: after it came to rest
     std::vector<glm::vec3> input;         // given by the host, m
     std::optional<DeviceVertices> source; // or where they lie on the GPU

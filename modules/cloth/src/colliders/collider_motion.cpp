@@ -65,7 +65,7 @@ bool is_rigid(const glm::mat4& transform)
 
 shared::ColliderMotion make_motion(const ColliderModel& collider)
 {
-    // In double: floats of what is far from the origin are coarse.
+    // In double: floats are coarse far from the origin.
     const glm::dmat4 placement(collider.placement);
     const glm::dmat4 from = glm::dmat4(collider.pose.from) * placement;
     const glm::dmat4 to = glm::dmat4(collider.pose.to) * placement;

@@ -20,7 +20,7 @@ namespace voile
 namespace
 {
 
-// What the sign of a distance needs, one a triangle; edges and corners in the order of Feature.
+// Normals for the sign of a distance, per triangle; edges and corners in the order of Feature.
 struct TriangleNormals
 {
     std::array<glm::dvec3, 7> normals{}; // indexed by Feature; only their direction counts

@@ -57,7 +57,7 @@ bool has_area(const std::vector<glm::dvec3>& positions, const glm::uvec3& t)
     return glm::dot(n, n) > 1e-30f;
 }
 
-// Of what is part of a triangle: vertices without one may be anywhere.
+// Only of corners of triangles: other vertices may be anywhere.
 glm::dvec3 middle_of(const std::vector<glm::dvec3>& positions, std::span<const glm::uvec3> triangles)
 {
     glm::dvec3 min = positions[triangles.front().x];

@@ -12,7 +12,7 @@ namespace voile
 struct RefitKernels
 {
     gpu::Kernel leaves; // starts from the vertices
-    gpu::Kernel levels; // goes on from boxes
+    gpu::Kernel levels; // starts from boxes
     uint32_t group = 0;
     uint32_t run = 0; // neighboring subtrees per workgroup
     uint32_t levels_per_dispatch = 0;

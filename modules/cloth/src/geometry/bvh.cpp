@@ -265,7 +265,7 @@ private:
     std::span<const glm::uvec3> triangles_;
     uint32_t leaf_size_;
     uint32_t subtree_size_;
-    uint32_t threads_; // at most; 0: one a core
+    uint32_t threads_; // at most; 0: one per core
     std::unique_ptr<Primitive[]> primitives_;
     std::unique_ptr<Primitive[]> scratch_;
     std::vector<shared::BvhNode> nodes_;

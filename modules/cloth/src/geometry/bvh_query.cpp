@@ -50,8 +50,8 @@ void traverse(const Bvh& bvh, const Entry& entry, const Bound& bound, const Visi
 
 constexpr double k_miss = std::numeric_limits<double>::infinity();
 
-// Where the ray enters the box, grown by a rounding so that a hit on the box's face is not lost; slabs (Kay and Kajiya
-// 1986).
+// The distance at which the ray enters the box, grown by a rounding so that a hit on the box's face is not lost; slabs
+// (Kay and Kajiya 1986).
 double box_entry(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& min, const glm::dvec3& max)
 {
     double enter = 0;

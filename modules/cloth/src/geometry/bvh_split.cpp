@@ -155,7 +155,8 @@ Primitive make_primitive(std::span<const glm::vec3> positions, std::span<const g
     return {box.min, t, box.max, 0};
 }
 
-// Where no plane separates the centroids, or the tree grows too deep: in their order along the widest axis.
+// Halves the triangles in their order along the widest axis, if no plane separates the centroids or the tree is too
+// deep.
 Splitter::Halves Splitter::halve(const PrimitiveRange& range)
 {
     const glm::vec3 extent = range.centroids.max - range.centroids.min;

@@ -1,4 +1,4 @@
-// Cooked data: the header, and what is looked at before anything else is believed.
+// Cooked data: the header and its checks, which come before all others.
 #include "geometry/cooked_file.hpp"
 
 #include "geometry/content_hash.hpp"

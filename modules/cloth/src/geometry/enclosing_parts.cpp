@@ -50,7 +50,8 @@ bool holds(const Box& outer, const Box& inner)
     return glm::all(glm::lessThanEqual(outer.min, inner.min)) && glm::all(glm::greaterThanEqual(outer.max, inner.max));
 }
 
-// Where rays go, and the axes across them. Short rays cross little; vertices are sorted along the longest axis.
+// The direction of the rays and the axes across them. Rays run along the shortest axis, so they cross few triangles;
+// vertices are sorted along the longest axis.
 struct Axes
 {
     int ray = 0;

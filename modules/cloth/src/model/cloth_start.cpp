@@ -1,4 +1,4 @@
-// Where and how heavy the vertices of a cloth are at the start.
+// Positions, residuals and masses of a cloth at the start.
 #include "model/cloth_model.hpp"
 
 #include "geometry/rounding.hpp"

@@ -14,8 +14,8 @@
 namespace voile
 {
 
-// Where a mesh's fabric runs. Warp is the direction in a triangle along which the first coordinate alone grows; weft is
-// at right angles to it.
+// The directions of a mesh's fabric. Warp is the direction in a triangle along which the first coordinate alone grows;
+// weft is at right angles to it.
 struct FabricCoordinates
 {
     std::span<const glm::vec2> texture;   // one per vertex, or none

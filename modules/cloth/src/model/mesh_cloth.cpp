@@ -111,7 +111,7 @@ ClothInput input_of(const MeshCloth& cloth)
             cloth.integrator, cloth.pins,      cloth.inverse_masses};
 }
 
-// The mesh with its topology: what was cooked, or what is made now.
+// The mesh with its topology, cooked or made now.
 struct Shape
 {
     std::vector<glm::dvec3> world;

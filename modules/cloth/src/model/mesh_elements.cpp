@@ -135,7 +135,7 @@ void soften(Hinge& hinge, double scale)
         factor *= std::sqrt(scale);
 }
 
-// Adds the edges of what it softens to `edges`.
+// Adds the edges of softened elements to `edges`.
 template <typename Element>
 void soften_stiffest(std::vector<Element>& elements, std::span<const double> areas, double ahead,
                      std::vector<uint32_t>& edges)

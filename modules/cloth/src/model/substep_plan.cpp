@@ -9,7 +9,7 @@ namespace voile
 namespace
 {
 
-// Sorted by what they need, each number once; `vertices` is the sum up to and with the entry.
+// Sorted by needed substeps, each number once; `vertices` is the sum of all entries up to this one.
 using Needs = std::span<const SubstepNeed>;
 
 uint32_t reduced(uint32_t needed, double fraction)

@@ -17,7 +17,7 @@ struct Surface
 {
     std::vector<glm::dvec3> positions; // m
     std::vector<glm::uvec3> triangles;
-    std::vector<std::vector<uint32_t>> around; // triangles, one list a vertex
+    std::vector<std::vector<uint32_t>> around; // triangles, one list per vertex
     std::vector<uint32_t> pins;
 };
 
@@ -53,7 +53,7 @@ struct Path
     uint32_t pin = 0;
 };
 
-// The path to a triangle's third corner from what is known at the two others, as if the front between them were
+// The path to a triangle's third corner from the paths to the two others, as if the front between them were
 // straight (Kimmel and Sethian 1998, "Computing geodesic paths on manifolds"); along an edge where that would come from
 // outside the triangle.
 double front_length(const Surface& surface, uint32_t at, uint32_t a, double length_a, uint32_t b, double length_b)
@@ -109,7 +109,7 @@ std::vector<Path> paths_from(const Surface& surface, std::span<const uint32_t> p
                 if (at == vertex)
                     continue;
                 const uint32_t other = b == vertex ? c : b;
-                // Paths from two pins have no common source: there the path goes along the edge, never too short.
+                // Paths from two pins have no common source. Then the path follows the edge, which is never too short.
                 const bool same_pin = std::isfinite(paths[other].length) && paths[other].pin == paths[vertex].pin;
                 const double found = same_pin
                                          ? front_length(surface, at, vertex, length, other, paths[other].length)

@@ -7,7 +7,7 @@ namespace voile
 namespace
 {
 
-// Where a mesh's input lies, bytes.
+// Offset of a mesh's input, bytes.
 VkDeviceSize input_offset(const DeformingMesh& mesh)
 {
     return VkDeviceSize{mesh.first_vertex} / 2 * k_most_stride;
@@ -99,7 +99,7 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
             record_vertices(recorder, solver, collider);
         if (mesh.due || mesh.refit_due)
             record_boxes(recorder, solver, collider);
-        mesh.refit_due = mesh.due; // if it stays where it goes: this step's boxes are too large for the next
+        mesh.refit_due = mesh.due; // if it rests then: this step's boxes are too large for the next
         if (mesh.due)
             mesh.now = 1 - mesh.now;
         mesh.due = false;

@@ -25,10 +25,10 @@ Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<c
 
 struct DescriptorSets
 {
-    // What goes on from the state, and from stage B where contact leaves there what it changes.
+    // Index 0: the substep begins in the state; 1: in stage B, where contact has left the state.
     std::array<std::array<VkDescriptorSet, 4>, 2> stages{};
     VkDescriptorSet last_stage_alone{}; // stage 4 when no contact pass follows: it writes the state itself
-    // Velocity Verlet goes from the state to stage B, with predictions in the velocities of stages A and C.
+    // Velocity Verlet: from the state to stage B, with predictions in the velocities of stages A and C.
     VkDescriptorSet verlet_first{};     // state to stage B: the velocities are those of the positions' time
     VkDescriptorSet verlet_forth{};     // state to stage B
     VkDescriptorSet verlet_back{};      // stage B to state

@@ -1,6 +1,6 @@
 // LifetimeCheck: finds an object that is destroyed while the GPU executes the commands that use it. An event is set
-// before these commands and reset after them. Commands that are recorded and never submitted leave it alone, so that it
-// is never wrong; what is submitted and has not begun escapes it.
+// before these commands and reset after them. Commands that are never submitted do not change the event, so there are
+// no false reports. Commands that are submitted and have not begun are not detected.
 #pragma once
 
 #include "voile/gpu/context.hpp"
@@ -12,11 +12,11 @@ class LifetimeCheck
 {
 public:
     LifetimeCheck() = default; // checks nothing
-    ~LifetimeCheck();          // ends the program, with a line on stderr, where the commands are being executed
+    ~LifetimeCheck();          // ends the program with a line on stderr if the commands are being executed
     LifetimeCheck(LifetimeCheck&& other) noexcept;
     LifetimeCheck& operator=(LifetimeCheck&& other) noexcept;
 
-    // `object`: what is destroyed, for the line; a literal.
+    // `object`: the name of the object for the message; a literal.
     static Result<LifetimeCheck> create(const gpu::Context& context, const char* object);
 
     // Around all commands that use the object.

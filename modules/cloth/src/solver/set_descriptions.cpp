@@ -8,7 +8,7 @@ namespace voile
 namespace
 {
 
-// Where a substep that begins in the state, or one that begins in stage B, leaves what it proposes.
+// The buffers of a substep that begins in the state, and of one that begins in stage B.
 struct Proposal
 {
     StateBuffers earlier;
@@ -107,7 +107,7 @@ void Describer::add_verlet()
     constexpr Motion k_start{k_state.positions, k_state.residuals, k_state.velocities, k_state.velocities};
     constexpr Motion k_here{k_state.positions, k_state.residuals, k_stage_a.velocities, k_state.velocities};
     constexpr Motion k_there{k_stage_b.positions, k_stage_b.residuals, k_stage_c.velocities, k_stage_b.velocities};
-    // The last kick leaves positions alone; what it would write of them goes where nobody reads it.
+    // The last kick does not change positions. It writes them to buffers that no pass reads.
     constexpr Motion k_end{k_stage_b.positions, k_stage_b.residuals, k_stage_c.velocities, k_state.velocities};
     add_set(sets_.verlet_first, k_start, k_there);
     add_set(sets_.verlet_forth, k_here, k_there);

@@ -46,7 +46,7 @@ Result<void> check_finite(std::span<const std::byte> bytes, size_t vertices, siz
     const size_t velocities = residuals + vertices * sizeof(glm::uvec2);
     for (size_t i = 0; i < vertices; ++i)
     {
-        bool finite = std::isfinite(load(residuals + i * sizeof(glm::uvec2) + sizeof(uint32_t))); // what they count in
+        bool finite = std::isfinite(load(residuals + i * sizeof(glm::uvec2) + sizeof(uint32_t))); // their unit
         for (size_t k = 0; k < 4; ++k)
             finite = finite && std::isfinite(load((4 * i + k) * sizeof(float))) &&
                      std::isfinite(load(velocities + (4 * i + k) * sizeof(float)));

@@ -84,7 +84,8 @@ Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> 
         }
         model.tethers = std::move(tethers.value());
     }
-    add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0)); // what is no longer pinned
+    add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1),
+                   glm::vec3(0)); // of vertices that are no longer pinned
     s.update_attachments();
     return {};
 }

@@ -1,4 +1,4 @@
-// Staging: values of the host for the solver's buffers, copied through one staging buffer.
+// Staging: collects values for the solver's buffers and copies them through one staging buffer.
 #pragma once
 
 #include "solver/device_state.hpp"
@@ -24,7 +24,7 @@ public:
                 {name, first * sizeof(*values.data()), std::as_bytes(std::span(values.data(), values.size()))});
     }
 
-    // The same, keeping the values.
+    // The same, with a copy of the values.
     template <typename T>
     void add_copy(buffer::Name name, uint64_t first, const std::vector<T>& values)
     {

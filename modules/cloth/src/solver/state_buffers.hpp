@@ -19,7 +19,7 @@ constexpr StateBuffers k_state{buffer::positions, buffer::residuals, buffer::vel
 constexpr StateBuffers k_stage_a{buffer::stage_a_positions, buffer::stage_a_residuals, buffer::stage_a_velocities};
 constexpr StateBuffers k_stage_b{buffer::stage_b_positions, buffer::stage_b_residuals, buffer::stage_b_velocities};
 constexpr StateBuffers k_stage_c{buffer::stage_c_positions, buffer::stage_c_residuals, buffer::stage_c_velocities};
-// Where cloths with a strain limit were when the step began.
+// The state at the start of a step, of cloths with a strain limit.
 constexpr StateBuffers k_step_start{buffer::step_start_positions, buffer::step_start_residuals,
                                     buffer::step_start_velocities};
 // The state before the strain limit's guard: velocities stand in stage C's positions.

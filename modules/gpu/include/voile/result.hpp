@@ -10,7 +10,7 @@
 namespace voile
 {
 
-// Says what was wrong with which input (file, line, index, value), in one line without a full stop.
+// The input (file, line, index, value) and what is wrong with it, in one line without a full stop.
 struct Error
 {
     std::string message;

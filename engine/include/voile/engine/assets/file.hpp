@@ -17,7 +17,7 @@ constexpr uint64_t k_largest_file = uint64_t{4} << 30; // bytes
 // words of the system ("Is a directory"), "not a regular file" or "larger than N MiB".
 Result<std::string> read_file(const std::filesystem::path& path, uint64_t most_bytes = k_largest_file);
 
-// Writes like AtomicFile: nobody sees half a file. The folder must exist.
+// Writes like AtomicFile: the file is complete or absent. The folder must exist.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace voile::engine

@@ -14,7 +14,7 @@ namespace voile::gpu
 // Handles plus the functions and limits read from them once. Copied freely; owns only an allocator, if the host
 // lends none.
 // All functions are found through the host's get_instance_proc_addr. No symbol of Vulkan is linked or defined: the host
-// may link a loader, or load one with volk or by itself, and several devices can live in one process.
+// may link a loader, load one with volk or open one, and several devices can exist in one process.
 struct Context
 {
     Handles handles;
