@@ -34,9 +34,10 @@ struct Solid
     [[nodiscard]] std::optional<voile::engine::Bounds> swept_bounds() const;
 };
 
-// Loads all meshes. The files of --collider replace the scene's meshes (its ground stays): each is scaled evenly, centered
-// and set on the floor of the box around the replaced meshes, several side by side. In a scene without such a mesh the box
-// lies below the cloths. Motion and layers are those of the first replaced mesh; they do not deform. Errors name the file.
+// Loads all meshes. The files of --collider replace the scene's meshes (its ground stays): each is scaled evenly,
+// centered and set on the floor of the box around the replaced meshes, several side by side. In a scene without such a
+// mesh the box lies below the cloths. Motion and layers are those of the first replaced mesh; they do not deform.
+// Errors name the file.
 voile::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Options& options);
 
 voile::engine::Bounds merge(const std::optional<voile::engine::Bounds>& a, const voile::engine::Bounds& b);

@@ -10,10 +10,9 @@
 namespace viewer
 {
 
-// The material of a cloth. `spacing`: of a grid, m, along rows and along columns; none for a mesh. Values of a fabric hold
-// at every resolution. Raw values (vertex_mass, spring_stiffness ...) of a grid replace those that follow from the fabric.
-// Errors name the position in the file: an unknown preset, values that do not go together
-// or are out of range.
+// The material of a cloth. `spacing`: of a grid, m, along rows and along columns; none for a mesh. Values of a fabric
+// hold at every resolution. Raw values (vertex_mass, spring_stiffness ...) of a grid replace those that follow from the
+// fabric. Errors name the position in the file: an unknown preset, values that do not go together or are out of range.
 voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
                                                         const std::optional<glm::vec2>& spacing);
 

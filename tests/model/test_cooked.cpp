@@ -3,8 +3,8 @@
 #include "colliders/cooked_collider.hpp"
 #include "geometry/bvh_query.hpp"
 #include "geometry/cooked_file.hpp"
-#include "model/cooked_cloth.hpp"
 #include "model/active_lists.hpp"
+#include "model/cooked_cloth.hpp"
 #include "support/bvh_checks.hpp"
 #include "support/odd_meshes.hpp"
 

@@ -1,4 +1,5 @@
-// Solids of scene files in a run: their transforms, motions and layers, in the solver, the picture and the exact checks.
+// Solids of scene files in a run: their transforms, motions and layers, in the solver, the picture and the exact
+// checks.
 #include "support/close_to.hpp"
 #include "viewer/viewer_scenes.hpp"
 

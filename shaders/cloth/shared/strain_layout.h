@@ -39,7 +39,7 @@ struct LimitScale
     float velocity;   // 0..1, of the changes of velocity
     float shift_rate; // 1/s; displacements times this are added to the velocities
     float fraction;   // 0..1, of the limit's original displacements
-    float reserve;    // J, that displacements may cost; after the last measurement, that those of the next step may cost
+    float reserve; // J, that displacements may cost; after the last measurement, that those of the next step may cost
     float dissipated; // J, by this step; displacements may cost it in addition
 };
 
