@@ -1,8 +1,5 @@
-// What adding takes of the host: of a mesh collider preparing the mesh, building its hierarchy, copying both; of a
-// cloth mesh finding its springs; of cooked ones loading them; of a small addition beside a large collider its upload.
+// What adding a mesh collider takes of the host: preparing the mesh, building its hierarchy, copying both.
 #pragma once
-
-#include "timed_queue.hpp"
 
 #include "voile/engine/assets/mesh.hpp"
 #include "voile/engine/gpu/device.hpp"
@@ -35,17 +32,5 @@ struct AddMeasurement
 
 // Every repetition adds to a solver of its own. StartupError with the solver's message.
 AddMeasurement measure_add(const voile::engine::Device& device, const AddCase& item);
-
-// Milliseconds of the host, medians: by the clock, and of the processor on all threads.
-struct HostCost
-{
-    const char* what = nullptr;
-    size_t size = 0; // vertices of a cloth, triangles of a collider
-    double clock = 0;
-    double processor = 0;
-};
-
-constexpr const char* k_cost_case = "add-cost"; // its name
-std::vector<HostCost> measure_costs(TimedQueue& queue);
 
 } // namespace bench

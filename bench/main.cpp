@@ -56,6 +56,7 @@ struct Chosen
     std::vector<const bench::DrapeCase*> drapes;
     std::vector<const bench::AddCase*> adds;
     bool costs = false;
+    bool levels = false;
 };
 
 // All named cases. Without names all, but the drape scene only on a GPU: a CPU device would take hours.
@@ -74,6 +75,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
             chosen.adds.push_back(add);
         else if (name == bench::k_cost_case)
             chosen.costs = true;
+        else if (name == bench::k_levels_case)
+            chosen.levels = true;
         else
             throw voile::engine::StartupError("--case " + name + ": no such case; --list shows them");
     }
@@ -89,6 +92,7 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
     for (const bench::AddCase& item : bench::add_cases())
         chosen.adds.push_back(&item);
     chosen.costs = true;
+    chosen.levels = true;
     return chosen;
 }
 
@@ -102,7 +106,9 @@ void list_cases()
         std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
     for (const bench::AddCase& item : bench::add_cases())
         std::printf("%-28s adding a mesh collider: %s\n", item.name, item.purpose);
-    std::printf("%-28s adding cloth meshes, cooked data, and a cloth beside a large collider\n", bench::k_cost_case);
+    std::printf("%-28s adding cloth meshes and cooked data; adding and removing beside much else\n",
+                bench::k_cost_case);
+    std::printf("%-28s a soft sheet beside a stiff one that needs more substeps\n", bench::k_levels_case);
 }
 
 void list_devices()
@@ -162,6 +168,8 @@ void run(const Options& options)
         bench::print_add_row(*item, bench::measure_add(device, *item));
     if (chosen.costs)
         bench::print_costs(bench::measure_costs(queue));
+    if (chosen.levels)
+        bench::print_levels(bench::measure_levels(queue, repetitions));
 }
 
 // CLI11's messages span several lines.

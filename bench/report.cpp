@@ -132,6 +132,17 @@ void print_costs(std::span<const HostCost> costs)
     std::fflush(stdout);
 }
 
+void print_levels(std::span<const LevelsMeasurement> levels)
+{
+    std::printf("\nA soft sheet beside a stiff one of 1,024 vertices, Verlet; GPU milliseconds per frame, medians.\n\n"
+                "%-12s %9s %9s %12s %12s %12s\n",
+                "vertices", "stiff", "soft", "one level", "two levels", "by default");
+    for (const LevelsMeasurement& row : levels)
+        std::printf("%4u x %-5u %9u %9u %12.3f %12.3f %12.3f\n", row.side, row.side, row.stiff_substeps,
+                    row.soft_substeps, row.one_level, row.two_levels, row.by_default);
+    std::fflush(stdout);
+}
+
 voile::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;

@@ -4,6 +4,8 @@
 #include "add_mesh.hpp"
 #include "device_probe.hpp"
 #include "drape.hpp"
+#include "host_costs.hpp"
+#include "levels.hpp"
 #include "measure.hpp"
 #include "refit_case.hpp"
 
@@ -27,6 +29,7 @@ void print_add_header();
 void print_add_row(const AddCase& item, const AddMeasurement& measurement);
 
 void print_costs(std::span<const HostCost> costs);
+void print_levels(std::span<const LevelsMeasurement> levels);
 
 // The fraction of the copy bandwidth that a case reaches.
 double bandwidth_fraction(const Measurement& measurement, const DeviceProbe& probe);

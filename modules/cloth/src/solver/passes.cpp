@@ -13,10 +13,6 @@ namespace voile
 namespace
 {
 
-// The number of vertices whose substep takes as long as the dispatches of a substep without vertices.
-constexpr uint64_t k_dispatch_vertices = 32768;
-constexpr uint64_t k_dispatch_vertices_cpu = 256;
-
 // The passes that one collider needs.
 void add_passes(Passes& passes, const ColliderModel& collider)
 {
@@ -82,11 +78,9 @@ SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& need
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth) || &cloth == other)
             needed.push_back({voile::stable_substeps(cloth.record, duration), cloth.record.vertices});
-    // Measured: bench/NOTES.md, "Levels of substeps".
-    const bool software = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     return plan_substeps(needed, {.substeps = step.max_substeps,
                                   .vertex_substeps = step.max_vertex_substeps,
-                                  .dispatch_vertices = software ? k_dispatch_vertices_cpu : k_dispatch_vertices,
+                                  .dispatch_vertices = options.tuning.dispatch_vertices,
                                   .levels = fits() ? VOILE_SUBSTEP_LEVELS : 1u});
 }
 

@@ -27,6 +27,14 @@ uint32_t feature_threads(const gpu::Context& context, const SolverOptions& optio
     return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.tuning.workgroup_size);
 }
 
+// Measured: bench/NOTES.md, "Levels of substeps".
+uint32_t dispatch_vertices(const gpu::Context& context, const SolverOptions& options)
+{
+    if (options.tuning.dispatch_vertices > 0)
+        return options.tuning.dispatch_vertices;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 256 : 32768;
+}
+
 // One record per slot, all 0.
 Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
 {
@@ -103,6 +111,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     state->context = context.value();
     state->options = options;
     state->options.tuning.feature_threads = feature_threads(state->context, options);
+    state->options.tuning.dispatch_vertices = dispatch_vertices(state->context, options);
     state->model.limits = {options.tuning.workgroup_size, state->context.limits.maxComputeWorkGroupCount[0],
                            state->context.max_buffer_bytes};
     state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;
