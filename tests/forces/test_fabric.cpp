@@ -218,6 +218,47 @@ void check_ranges(const char* what, const std::array<voile::MaterialParameter<M>
 
 } // namespace
 
+TEST_CASE("gravity_scale multiplies the gravity of a cloth, to the bit, and that of no other")
+{
+    for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+        for (const float strain_limit : {0.f, 0.01f})
+        {
+            CAPTURE(strain_limit);
+            const auto sheets = [&](ClothHarness& harness, std::initializer_list<float> scales)
+            {
+                std::vector<voile::ClothId> ids;
+                for (const float scale : scales)
+                {
+                    voile::Fabric fabric = still_air(300);
+                    fabric.strain_limit = strain_limit;
+                    fabric.gravity_scale = scale;
+                    voile::GridCloth grid = hanging_sheet(7, 9, 0.6f, 0.8f, fabric);
+                    grid.material = fabric;
+                    grid.integrator = integrator;
+                    ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
+                }
+                harness.upload();
+                return ids;
+            };
+            ClothHarness scaled;
+            const auto ids = sheets(scaled, {-0.5f, 0, 1, 2});
+            scaled.step({.substeps = 40}, 6);
+            float scale = -0.5f;
+            for (const voile::ClothId id : {ids[0], ids[3]})
+            {
+                ClothHarness plain;
+                const auto other = sheets(plain, {1});
+                plain.step({.substeps = 40, .gravity = {0, scale * -9.81f, 0}}, 6);
+                CHECK(scaled.positions(id) == plain.positions(other[0]));
+                CHECK(scaled.velocities(id) == plain.velocities(other[0]));
+                scale = 2;
+            }
+            for (const glm::vec4& v : scaled.velocities(ids[1]))
+                CHECK(glm::vec3(v) == glm::vec3(0));
+            CHECK(scaled.velocities(ids[2])[60].y < 0);
+        }
+}
+
 TEST_CASE("a parameter that is out of its range is refused by its name")
 {
     check_ranges("fabric", voile::k_fabric_parameters);

@@ -70,6 +70,8 @@ struct ClothRecord
     float strain_relaxation;  // of a correction of the strain limit
     uint layers;              // bits; the cloth collides with colliders that have one of them
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
+    float gravity_scale;      // times the gravity of the step
+    float padding[3];
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;
@@ -131,9 +133,9 @@ struct Patch
 
 #ifdef __cplusplus
 static_assert(sizeof(SpringClass) == 16);
-static_assert(sizeof(ClothRecord) == 96 + 16 * VOILE_SPRING_CLASSES);
-static_assert(offsetof(ClothRecord, bending) == 80);
-static_assert(offsetof(ClothRecord, springs) == 96);
+static_assert(sizeof(ClothRecord) == 112 + 16 * VOILE_SPRING_CLASSES);
+static_assert(offsetof(ClothRecord, bending) == 96);
+static_assert(offsetof(ClothRecord, springs) == 112);
 static_assert(sizeof(MeshVertex) == 16);
 static_assert(sizeof(MeshSpring) == 16);
 static_assert(sizeof(MeshCorner) == 8);

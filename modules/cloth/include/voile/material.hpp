@@ -51,6 +51,7 @@ struct Fabric
     float kinetic_friction = 0.4f;
     float air_drag_normal = 1.28f;
     float air_drag_tangential = 0.05f;
+    float gravity_scale = 1;
     float strain_limit = 0;
     BendingModel bending_model = BendingModel::springs;
 };
@@ -70,6 +71,7 @@ struct Material
     float linear_drag = 0;
     float air_drag_normal = 0;
     float air_drag_tangential = 0;
+    float gravity_scale = 1;
     float strain_limit = 0;
 };
 

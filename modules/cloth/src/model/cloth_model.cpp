@@ -227,6 +227,7 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.kinetic_friction = m.kinetic_friction;
     record.drag_normal = m.air_drag_normal;
     record.drag_tangential = m.air_drag_tangential;
+    record.gravity_scale = m.gravity_scale;
     record.strain_limit = m.strain_limit;
     record.strain_relaxation = k_strain_relaxation;
 }
