@@ -70,6 +70,13 @@ quick(test_integration
     "a short trajectory follows the reference"
     "a spring pair swings with period 2 pi sqrt(m / 2 k)"
     "normals are the normals of a curved sheet")
+quick(test_output
+    "outputs write what is asked for at the host's offsets and strides, and nothing else"
+    "outputs that cannot be are refused, and ids that name none"
+    "previous positions are the positions before the last step, to the bit"
+    "a step that resets or teleports a cloth leaves it without motion"
+    "without options the vertex streams cost no memory and no dispatch"
+    "the index buffer has the triangles of grids and meshes")
 quick(test_lifetime
     "a default-constructed id names nothing, and ids compare"
     "an upload and a snapshot may outlive their solver"

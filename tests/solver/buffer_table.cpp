@@ -26,7 +26,10 @@ Uses find_uses(const voile::Kernels& kernels)
 {
     Uses uses;
     voile::DescriptorSets sets;
-    for (const voile::SetDescription& set : voile::describe_sets(sets, kernels))
+    std::vector<voile::SetDescription> descriptions = voile::describe_sets(sets, kernels);
+    VkDescriptorSet output = VK_NULL_HANDLE;
+    descriptions.push_back(voile::describe_output(output, kernels, true));
+    for (const voile::SetDescription& set : descriptions)
     {
         const auto buffers = voile::engine::take(voile::resolve(*set.kernel, set.roles));
         const std::string kernel = std::string(set.kernel->name()).substr(std::string("cloth ").size());
@@ -71,7 +74,8 @@ std::string buffer_table(const voile::Kernels& kernels)
     for (const voile::BufferDeclaration& declared : voile::buffer_declarations())
     {
         const bool role = declared.kind == voile::BufferKind::role;
-        const std::string count = declared.count != nullptr ? code(declared.count) : "per slot";
+        const bool hosts = declared.kind == voile::BufferKind::hosts;
+        const std::string count = declared.count != nullptr ? code(declared.count) : hosts ? "the host's" : "per slot";
         const std::string middle =
             role ? declared.meaning + (" | " + list(uses.buffers[declared.number])) : count + " | " + declared.meaning;
         (role ? roles : buffers) += "| " + code(declared.name) + " | " + declared.entry + " | " + middle + " | " +

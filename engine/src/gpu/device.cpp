@@ -188,7 +188,7 @@ Device::Device(const DeviceOptions& options)
         create_instance(options);
         choose_physical_device(options.device);
         create_device(options);
-        create_allocator();
+        create_allocator(options.device_addresses);
     }
     catch (...)
     {
@@ -288,6 +288,12 @@ void Device::create_device(const DeviceOptions& options)
     synchronization2.synchronization2 = VK_TRUE;
     synchronization2.pNext = &dynamic_rendering;
 
+    VkPhysicalDeviceBufferDeviceAddressFeatures device_addresses{};
+    device_addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    device_addresses.bufferDeviceAddress = VK_TRUE;
+    if (options.device_addresses)
+        dynamic_rendering.pNext = &device_addresses;
+
     const float priority = 1;
     VkDeviceQueueCreateInfo queue_info{};
     queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -304,13 +310,13 @@ void Device::create_device(const DeviceOptions& options)
     check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "device");
 }
 
-void Device::create_allocator()
+void Device::create_allocator(bool device_addresses)
 {
     Handles handles{.instance = instance_,
                     .physical_device = physical_device_,
                     .device = device_,
                     .get_instance_proc_addr = vkGetInstanceProcAddr};
-    allocator_ = take(gpu::Allocator::create(handles));
+    allocator_ = take(gpu::Allocator::create(handles, device_addresses));
     handles.buffer_allocator = allocator_.get();
     context_ = take(gpu::create_context(handles));
     VkPipelineCacheCreateInfo cache_info{};

@@ -33,6 +33,7 @@ VmaAllocationCreateFlags allocation_flags(Memory memory)
 struct Allocator::Implementation
 {
     VmaAllocator vma = VK_NULL_HANDLE;
+    bool device_addresses = false;
 };
 
 Allocator::Allocator(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
@@ -42,13 +43,14 @@ Allocator::~Allocator()
     vmaDestroyAllocator(implementation_->vma);
 }
 
-Result<std::unique_ptr<Allocator>> Allocator::create(const Handles& handles)
+Result<std::unique_ptr<Allocator>> Allocator::create(const Handles& handles, bool device_addresses)
 {
     VmaVulkanFunctions functions{};
     functions.vkGetInstanceProcAddr = handles.get_instance_proc_addr;
     functions.vkGetDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
         handles.get_instance_proc_addr(handles.instance, "vkGetDeviceProcAddr"));
     VmaAllocatorCreateInfo info{};
+    info.flags = device_addresses ? VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT : 0;
     info.instance = handles.instance;
     info.physicalDevice = handles.physical_device;
     info.device = handles.device;
@@ -56,6 +58,7 @@ Result<std::unique_ptr<Allocator>> Allocator::create(const Handles& handles)
     info.preferredLargeHeapBlockSize = k_block_bytes;
     info.pVulkanFunctions = &functions;
     auto implementation = std::make_unique<Implementation>();
+    implementation->device_addresses = device_addresses;
     if (const VkResult status = vmaCreateAllocator(&info, &implementation->vma); status != VK_SUCCESS)
         return Error{"memory allocator cannot be made: " + to_string(status)};
     return std::unique_ptr<Allocator>(new Allocator(std::move(implementation)));
@@ -63,6 +66,8 @@ Result<std::unique_ptr<Allocator>> Allocator::create(const Handles& handles)
 
 Result<BufferMemory> Allocator::create_buffer(const BufferRequest& request) noexcept
 {
+    if ((request.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0 && !implementation_->device_addresses)
+        return Error{"its allocator was made without device addresses"};
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = request.bytes;

@@ -77,4 +77,14 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
     return Buffer(context.buffers, *created, size);
 }
 
+VkDeviceAddress device_address(const Context& context, VkBuffer buffer)
+{
+    if (buffer == VK_NULL_HANDLE)
+        return 0;
+    VkBufferDeviceAddressInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    info.buffer = buffer;
+    return context.fn.vkGetBufferDeviceAddress(context.device(), &info);
+}
+
 } // namespace voile::gpu

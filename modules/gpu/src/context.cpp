@@ -31,7 +31,7 @@ VkDeviceSize largest_storage_buffer(const Handles& handles, const VkPhysicalDevi
 
 } // namespace
 
-Result<Context> create_context(const Handles& handles)
+Result<Context> create_context(const Handles& handles, bool device_addresses)
 {
     if (handles.instance == VK_NULL_HANDLE || handles.physical_device == VK_NULL_HANDLE ||
         handles.device == VK_NULL_HANDLE)
@@ -48,7 +48,7 @@ Result<Context> create_context(const Handles& handles)
 
     if (handles.buffer_allocator != nullptr) // borrowed: no owner counts it
         context.buffers = std::shared_ptr<BufferAllocator>(std::shared_ptr<void>(), handles.buffer_allocator);
-    else if (auto own = Allocator::create(handles))
+    else if (auto own = Allocator::create(handles, device_addresses))
         context.buffers = std::shared_ptr<Allocator>(std::move(own.value()));
     else
         return own.error();

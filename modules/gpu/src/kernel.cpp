@@ -272,7 +272,7 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
     std::vector<VkWriteDescriptorSet> writes;
     for (const BufferBinding& given : buffers)
     {
-        infos.push_back({given.buffer, 0, VK_WHOLE_SIZE});
+        infos.push_back({given.buffer, given.offset, given.bytes});
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set;

@@ -5,7 +5,10 @@
 // `count` is an expression over BufferCounts (device_state.hpp). A kernel that declares a binding of that name gets the
 // buffer.
 // VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning): the same, but nothing in it outlives an upload.
+// VOILE_OUTPUT_BUFFER(number, name, entry, count, meaning): the same as VOILE_BUFFER, for the host alone. Its count is 0,
+// and it is not allocated, unless SolverOptions::output asks for it.
 // VOILE_SOLVER_BUFFER(number, name, entry, meaning): a buffer that uploads leave alone.
+// VOILE_HOST_BUFFER(number, name, entry, meaning): a buffer of the host's, another one in each set.
 // VOILE_ROLE(number, name, entry, meaning): a binding whose buffer differs between descriptor sets. Each set names the
 // buffer (set_descriptions.cpp).
 //
@@ -17,8 +20,14 @@
 #ifndef VOILE_SCRATCH_BUFFER
 #define VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning) VOILE_BUFFER(number, name, entry, count, meaning)
 #endif
+#ifndef VOILE_OUTPUT_BUFFER
+#define VOILE_OUTPUT_BUFFER(number, name, entry, count, meaning) VOILE_BUFFER(number, name, entry, count, meaning)
+#endif
 #ifndef VOILE_SOLVER_BUFFER
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning)
+#endif
+#ifndef VOILE_HOST_BUFFER
+#define VOILE_HOST_BUFFER(number, name, entry, meaning) VOILE_SOLVER_BUFFER(number, name, entry, meaning)
 #endif
 #ifndef VOILE_ROLE
 #define VOILE_ROLE(number, name, entry, meaning)
@@ -96,6 +105,11 @@ VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "the fractions of the limit's
 VOILE_SCRATCH_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
 VOILE_SOLVER_BUFFER(53, statistics, StatisticsRecord, "statistics of all cloths, one record per slot; the host reads it")
 
+// Output.
+VOILE_OUTPUT_BUFFER(54, previous_positions, vec4, previous_vertices, "the positions before the last step; the host reads it")
+VOILE_OUTPUT_BUFFER(55, indices, uint, 3 * cloth_triangles, "triangles of a cloth, relative to its first vertex; the host draws with it")
+VOILE_HOST_BUFFER(56, host_vertices, float, "a vertex buffer of the host's, which an output writes")
+
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(64, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")
 VOILE_ROLE(65, base_residuals, uvec2, "RK4: the residuals before the substep")
@@ -140,5 +154,7 @@ VOILE_ROLE(96, works, LimitWork, "the measured energy and work")
 
 #undef VOILE_BUFFER
 #undef VOILE_SCRATCH_BUFFER
+#undef VOILE_OUTPUT_BUFFER
 #undef VOILE_SOLVER_BUFFER
+#undef VOILE_HOST_BUFFER
 #undef VOILE_ROLE

@@ -1,4 +1,4 @@
-// Ids of the cloths, colliders and anchors of a solver.
+// Ids of the cloths, colliders, anchors and outputs of a solver.
 //
 // A default-constructed id is not valid, nor is the id of something that was removed: a later addition may get its
 // index, with another generation. For an invalid id, functions return an error, or an empty value if they return no
@@ -36,6 +36,15 @@ struct AnchorId
     uint32_t generation = 0; // raised each time that the index becomes free
 
     friend bool operator==(const AnchorId&, const AnchorId&) = default;
+};
+
+// A vertex buffer of the host's that a cloth writes. See Solver::add_output.
+struct OutputId
+{
+    uint32_t index = k_no_index;
+    uint32_t generation = 0; // raised each time that the index is given again
+
+    friend bool operator==(const OutputId&, const OutputId&) = default;
 };
 
 } // namespace voile

@@ -7,8 +7,8 @@
 //   each frame:   if (auto r = solver->record(cmd, {.duration = 1.f / 60}); !r) ...  // r.error().message
 //                 draw solver->vertices(*sheet)           // the same buffers that were written
 //
-// The host draws from the buffers of VertexStreams: positions, velocities, normals. docs/buffers.md lists all buffers
-// and which kernels write and read them.
+// The host draws from the buffers of VertexStreams, or from its own after record_outputs (voile/output.hpp).
+// docs/buffers.md lists all buffers and which kernels write and read them.
 //
 // docs/integration.md is the contract: threads, lifetimes, queues, scopes, memory. In short:
 // - one thread at a time uses a solver; different solvers are independent of each other;
@@ -23,6 +23,7 @@
 #include "voile/export.hpp"
 #include "voile/handles.hpp"
 #include "voile/jobs.hpp"
+#include "voile/output.hpp"
 #include "voile/statistics.hpp"
 #include "voile/step.hpp"
 
@@ -87,20 +88,6 @@ struct Tuning
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
-// Stages and accesses as in VkMemoryBarrier2.
-struct Scope
-{
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 accesses = 0;
-};
-
-// How the host's own commands use the vertex streams, other than by compute shaders and transfers. 0: none.
-struct HostScopes
-{
-    Scope before; // stages that read before the solver writes; accesses only of stages that write
-    Scope after;  // stages and accesses that read what the solver has written
-};
-
 struct SolverOptions
 {
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
@@ -112,6 +99,7 @@ struct SolverOptions
     // None: vertex input reads the streams. A queue without graphics has no vertex input: there give the host's own
     // stages on that queue, or HostScopes{}, and let semaphores order other queues.
     std::optional<HostScopes> host_scopes{};
+    OutputOptions output{}; // what the vertex streams have on request
     // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
     // None: on if the module was compiled without NDEBUG.
     std::optional<bool> lifetime_checks{};
@@ -166,19 +154,6 @@ private:
     std::unique_ptr<Contents> contents_;
 };
 
-// Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles and 0 vertices
-// for a cloth that is not uploaded yet or does not exist.
-struct VertexStreams
-{
-    VkBuffer positions{};  // vec4: x y z (m) and inverse mass (1/kg)
-    VkBuffer velocities{}; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a tether, a
-                           // max-distance constraint or a backstop limits it, plus 4 if a triangle or an edge around it
-                           // touched a feature of a collider
-    VkBuffer normals{};    // vec4: unit normal and 0
-    VkDeviceSize offset = 0; // bytes, of the first vertex, in each of them
-    uint32_t vertices = 0;
-};
-
 class VOILE_API Solver
 {
 public:
@@ -201,11 +176,21 @@ public:
     // Remove something, at any time. It takes no part from the next record on; no upload is needed. Later additions use
     // its range of the buffers. Its id stays invalid, even if a later addition gets the same index. Pending command
     // buffers can read its vertices until the next record_upload. Removing an anchor also removes the attachments to
-    // it, and removing a collider those on its surface: their vertices become free, and tethers to them end. Errors: an
-    // id that is not valid.
+    // it, and removing a collider those on its surface: their vertices become free, and tethers to them end. Removing a
+    // cloth removes its outputs. Errors: an id that is not valid.
     Result<void> remove(ClothId cloth);
     Result<void> remove(ColliderId collider);
     Result<void> remove(AnchorId anchor);
+
+    // An output copies a cloth's vertices into a vertex buffer of the host's, in the host's layout. It lasts until it
+    // or its cloth is removed; uploads do not change it. The buffer must exist until the last command buffer that
+    // writes it has completed. Errors: an id that is not valid, a null buffer, nothing to write, a stride or an offset
+    // that is not a multiple of 4, a stride of 0, an attribute that overlaps another or the end of the vertex, previous
+    // positions that the solver does not keep, vertices beyond the end of the buffer or beyond what a shader can bind,
+    // out of memory.
+    Result<OutputId> add_output(ClothId cloth, const VertexLayout& layout);
+    // When no command buffer that writes the output is pending. Errors: an id that is not valid.
+    Result<void> remove(OutputId output);
 
     // A disabled cloth keeps its state: no pass runs over it, and stable_substeps, budgets and statistics leave it out.
     // It can still be drawn. When it is enabled again it continues with its former velocities. A disabled collider
@@ -320,6 +305,15 @@ public:
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
+
+    // Records the copies of outputs, one dispatch each, in the order given. Never allocates. Nothing is recorded for a
+    // cloth that is not uploaded yet. Begins and ends like record, with the host's buffers among what HostScopes
+    // orders: the host draws from them without a barrier of its own. Errors: an id that is not valid; nothing is
+    // recorded then.
+    Result<void> record_outputs(VkCommandBuffer cmd, std::span<const OutputId> outputs,
+                                gpu::Timestamps* timestamps = nullptr) const;
+    Result<void> record_outputs(VkCommandBuffer cmd, std::initializer_list<OutputId> outputs,
+                                gpu::Timestamps* timestamps = nullptr) const;
 
     // Records the computation of the statistics into `slot`. Read them once the submission has completed; uploads do
     // not disturb them. Nothing is recorded before the first record_upload. Errors: a slot that does not exist.

@@ -40,6 +40,7 @@ struct ClothModel
     bool enabled = true;
     bool uploaded = false; // its arrays are in the solver's buffers
     uint32_t level = 0;    // of its substeps (substep_plan.hpp)
+    bool jumped = false;   // reset or teleported in the step that is recorded
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it
@@ -60,6 +61,7 @@ struct ClothModel
     std::vector<glm::vec4> velocities; // at the start. Empty once they are uploaded
     Extent extent;                     // m, of the positions at the start
     float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
+    uint64_t first_triangle = 0;       // in the index buffer, if there is one
 };
 
 // The input that grids and meshes have in common: transform, velocity, material, pinned vertices, inverse masses.
@@ -93,6 +95,7 @@ void apply_material(ClothModel& cloth);
 // Fills the start of a cloth whose record is complete: masses from the material unless they are given.
 void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions);
 
+uint64_t count_triangles(const ClothModel& cloth);
 // Triangles of a cloth, a grid's cut as Solver::triangles says.
 std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth);
 

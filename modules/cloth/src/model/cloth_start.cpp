@@ -106,13 +106,19 @@ void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::
     }
 }
 
+uint64_t count_triangles(const ClothModel& cloth)
+{
+    return cloth.mesh ? cloth.mesh->triangles.size()
+                      : uint64_t{2} * (cloth.record.columns - 1) * (cloth.record.rows - 1);
+}
+
 std::vector<glm::uvec3> cloth_triangles(const ClothModel& cloth)
 {
     if (cloth.mesh)
         return {cloth.mesh->triangles.begin(), cloth.mesh->triangles.end()};
     const shared::ClothRecord& record = cloth.record;
     std::vector<glm::uvec3> result;
-    result.reserve(size_t{2} * (record.columns - 1) * (record.rows - 1));
+    result.reserve(count_triangles(cloth));
     for (uint32_t row = 0; row + 1 < record.rows; ++row)
         for (uint32_t column = 0; column + 1 < record.columns; ++column)
         {

@@ -70,6 +70,8 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
             lists.acquire(cloth.lists, {mesh.vertices.size(), mesh.springs.size(), mesh.corners.size()});
         record.first_list = static_cast<uint32_t>(placement.first[k_list_vertices]);
     }
+    if (indices)
+        cloth.first_triangle = triangles.allocate(count_triangles(cloth));
     apply_material(cloth);
     set_start(cloth, input, world_positions);
     patches += count_patches(record, limits.workgroup_size);
@@ -81,6 +83,8 @@ void Model::remove(ClothId id)
     const ClothModel& cloth = *cloths.find(id);
     vertices.release(cloth.record.first_vertex, cloth.record.vertices);
     lists.release(cloth.lists.get());
+    if (indices)
+        triangles.release(cloth.first_triangle, count_triangles(cloth));
     patches -= count_patches(cloth.record, limits.workgroup_size);
     cloths.remove(id);
 }

@@ -39,8 +39,10 @@ struct Model
     Slots<AnchorId, Anchor> anchors; // the first is the world
     RangeAllocator vertices;
     SharedRanges<MeshLists, k_list_arrays> lists;
-    uint64_t patches = 0;    // workgroups over all cloths, of workgroup_size vertices
-    bool interleaved = true; // lists of meshes: SolverOptions::mesh_layout
+    RangeAllocator triangles; // of cloths, in the index buffer
+    bool indices = false;     // there is one: OutputOptions::indices
+    uint64_t patches = 0;     // workgroups over all cloths, of workgroup_size vertices
+    bool interleaved = true;  // lists of meshes: SolverOptions::mesh_layout
     DeviceLimits limits;
 
     Model() { anchors.add(Anchor{}); }

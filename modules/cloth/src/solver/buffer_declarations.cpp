@@ -27,8 +27,12 @@ constexpr BufferDeclaration k_declarations[] = {
     {BufferKind::kept, number, #name, #entry, sizeof(entry), #count, meaning},
 #define VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning)                                                      \
     {BufferKind::scratch, number, #name, #entry, sizeof(entry), #count, meaning},
+#define VOILE_OUTPUT_BUFFER(number, name, entry, count, meaning)                                                       \
+    {BufferKind::output, number, #name, #entry, sizeof(entry), #count, meaning},
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning)                                                              \
     {BufferKind::solvers, number, #name, #entry, sizeof(entry), nullptr, meaning},
+#define VOILE_HOST_BUFFER(number, name, entry, meaning)                                                                \
+    {BufferKind::hosts, number, #name, #entry, sizeof(entry), nullptr, meaning},
 #define VOILE_ROLE(number, name, entry, meaning)                                                                       \
     {BufferKind::role, number, #name, #entry, sizeof(entry), nullptr, meaning},
 #include "shared/buffers.h"

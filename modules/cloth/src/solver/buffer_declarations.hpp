@@ -12,7 +12,9 @@ enum class BufferKind
 {
     kept,    // allocated by uploads, copied over when it grows
     scratch, // allocated by uploads; nothing in it outlives one
+    output,  // as kept, but only if the host asks for it
     solvers, // uploads leave it alone
+    hosts,   // the host's own
     role,    // what a kernel calls one of the others
 };
 

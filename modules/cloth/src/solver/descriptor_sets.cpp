@@ -73,10 +73,25 @@ Result<std::vector<buffer::Name>> resolve(const gpu::Kernel& kernel, std::span<c
 Result<void> check_sets(const Kernels& kernels)
 {
     DescriptorSets none;
-    for (const SetDescription& description : describe_sets(none, kernels))
+    std::vector<SetDescription> descriptions = describe_sets(none, kernels);
+    VkDescriptorSet output = VK_NULL_HANDLE;
+    for (const bool keeps_previous : {false, true})
+        descriptions.push_back(describe_output(output, kernels, keeps_previous));
+    for (const SetDescription& description : descriptions)
         if (const auto buffers = resolve(*description.kernel, description.roles); !buffers)
             return buffers.error();
     return {};
+}
+
+Result<std::vector<gpu::BufferBinding>> bindings_of(const SetDescription& description, const BufferHandles& buffers)
+{
+    const auto names = resolve(*description.kernel, description.roles);
+    if (!names)
+        return names.error();
+    std::vector<gpu::BufferBinding> bound;
+    for (size_t i = 0; i < names.value().size(); ++i)
+        bound.push_back({description.kernel->bindings()[i].number, buffers[names.value()[i]]});
+    return bound;
 }
 
 Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,
@@ -92,13 +107,10 @@ Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& co
         return pool.error();
     for (const SetDescription& description : descriptions)
     {
-        const auto names = resolve(*description.kernel, description.roles);
-        if (!names)
-            return names.error();
-        std::vector<gpu::BufferBinding> bound;
-        for (size_t i = 0; i < names.value().size(); ++i)
-            bound.push_back({description.kernel->bindings()[i].number, buffers[names.value()[i]]});
-        auto set = pool.value().bind(*description.kernel, bound);
+        const auto bound = bindings_of(description, buffers);
+        if (!bound)
+            return bound.error();
+        auto set = pool.value().bind(*description.kernel, bound.value());
         if (!set)
             return set.error();
         *description.set = set.value();

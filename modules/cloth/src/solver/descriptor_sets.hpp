@@ -68,10 +68,16 @@ struct SetDescription
 // All of them, which point into `sets` and `kernels`.
 std::vector<SetDescription> describe_sets(DescriptorSets& sets, const Kernels& kernels);
 
+// The set of an output. `keeps_previous`: there are previous positions to bind.
+SetDescription describe_output(VkDescriptorSet& set, const Kernels& kernels, bool keeps_previous);
+
 // That every set can be resolved. Errors: see resolve.
 Result<void> check_sets(const Kernels& kernels);
 
 using BufferHandles = std::array<VkBuffer, buffer::k_numbers>; // by name
+
+// The buffers of a set. Errors: see resolve.
+Result<std::vector<gpu::BufferBinding>> bindings_of(const SetDescription& description, const BufferHandles& buffers);
 
 // Writes all sets, from a pool of their size. Errors: see resolve; out of memory.
 Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& context, const Kernels& kernels,

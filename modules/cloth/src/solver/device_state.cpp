@@ -16,12 +16,26 @@ namespace
 {
 
 constexpr uint64_t BufferCounts::*k_counts[] = {
-    &BufferCounts::cloths,        &BufferCounts::vertices,     &BufferCounts::patches,
-    &BufferCounts::mesh_vertices, &BufferCounts::springs,      &BufferCounts::corners,
-    &BufferCounts::colliders,     &BufferCounts::nodes,        &BufferCounts::triangles,
-    &BufferCounts::padded_leaves, &BufferCounts::padded_boxes, &BufferCounts::deforming_vertices,
-    &BufferCounts::near_words,    &BufferCounts::features,     &BufferCounts::feature_nodes,
-    &BufferCounts::anchors,       &BufferCounts::attachments,  &BufferCounts::tethers,
+    &BufferCounts::cloths,
+    &BufferCounts::vertices,
+    &BufferCounts::patches,
+    &BufferCounts::mesh_vertices,
+    &BufferCounts::springs,
+    &BufferCounts::corners,
+    &BufferCounts::colliders,
+    &BufferCounts::nodes,
+    &BufferCounts::triangles,
+    &BufferCounts::padded_leaves,
+    &BufferCounts::padded_boxes,
+    &BufferCounts::deforming_vertices,
+    &BufferCounts::near_words,
+    &BufferCounts::features,
+    &BufferCounts::feature_nodes,
+    &BufferCounts::anchors,
+    &BufferCounts::attachments,
+    &BufferCounts::tethers,
+    &BufferCounts::previous_vertices,
+    &BufferCounts::cloth_triangles,
 };
 static_assert(sizeof(BufferCounts) == std::size(k_counts) * sizeof(uint64_t));
 
@@ -54,33 +68,55 @@ uint32_t near_stride(uint64_t colliders, const BufferCounts& capacities, uint64_
     return colliders > VOILE_NEAR_LISTS_ABOVE && fits ? stride : 0;
 }
 
-Result<gpu::Buffer> create(const gpu::Context& context, const BufferDeclaration& declared, uint64_t entries)
+// What buffers have beside the usages of all: the vertex streams those that the host asks for.
+VkBufferUsageFlags usage_of(uint32_t number, VkBufferUsageFlags stream_usage)
+{
+    switch (number)
+    {
+    case buffer::indices:
+        return stream_usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    case buffer::positions:
+    case buffer::velocities:
+    case buffer::normals:
+    case buffer::previous_positions:
+        return stream_usage;
+    default:
+        return 0;
+    }
+}
+
+Result<gpu::Buffer> create(const gpu::Context& context, const BufferDeclaration& declared, uint64_t entries,
+                           VkBufferUsageFlags usage)
 {
     constexpr VkBufferUsageFlags k_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const std::string name = std::string("cloth ") + declared.name;
-    return gpu::create_buffer(context, name.c_str(), entries * declared.entry_bytes, k_usage, Memory::device);
+    return gpu::create_buffer(context, name.c_str(), entries * declared.entry_bytes, k_usage | usage, Memory::device);
 }
 
 // The buffers that must be larger than they are.
-Result<void> create_buffers(const gpu::Context& context, const DeviceState* present, Growth& growth)
+Result<void> create_buffers(const gpu::Context& context, const DeviceState* present, VkBufferUsageFlags stream_usage,
+                            Growth& growth)
 {
     const auto before = present != nullptr ? present->capacities.entries() : BufferCounts{}.entries();
     const auto entries = growth.next.capacities.entries();
     for (const BufferDeclaration& declared : buffer_declarations())
     {
         const uint32_t number = declared.number;
-        if (declared.kind != BufferKind::kept && declared.kind != BufferKind::scratch)
+        const bool output = declared.kind == BufferKind::output;
+        if (declared.kind != BufferKind::kept && declared.kind != BufferKind::scratch && !output)
+            continue;
+        if (output && entries[number] == 0)
             continue;
         if (present != nullptr && entries[number] <= before[number])
             continue;
-        auto created = create(context, declared, entries[number]);
+        auto created = create(context, declared, entries[number], usage_of(number, stream_usage));
         if (!created)
             return created.error();
         growth.next.buffers[number] = std::move(created.value());
         growth.any = true;
-        if (declared.kind == BufferKind::kept && before[number] > 0)
+        if (declared.kind != BufferKind::scratch && before[number] > 0)
             growth.copies.push_back({present->buffers[number].handle(), growth.next.buffers[number].handle(),
                                      before[number] * declared.entry_bytes});
     }
@@ -98,7 +134,7 @@ std::array<uint64_t, buffer::k_numbers> BufferCounts::entries() const
 }
 
 Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const DeviceState* present,
-                    const BufferCounts& needed, const gpu::Buffer& statistics)
+                    const BufferCounts& needed, const gpu::Buffer& statistics, VkBufferUsageFlags stream_usage)
 {
     const BufferCounts capacities = present != nullptr ? present->capacities : BufferCounts{};
     Growth growth;
@@ -108,19 +144,25 @@ Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const D
     next.collider_count = static_cast<uint32_t>(needed.colliders);
     next.near_stride = near_stride(needed.colliders, next.capacities, context.max_buffer_bytes);
     next.capacities.near_words = std::max(capacities.near_words, next.capacities.patches * uint64_t{next.near_stride});
-    if (auto created = create_buffers(context, present, growth); !created)
+    if (auto created = create_buffers(context, present, stream_usage, growth); !created)
         return created.error();
     if (!growth.any)
         return growth;
-    BufferHandles handles{};
-    for (size_t i = 0; i < handles.size(); ++i)
-        handles[i] = next.buffers[i] || present == nullptr ? next.buffers[i].handle() : present->buffers[i].handle();
+    BufferHandles handles = handles_after(present, next);
     handles[buffer::statistics] = statistics.handle();
     auto pool = write_sets(next.sets, context, kernels, handles);
     if (!pool)
         return pool.error();
     next.pool = std::move(pool.value());
     return growth;
+}
+
+BufferHandles handles_after(const DeviceState* present, const DeviceState& next)
+{
+    BufferHandles handles{};
+    for (size_t i = 0; i < handles.size(); ++i)
+        handles[i] = next.buffers[i] || present == nullptr ? next.buffers[i].handle() : present->buffers[i].handle();
+    return handles;
 }
 
 DeviceState replace_grown(DeviceState& device, Growth growth)

@@ -50,6 +50,8 @@ struct BufferCounts
     uint64_t anchors = 0;
     uint64_t attachments = 0;
     uint64_t tethers = 0;
+    uint64_t previous_vertices = 0; // 0 unless the host asks for previous positions
+    uint64_t cloth_triangles = 0;   // 0 unless the host asks for indices
 
     // Entries of each buffer, by name.
     [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
@@ -88,8 +90,12 @@ struct Growth
 };
 
 // Nothing changes on an error: out of memory, beyond the device's limits. `statistics`: where the reduction writes.
+// `stream_usage`: of the vertex streams, beside what all buffers have.
 Result<Growth> grow(const gpu::Context& context, const Kernels& kernels, const DeviceState* present,
-                    const BufferCounts& needed, const gpu::Buffer& statistics);
+                    const BufferCounts& needed, const gpu::Buffer& statistics, VkBufferUsageFlags stream_usage);
+
+// The buffers of `present`, if any, but those of `next` where it has one.
+BufferHandles handles_after(const DeviceState* present, const DeviceState& next);
 
 // Moves the new buffers into `device` and returns the replaced ones.
 DeviceState replace_grown(DeviceState& device, Growth growth);

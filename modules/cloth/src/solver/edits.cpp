@@ -164,9 +164,12 @@ size_t record_state_edits(gpu::Recorder& recorder, Solver::State& solver)
     const auto uploaded = [&](const shared::EditPush& edit) { return is_uploaded(solver, edit); };
     for (const shared::EditPush& edit : solver.edits.state_edits)
         if (uploaded(edit))
-            recorder.dispatch(solver.kernels.edit, solver.device->sets.edit,
-                              solver.model.cloths.at(edit.cloth)->record.vertices, solver.options.tuning.workgroup_size,
-                              edit);
+        {
+            ClothModel& cloth = *solver.model.cloths.at(edit.cloth);
+            cloth.jumped |= edit.kind == VOILE_EDIT_RESET || edit.kind == VOILE_EDIT_TRANSFORM;
+            recorder.dispatch(solver.kernels.edit, solver.device->sets.edit, cloth.record.vertices,
+                              solver.options.tuning.workgroup_size, edit);
+        }
     return std::erase_if(solver.edits.state_edits, uploaded);
 }
 

@@ -70,6 +70,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
     add(kernels.normals, "cloth normals", shaders::k_normals_comp, with_lists);
+    add(kernels.output, "cloth output", shaders::k_output_comp, plain);
     add(kernels.statistics, "cloth statistics", shaders::k_statistics_comp, with_lists);
     add(kernels.statistics_reduce, "cloth statistics reduce", shaders::k_statistics_reduce_comp, plain);
     return requests;

@@ -36,6 +36,7 @@ struct Kernels
     gpu::Kernel deform;
     RefitKernels refit;
     gpu::Kernel normals;
+    gpu::Kernel output;
     gpu::Kernel statistics;
     gpu::Kernel statistics_reduce;
 };

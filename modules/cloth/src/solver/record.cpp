@@ -18,23 +18,6 @@ constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADE
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
-// Earlier draws and copies have read the buffers, uploads and earlier steps have written them.
-void begin_scope(gpu::Recorder& recorder, const SolverOptions& options)
-{
-    const Scope before = host_scopes(options).before;
-    recorder.barrier(before.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
-                     before.accesses | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                     k_compute, k_storage);
-}
-
-void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
-{
-    const Scope after = host_scopes(options).after;
-    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                     after.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
-                     after.accesses | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
-}
-
 // The number of a step's first substep. Before a number repeats, everything that stores numbers of substeps is cleared.
 uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, uint32_t substeps)
 {
@@ -106,6 +89,27 @@ HostScopes host_scopes(const SolverOptions& options)
     return options.host_scopes.value_or(k_default);
 }
 
+// Earlier draws and copies have read the buffers, uploads and earlier steps have written them.
+void begin_scope(gpu::Recorder& recorder, const SolverOptions& options)
+{
+    const Scope before = host_scopes(options).before;
+    recorder.barrier(before.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     before.accesses | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
+                     k_compute, k_storage);
+}
+
+// Previous positions are written by copies.
+void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
+{
+    const Scope after = host_scopes(options).after;
+    const Scope copies = options.output.previous_positions
+                             ? Scope{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR}
+                             : Scope{};
+    recorder.barrier(k_compute | copies.stages, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR | copies.accesses,
+                     after.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
+                     after.accesses | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
+}
+
 void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
 {
     const VkDispatchIndirectCommand none{0, groups_each, 1};
@@ -155,6 +159,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     if (!state_->device || (state_->device->patch_count == 0 && !state_->edits.patches))
         return {};
     state_->lifetime.begin(recorder.cmd());
+    record_previous_positions(recorder, *state_);
     begin_scope(recorder, state_->options);
     state_->history.depenetration_due |= state_->changes_due();
     const SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
@@ -162,6 +167,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     record_edits(recorder, *state_, step);
     if (state_->lists.patch_count() > 0)
         record_passes(recorder, *state_, state_->lists, state_->history, step, plan);
+    record_jumps(recorder, *state_);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
     return {};

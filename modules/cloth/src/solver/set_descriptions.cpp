@@ -246,4 +246,13 @@ std::vector<SetDescription> describe_sets(DescriptorSets& sets, const Kernels& k
     return Describer(sets, kernels).describe();
 }
 
+// Where no previous positions are kept, the kernel does not read what stands in their place.
+SetDescription describe_output(VkDescriptorSet& set, const Kernels& kernels, bool keeps_previous)
+{
+    SetDescription description{&set, &kernels.output, {}};
+    if (!keeps_previous)
+        description.roles.push_back({binding::previous_positions, buffer::positions});
+    return description;
+}
+
 } // namespace voile

@@ -225,10 +225,15 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
         return Error{"snapshot: nothing was saved in it"};
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
+    const DeviceState& device = *state_->device;
+    const bool keeps_previous = state_->options.output.previous_positions;
     for (const Region& region : regions_of(*state_, snapshot.contents_->cloths, snapshot.contents_->depenetration_step))
     {
         const VkBufferCopy copy{region.snapshot_offset, region.offset, region.bytes};
         state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(), region.buffer, 1, &copy);
+        if (keeps_previous && region.buffer == device[buffer::positions].handle())
+            state_->context.fn.vkCmdCopyBuffer(cmd, snapshot.contents_->buffer.handle(),
+                                               device[buffer::previous_positions].handle(), 1, &copy);
     }
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);

@@ -81,9 +81,11 @@ Solver& Solver::operator=(Solver&&) noexcept = default;
 
 Result<Solver> Solver::create(const Handles& handles, const SolverOptions& options)
 {
-    auto context = gpu::create_context(handles);
+    auto context = gpu::create_context(handles, wants_addresses(options.output));
     if (!context)
         return context.error();
+    if (auto output = check_output(context.value(), options.output); !output)
+        return output.error();
     if (!std::has_single_bit(options.tuning.workgroup_size))
         return Error{"Tuning: workgroup_size is " + std::to_string(options.tuning.workgroup_size) +
                      ", must be a power of two"};
@@ -115,6 +117,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     state->model.limits = {options.tuning.workgroup_size, state->context.limits.maxComputeWorkGroupCount[0],
                            state->context.max_buffer_bytes};
     state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;
+    state->model.indices = options.output.indices;
     state->collider_models.limits = state->model.limits;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
@@ -228,22 +231,6 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     return result;
 }
 
-VertexStreams Solver::vertices(ClothId cloth) const
-{
-    VertexStreams streams;
-    const ClothModel* model = state_->find(cloth);
-    if (model == nullptr || !model->uploaded)
-        return streams;
-    const DeviceState& device = *state_->device;
-    const shared::ClothRecord& record = model->record;
-    streams.positions = device[buffer::positions].handle();
-    streams.velocities = device[buffer::velocities].handle();
-    streams.normals = device[buffer::normals].handle();
-    streams.offset = record.first_vertex * sizeof(glm::vec4);
-    streams.vertices = record.vertices;
-    return streams;
-}
-
 std::vector<glm::uvec3> Solver::triangles(ClothId cloth) const
 {
     const ClothModel* model = state_->find(cloth);
@@ -296,10 +283,9 @@ uint32_t Solver::vertex_count() const
 
 uint32_t Solver::triangle_count() const
 {
-    size_t count = 0;
+    uint64_t count = 0;
     for (const auto [index, cloth] : state_->model.cloths)
-        count += cloth.mesh ? cloth.mesh->triangles.size()
-                            : size_t{2} * (cloth.record.columns - 1) * (cloth.record.rows - 1);
+        count += count_triangles(cloth);
     return static_cast<uint32_t>(count);
 }
 

@@ -11,6 +11,7 @@ Result<void> Solver::remove(ClothId cloth)
     State& s = *state_;
     if (auto exists = s.check(cloth); !exists)
         return exists;
+    s.remove_outputs(cloth);
     s.model.remove(cloth);
     s.edits.forget(cloth);
     s.update_patches();

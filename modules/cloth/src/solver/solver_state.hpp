@@ -8,6 +8,7 @@
 #include "model/substep_plan.hpp"
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
+#include "solver/outputs.hpp"
 
 #include "shared/step_layout.h"
 
@@ -83,6 +84,8 @@ struct Solver::State
     AttachmentCounts attachment_counts; // of the active cloths
     std::vector<SubstepNeed> needs;     // of the active cloths, in no order; kept so that recording does not allocate
     gpu::Buffer statistics;             // one record per slot; the host reads it. Uploads leave it alone
+    Slots<OutputId, Output> outputs;
+    std::vector<gpu::BindingPool> retired_sets; // of outputs whose cloth was removed; the next upload takes them
     Edits edits;
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
@@ -107,8 +110,12 @@ struct Solver::State
 
     // Whether the next record has edits to record.
     [[nodiscard]] bool changes_due() const;
+    // The sets of outputs after growth, in their order; returns those that it replaces and those that were retired.
+    std::vector<gpu::BindingPool> replace_outputs(std::vector<OutputSet> sets);
     // After a cloth was uploaded, removed, enabled or disabled.
     void update_patches();
+    // Removes the outputs of one cloth, while commands that use them may be pending.
+    void remove_outputs(ClothId cloth);
     // Removes the attachments of one cloth to an anchor.
     void remove_attachments(ClothId cloth, AnchorId anchor);
     // After the attachments or tethers of a cloth changed, and at the end of update_patches.
@@ -162,6 +169,15 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
 // The host's scopes, or the default ones.
 HostScopes host_scopes(const SolverOptions& options);
 
+// The barriers at the beginning and the end of what a solver records.
+void begin_scope(gpu::Recorder& recorder, const SolverOptions& options);
+void end_scope(gpu::Recorder& recorder, const SolverOptions& options);
+
+// Copies the positions, if the host wants to keep them: all of them before a step, with a barrier before it, and those
+// of cloths that jumped in it after the step, between barriers.
+void record_previous_positions(gpu::Recorder& recorder, const Solver::State& solver);
+void record_jumps(gpu::Recorder& recorder, Solver::State& solver);
+
 // Whether solvers with these options check at destruction that none of their commands run.
 bool checks_lifetime(const SolverOptions& options);
 
@@ -169,7 +185,8 @@ struct Upload::Contents
 {
     gpu::Buffer staging;
     DeviceState replaced;
-    LifetimeCheck lifetime; // the last member, as the solver's
+    std::vector<gpu::BindingPool> replaced_sets; // of outputs
+    LifetimeCheck lifetime;                      // the last member, as the solver's
 };
 
 } // namespace voile

@@ -24,7 +24,7 @@ void set_plane_origin(const Model& cloths, ColliderModel& plane)
     set_plane_origin(plane, glm::dvec3(glm::inverse(glm::dmat4(plane.pose.to)) * middle));
 }
 
-void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index)
+void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index, const OutputOptions& output)
 {
     const uint32_t first = cloth.record.first_vertex;
     staging.add(buffer::start, first, cloth.start);
@@ -33,6 +33,10 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index)
     staging.add(buffer::residuals, first, cloth.residuals);
     staging.add(buffer::velocities, first, cloth.velocities);
     staging.add_copy(buffer::normals, first, std::vector<glm::vec4>(cloth.record.vertices, glm::vec4(0, 1, 0, 0)));
+    if (output.previous_positions)
+        staging.add(buffer::previous_positions, first, cloth.positions);
+    if (output.indices)
+        staging.add_copy(buffer::indices, cloth.first_triangle, cloth_triangles(cloth));
     staging.add_copy(buffer::cloths, index, std::vector{cloth.record});
     staging.add_copy(buffer::limit_scales, index, std::vector{shared::LimitScale{1, 1, 0, 1, 0, 0}});
     for (const buffer::Name votes : k_depenetration_votes)
@@ -86,7 +90,7 @@ Staging stage_new(Solver::State& solver)
     ColliderModels& models = solver.collider_models;
     for (const auto [index, cloth] : solver.model.cloths)
         if (!cloth.uploaded)
-            stage_cloth(staging, cloth, index);
+            stage_cloth(staging, cloth, index, solver.options.output);
     solver.model.lists.for_each_new([&](const auto& placement) { stage_lists(staging, placement); });
     for (auto [index, collider] : models.colliders)
     {
@@ -144,7 +148,9 @@ BufferCounts count_entries(const Solver::State& solver)
             .features = models.features.end(k_feature_list),
             .anchors = room(model.anchors.size()),
             .attachments = room(attachments),
-            .tethers = room(tethers)};
+            .tethers = room(tethers),
+            .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
+            .cloth_triangles = model.triangles.end()};
 }
 
 std::vector<ColliderId> new_deforming(const ColliderModels& models)
@@ -206,9 +212,13 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const JobScope scope(s.options.jobs);
     if (s.options.feature_contact)
         update_features(s.collider_models, s.model);
-    auto growth = grow(s.context, s.kernels, s.device ? &*s.device : nullptr, count_entries(s), s.statistics);
+    auto growth = grow(s.context, s.kernels, s.device ? &*s.device : nullptr, count_entries(s), s.statistics,
+                       s.options.output.usage);
     if (!growth)
         return growth.error();
+    auto outputs = write_outputs(s, growth.value());
+    if (!outputs)
+        return outputs.error();
     const Staging staging = stage_new(s);
     auto staged = staging.write(s.context);
     if (!staged)
@@ -229,6 +239,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     if (!s.device)
         s.device.emplace();
     upload.contents_->replaced = replace_grown(*s.device, std::move(growth.value()));
+    upload.contents_->replaced_sets = s.replace_outputs(std::move(outputs.value()));
     upload.contents_->staging = std::move(staged.value());
     gpu::Recorder recorder(s.context, cmd);
     record_copies(recorder, s, copies, staging, upload.contents_->staging.handle());

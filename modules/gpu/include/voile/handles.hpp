@@ -20,7 +20,9 @@ enum class Memory
 struct BufferRequest
 {
     VkDeviceSize bytes = 0;       // at least 16
-    VkBufferUsageFlags usage = 0; // for VkBufferCreateInfo; the queue families are not shared
+    VkBufferUsageFlags usage = 0; // for VkBufferCreateInfo; the queue families are not shared. With
+                                  // VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT the memory must be allocated with
+                                  // VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT; only OutputOptions::usage asks for it
     Memory memory = Memory::device;
     const char* name = nullptr; // for messages and captures; only valid during the call. The module names the VkBuffer
 };

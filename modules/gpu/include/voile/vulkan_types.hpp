@@ -28,6 +28,7 @@ extern "C"
     typedef uint32_t VkFlags;
     typedef uint64_t VkFlags64;
     typedef uint64_t VkDeviceSize;
+    typedef uint64_t VkDeviceAddress;
     typedef VkFlags VkBufferUsageFlags;
     typedef VkFlags64 VkPipelineStageFlags2;
     typedef VkFlags64 VkAccessFlags2;

@@ -26,6 +26,7 @@ struct DeviceOptions
     bool validation = false; // validation and synchronization validation; StartupError if the layer is missing
     std::vector<const char*> instance_extensions; // required by windows (GLFW lists them); empty when headless
     bool swapchain = false;                       // VK_KHR_swapchain
+    bool device_addresses = false;                // the feature bufferDeviceAddress; StartupError if it is missing
 };
 
 struct DeviceInfo
@@ -63,7 +64,7 @@ private:
     void create_instance(const DeviceOptions& options);
     void choose_physical_device(const std::string& wanted);
     void create_device(const DeviceOptions& options);
-    void create_allocator();
+    void create_allocator(bool device_addresses);
     void release() noexcept;
 
     ValidationLog validation_;

@@ -22,8 +22,9 @@ struct ImageMemory
 class VOILE_GPU_API Allocator final : public BufferAllocator
 {
 public:
-    // Errors: out of memory.
-    static Result<std::unique_ptr<Allocator>> create(const Handles& handles);
+    // `device_addresses`: buffers can have VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT; the device must have the feature
+    // bufferDeviceAddress on. Errors: out of memory.
+    static Result<std::unique_ptr<Allocator>> create(const Handles& handles, bool device_addresses = false);
     ~Allocator(); // when all of its buffers and images are destroyed
     Allocator(const Allocator&) = delete;
     Allocator& operator=(const Allocator&) = delete;

@@ -41,4 +41,7 @@ private:
 VOILE_GPU_API Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceSize bytes,
                                            VkBufferUsageFlags usage, Memory memory);
 
+// Of a buffer with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT; 0 for a null one.
+VOILE_GPU_API VkDeviceAddress device_address(const Context& context, VkBuffer buffer);
+
 } // namespace voile::gpu

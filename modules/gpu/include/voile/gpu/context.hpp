@@ -32,9 +32,10 @@ struct Context
     [[nodiscard]] VkDevice device() const { return handles.device; }
 };
 
-// Makes an allocator if the host lends none. Errors: a null handle, out of memory, or a device without the functions of
+// Makes an allocator if the host lends none, which serves buffers with `device_addresses` if the device has the feature
+// bufferDeviceAddress on. Errors: a null handle, out of memory, or a device without the functions of
 // Vulkan 1.2 and VK_KHR_synchronization2.
-VOILE_GPU_API Result<Context> create_context(const Handles& handles);
+VOILE_GPU_API Result<Context> create_context(const Handles& handles, bool device_addresses = false);
 
 // Gives `object` a name that validation messages and RenderDoc show. No-op without VK_EXT_debug_utils.
 VOILE_GPU_API void set_name(const Context& context, VkObjectType type, uint64_t object, const char* name);

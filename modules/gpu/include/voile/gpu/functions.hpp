@@ -39,6 +39,7 @@ namespace voile::gpu
     use(vkDestroyPipelineLayout);                                                                                      \
     use(vkDestroyQueryPool);                                                                                           \
     use(vkDestroyShaderModule);                                                                                        \
+    use(vkGetBufferDeviceAddress);                                                                                     \
     use(vkGetEventStatus);                                                                                             \
     use(vkGetQueryPoolResults);                                                                                        \
     use(vkUpdateDescriptorSets);

@@ -59,11 +59,13 @@ private:
     uint32_t push_bytes_ = 0;
 };
 
-// A buffer for the binding of that number, whole.
+// A buffer for the binding of that number: all of it, or a range.
 struct BufferBinding
 {
     uint32_t number = 0;
     VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0; // bytes; a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize bytes = VK_WHOLE_SIZE;
 };
 
 // Descriptor sets of one pool, written once when they are made.

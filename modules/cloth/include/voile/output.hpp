@@ -1,0 +1,95 @@
+// What a solver gives to the host's renderer: vertex streams, from which the host draws, and copies of them in vertex
+// buffers of the host's. And how both are ordered with the host's commands.
+#pragma once
+
+#include "voile/vulkan_types.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace voile
+{
+
+// Stages and accesses as in VkMemoryBarrier2.
+struct Scope
+{
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 accesses = 0;
+};
+
+// What the host's own commands do with the vertex streams, and with the buffers of outputs. Compute shaders and
+// transfers need not be named. A member of 0 names nothing.
+struct HostScopes
+{
+    Scope before; // what must be done before the solver writes: stages that read; accesses only of what writes
+    Scope after;  // what sees what the solver has written
+};
+
+// What the vertex streams have on request. With the defaults nothing is allocated, recorded or copied for it.
+struct OutputOptions
+{
+    // Keeps the positions before the last step, for motion vectors. Costs a copy of the positions per step.
+    bool previous_positions = false;
+    // Keeps the triangles of each cloth in an index buffer.
+    bool indices = false;
+    // Usages of the streams' buffers, added to those that they have: vertex, storage and indirect buffer, transfer
+    // source and destination; index buffer for the indices.
+    // VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT gives VertexStreams::addresses. The device must be made with the
+    // feature bufferDeviceAddress. A BufferAllocator of the host's must allocate such buffers with
+    // VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.
+    // VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR needs VK_KHR_acceleration_structure.
+    VkBufferUsageFlags usage = 0;
+};
+
+// Device addresses of a cloth's first vertex in each stream, and of its first index. 0 for a stream that does not
+// exist, and all 0 without VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+struct StreamAddresses
+{
+    VkDeviceAddress positions = 0;
+    VkDeviceAddress velocities = 0;
+    VkDeviceAddress normals = 0;
+    VkDeviceAddress previous_positions = 0;
+    VkDeviceAddress indices = 0;
+};
+
+// Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles, 0 vertices
+// and 0 indices for a cloth that is not uploaded yet or does not exist.
+struct VertexStreams
+{
+    VkBuffer positions{};  // vec4: x y z (m) and inverse mass (1/kg)
+    VkBuffer velocities{}; // vec4: x y z (m/s); w: 1 if the vertex touches a collider, plus 2 if a tether, a
+                           // max-distance constraint or a backstop limits it, plus 4 if a triangle or an edge around it
+                           // touched a feature of a collider
+    VkBuffer normals{};    // vec4: unit normal and 0
+    // vec4: the positions before the last step that was recorded. Equal to the positions after an upload of the cloth,
+    // after record_restore, and after a step that begins with reset or teleport, so that the motion is 0. Null without
+    // OutputOptions::previous_positions.
+    VkBuffer previous_positions{};
+    VkDeviceSize offset = 0; // bytes, of the first vertex, in each of them
+    uint32_t vertices = 0;
+
+    // uint32, three per triangle, relative to the cloth's first vertex, in the order of Solver::triangles. Null without
+    // OutputOptions::indices.
+    VkBuffer indices{};
+    VkDeviceSize index_offset = 0; // bytes, of the first index
+    uint32_t index_count = 0;
+
+    StreamAddresses addresses;
+};
+
+// A vertex buffer of the host's, and where its vertices have what a cloth writes into them: three floats each. What is
+// not asked for is not written.
+struct VertexLayout
+{
+    VkBuffer buffer{};       // with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
+    VkDeviceSize size = 0;   // bytes, of the buffer
+    VkDeviceSize offset = 0; // bytes, of the cloth's first vertex; a multiple of 4
+    uint32_t stride = 0;     // bytes from one vertex to the next; a multiple of 4
+    // Bytes from the start of a vertex, multiples of 4; they must not overlap.
+    std::optional<uint32_t> position{};          // m
+    std::optional<uint32_t> normal{};            // of unit length
+    std::optional<uint32_t> velocity{};          // m/s
+    std::optional<uint32_t> previous_position{}; // m; needs OutputOptions::previous_positions
+};
+
+} // namespace voile
