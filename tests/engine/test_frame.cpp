@@ -7,6 +7,8 @@
 #include "voile/engine/scene/deforming_mesh.hpp"
 #include "voile/engine/scene/static_mesh.hpp"
 
+#include "voile/gpu/buffer.hpp"
+
 #include <doctest/doctest.h>
 
 TEST_CASE("frames after the first few allocate nothing on the heap")
@@ -42,4 +44,35 @@ TEST_CASE("frames after the first few allocate nothing on the heap")
     }
     CHECK(bench::allocations() - before == 0);
     app.finish();
+}
+
+TEST_CASE("recording previous positions and outputs allocates nothing on the heap")
+{
+    const voile::engine::Device device(voile::engine::DeviceOptions{}); // without validation, as above
+    voile::Solver solver =
+        voile::engine::take(voile::Solver::create(device.context().handles, {.output = {.previous_positions = true}}));
+    const voile::ClothId sheet = voile::engine::take(solver.add_cloth(voile::GridCloth{.columns = 8, .rows = 8}));
+    constexpr VkDeviceSize k_bytes = 64 * 24;
+    const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
+        device.context(), "host vertices", k_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
+    const voile::OutputId output = voile::engine::take(solver.add_output(
+        sheet, {.buffer = vertices.handle(), .size = k_bytes, .stride = 24, .position = 0, .previous_position = 12}));
+    voile::engine::FrameRing frames(device, 1);
+    voile::Upload upload;
+    uint64_t before = 0;
+    for (int i = 0; i < 6; ++i)
+    {
+        voile::engine::take(solver.teleport(sheet, glm::mat4(1)));
+        const voile::engine::FrameRing::Frame frame = frames.begin();
+        if (solver.needs_upload())
+            upload = voile::engine::take(solver.record_upload(frame.cmd));
+        if (i == 3)
+            before = bench::allocations();
+        voile::engine::take(solver.record(frame.cmd, {}));
+        voile::engine::take(solver.record_outputs(frame.cmd, {output}));
+        if (i == 3)
+            CHECK(bench::allocations() - before == 0);
+        frames.submit(frame);
+    }
+    frames.wait_all();
 }

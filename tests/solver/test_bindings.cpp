@@ -151,7 +151,10 @@ TEST_CASE_FIXTURE(Bindings, "the block of each binding has the binding's name")
 {
     voile::DescriptorSets sets;
     std::set<uint32_t> bound;
-    for (const voile::SetDescription& set : voile::describe_sets(sets, kernels))
+    std::vector<voile::SetDescription> descriptions = voile::describe_sets(sets, kernels);
+    VkDescriptorSet output = VK_NULL_HANDLE;
+    descriptions.push_back(voile::describe_output(output, kernels, true));
+    for (const voile::SetDescription& set : descriptions)
         for (const voile::gpu::ShaderBinding& declared : set.kernel->bindings())
         {
             std::string name; // snake_case from CamelCase

@@ -209,6 +209,35 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
 }
 
+TEST_CASE("steps with previous positions and outputs have no hazard, each in its own command buffer")
+{
+    ClothHarness harness({.output = {.previous_positions = true}});
+    const voile::ClothId sheet = voile::engine::take(harness.solver.add_cloth(voile::GridCloth{}));
+    harness.upload();
+    constexpr VkDeviceSize k_bytes = 1 << 20;
+    const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
+        harness.context(), "host vertices", k_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
+    const voile::OutputId output = voile::engine::take(harness.solver.add_output(
+        sheet, {.buffer = vertices.handle(), .size = k_bytes, .stride = 24, .position = 0, .previous_position = 12}));
+    OneDispatchEach buffers(tests::device());
+    voile::gpu::Recorder recorder(harness.context(), buffers.begin());
+    recorder.split_with(OneDispatchEach::next, &buffers);
+    for (const bool resets : {false, true, false})
+    {
+        if (resets)
+            voile::engine::take(harness.solver.reset(sheet));
+        voile::engine::take(harness.solver.record(recorder, {.substeps = 1}));
+    }
+    VkCommandBuffer cmd = OneDispatchEach::next(&buffers, recorder.cmd());
+    for (int i = 0; i < 2; ++i)
+    {
+        voile::engine::take(harness.solver.record_outputs(cmd, {output, output}));
+        cmd = OneDispatchEach::next(&buffers, cmd);
+    }
+    voile::engine::take(harness.solver.record(cmd, {.substeps = 1}));
+    buffers.submit();
+}
+
 // Validation layers of 2023 ignore accesses of vkCmdDispatchBase. They see a dispatch of as many workgroups from 0.
 TEST_CASE("a step with several levels of substeps has no hazard, each dispatch in its own command buffer")
 {

@@ -63,6 +63,7 @@ TEST_CASE("every function refuses a cloth that does not exist or returns an empt
             CHECK(reason(solver.reset(none)) == error);
             CHECK(reason(solver.teleport(none, glm::mat4(1))) == error);
             CHECK(reason(solver.set_velocity(none, glm::vec3(0))) == error);
+            CHECK(reason(solver.add_output(none, {})) == error);
             CHECK(std::get<voile::Fabric>(solver.material(none)).areal_density == voile::Fabric{}.areal_density);
             CHECK(solver.attachments(none).empty());
             CHECK(solver.stability(none, {}).needed == 0);

@@ -49,9 +49,11 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, 
     return reinterpret_cast<PFN_vkVoidFunction>(device_function);
 }
 
-// Uploads, two steps with edits and moving and deforming colliders, statistics, a snapshot saved and restored.
-void record_everything(const voile::SolverOptions& options)
+// Uploads, two steps with edits and moving and deforming colliders, statistics, an output, a snapshot saved and
+// restored.
+void record_everything(voile::SolverOptions options)
 {
+    options.output.previous_positions = true;
     stages_before = stages_after = accesses_before = accesses_after = 0;
     tests::GpuFixture gpu;
     voile::Handles handles = gpu.context().handles;
@@ -66,6 +68,10 @@ void record_everything(const voile::SolverOptions& options)
     voile::Upload upload;
     gpu.run([&](VkCommandBuffer cmd) { upload = voile::engine::take(solver.record_upload(cmd)); });
     const voile::Snapshot snapshot = voile::engine::take(solver.create_snapshot());
+    const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
+        gpu.context(), "host vertices", 4096, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
+    const voile::OutputId output = voile::engine::take(
+        solver.add_output(sheet, {.buffer = vertices.handle(), .size = 4096, .stride = 12, .position = 0}));
     const auto step = [&]
     {
         gpu.run(
@@ -73,6 +79,7 @@ void record_everything(const voile::SolverOptions& options)
             {
                 voile::engine::take(solver.record(cmd, {.duration = 1e-3f}));
                 voile::engine::take(solver.record_statistics(cmd, 0));
+                voile::engine::take(solver.record_outputs(cmd, {output}));
             });
     };
     step();

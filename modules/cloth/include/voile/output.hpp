@@ -17,12 +17,12 @@ struct Scope
     VkAccessFlags2 accesses = 0;
 };
 
-// What the host's own commands do with the vertex streams, and with the buffers of outputs. Compute shaders and
-// transfers need not be named. A member of 0 names nothing.
+// How the host's own commands use the vertex streams and the buffers of outputs, other than by compute shaders and
+// transfers. 0: none.
 struct HostScopes
 {
-    Scope before; // what must be done before the solver writes: stages that read; accesses only of what writes
-    Scope after;  // what sees what the solver has written
+    Scope before; // stages that read before the solver writes; accesses only of stages that write
+    Scope after;  // stages and accesses that read what the solver has written
 };
 
 // What the vertex streams have on request. With the defaults nothing is allocated, recorded or copied for it.
