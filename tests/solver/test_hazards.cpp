@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <utility>
 
 namespace
 {
@@ -209,29 +210,44 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
 }
 
+// The host copies what it gets, without barriers of its own.
 TEST_CASE("steps with previous positions and outputs have no hazard, each in its own command buffer")
 {
     ClothHarness harness({.output = {.previous_positions = true}});
     const voile::ClothId sheet = voile::engine::take(harness.solver.add_cloth(voile::GridCloth{}));
     harness.upload();
-    constexpr VkDeviceSize k_bytes = 1 << 20;
-    const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
-        harness.context(), "host vertices", k_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, voile::Memory::device));
+    const auto make_buffer = [&](const char* name, VkBufferUsageFlags usage)
+    {
+        return voile::engine::take(
+            voile::gpu::create_buffer(harness.context(), name, 1 << 20, usage, voile::Memory::device));
+    };
+    const voile::gpu::Buffer vertices =
+        make_buffer("host vertices", VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const voile::gpu::Buffer copies = make_buffer("host copies", VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const voile::OutputId output = voile::engine::take(harness.solver.add_output(
-        sheet, {.buffer = vertices.handle(), .size = k_bytes, .stride = 24, .position = 0, .previous_position = 12}));
+        sheet,
+        {.buffer = vertices.handle(), .size = vertices.size(), .stride = 24, .position = 0, .previous_position = 12}));
     OneDispatchEach buffers(tests::device());
     voile::gpu::Recorder recorder(harness.context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
-    for (const bool resets : {false, true, false})
+    VkDeviceSize copied = 0;
+    const auto copy = [&](VkCommandBuffer cmd, VkBuffer buffer)
+    {
+        const VkBufferCopy region{0, std::exchange(copied, copied + 1024), 1024};
+        harness.context().fn.vkCmdCopyBuffer(cmd, buffer, copies.handle(), 1, &region);
+    };
+    for (const bool resets : {false, true, false, true})
     {
         if (resets)
             voile::engine::take(harness.solver.reset(sheet));
         voile::engine::take(harness.solver.record(recorder, {.substeps = 1}));
+        copy(recorder.cmd(), harness.solver.vertices(sheet).previous_positions);
     }
     VkCommandBuffer cmd = OneDispatchEach::next(&buffers, recorder.cmd());
     for (int i = 0; i < 2; ++i)
     {
         voile::engine::take(harness.solver.record_outputs(cmd, {output, output}));
+        copy(cmd, vertices.handle());
         cmd = OneDispatchEach::next(&buffers, cmd);
     }
     voile::engine::take(harness.solver.record(cmd, {.substeps = 1}));
