@@ -64,20 +64,17 @@ void Recorder::finish_dispatch()
         cmd_ = split_(split_user_, cmd_);
 }
 
-void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, Workgroups groups, std::span<const std::byte> push,
-                        Ordering ordering)
+void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
+                        std::span<const std::byte> push, Ordering ordering)
 {
-    if (groups.count == 0)
+    if (threads == 0)
         return;
     require_push(kernel, push);
     if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
-        if (groups.first == 0)
-            context_.fn.vkCmdDispatch(cmd_, groups.count, 1, 1);
-        else
-            context_.fn.vkCmdDispatchBase(cmd_, groups.first, 0, 0, groups.count, 1, 1);
+        context_.fn.vkCmdDispatch(cmd_, (threads + group_size - 1) / group_size, 1, 1);
         if (ordering == Ordering::ordered)
             compute_barrier();
     }

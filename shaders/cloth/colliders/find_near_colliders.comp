@@ -138,9 +138,9 @@ void main()
         first_word = words;
         end_word = 0;
     }
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     const Box box = box_of_patch(self);
-    const uint header = gl_WorkGroupID.x * push.near_stride;
+    const uint header = (push.first_patch + gl_WorkGroupID.x) * push.near_stride;
     for (uint word = thread; word < words; word += gl_WorkGroupSize.x)
     {
         const uint bits = bits_of(word, self.cloth, box);

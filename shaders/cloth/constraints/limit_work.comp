@@ -90,7 +90,7 @@ LimitWork work_of(PatchVertex self)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     const uint thread = gl_LocalInvocationID.x;
     sums[thread] = work_of(self);
     barrier();
@@ -101,5 +101,5 @@ void main()
         barrier();
     }
     if (thread == 0)
-        works[gl_WorkGroupID.x] = sums[0];
+        works[push.first_patch + gl_WorkGroupID.x] = sums[0];
 }

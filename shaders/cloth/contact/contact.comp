@@ -239,7 +239,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
-    return walk_colliders(gl_WorkGroupID.x, box_around(motion.from.x, to));
+    return walk_colliders(push.first_patch + gl_WorkGroupID.x, box_around(motion.from.x, to));
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
@@ -283,7 +283,7 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
     motion.v = velocity.xyz;
     motion.cloth = cloth;
     flags = uint(velocity.w);
-    if (push.features != 0 && patches[gl_WorkGroupID.x].near_features != 0 && corrections[i].substep == push.substep)
+    if (push.features != 0 && patches[push.first_patch + gl_WorkGroupID.x].near_features != 0 && corrections[i].substep == push.substep)
     {
         motion.displacement += corrections[i].shift;
         motion.v += corrections[i].change;
@@ -336,7 +336,7 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!self.exists)
         return;
     const uint i = self.index;

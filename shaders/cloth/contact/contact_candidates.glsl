@@ -212,7 +212,7 @@ MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float qu
     MovingMeshes result = MovingMeshes(true, 0);
     if (COLLIDERS_MOVE == 0)
         return result;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, box_around(motion.from.x, position_of(motion)));
+    ColliderWalk walk = walk_colliders(push.first_patch + gl_WorkGroupID.x, box_around(motion.from.x, position_of(motion)));
     uint c;
     while (next_collider(walk, c))
     {
@@ -241,7 +241,7 @@ MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float qu
 void collect_triangles(inout Candidates list, uint layers)
 {
     list.count = 0;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, grown(Box(list.center, list.center), list.radius));
+    ColliderWalk walk = walk_colliders(push.first_patch + gl_WorkGroupID.x, grown(Box(list.center, list.center), list.radius));
     uint c;
     while (next_collider(walk, c))
     {

@@ -68,7 +68,7 @@ bool has_near_feature(uint c, uint cloth, vec3 position, float margin)
 bool has_near_feature(PatchVertex self, vec3 position)
 {
     const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
-    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, grown(Box(position, position), margin));
+    ColliderWalk walk = walk_colliders(push.first_patch + gl_WorkGroupID.x, grown(Box(position, position), margin));
     uint c;
     while (next_collider(walk, c))
         if (feature_sets[c].features > 0 && has_near_feature(c, self.cloth, position, margin))
@@ -81,14 +81,15 @@ void main()
     if (gl_LocalInvocationID.x == 0)
         near_vertices = 0;
     barrier();
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     const vec4 position = self.exists ? positions[self.index] : vec4(0);
     if (position.w > 0 && has_near_feature(self, position.xyz))
         atomicOr(near_vertices, 1);
     barrier();
     if (gl_LocalInvocationID.x > 0)
         return;
-    patches[gl_WorkGroupID.x].near_features = near_vertices;
+    patches[push.first_patch + gl_WorkGroupID.x].near_features = near_vertices;
     if (near_vertices != 0)
-        near_patches[push.first_patch + atomicAdd(dispatch_size[push.dispatch_word], 1)] = gl_WorkGroupID.x;
+        near_patches[push.first_patch + atomicAdd(dispatch_size[push.dispatch_word], 1)] =
+            push.first_patch + gl_WorkGroupID.x;
 }

@@ -49,7 +49,7 @@ void write_position(uint i, FinePosition x, float inverse_mass)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!self.exists)
         return;
     const uint i = self.index;

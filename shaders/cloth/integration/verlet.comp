@@ -34,7 +34,7 @@ layout(push_constant, std430) uniform Push { StagePush push; };
 
 void main()
 {
-    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!self.exists)
         return;
     const uint i = self.index;

@@ -75,6 +75,7 @@ struct NearCollidersPush
     uint colliders;
     uint features; // 1: colliders have features that may touch the cloth
     uint near_stride;
+    uint first_patch; // of the dispatch
 };
 
 // Push constants of the pass that transforms the vertices that the host gives for a deforming mesh.

@@ -59,6 +59,7 @@ struct ContactPush
     uint dispatch_word; // of the depenetration's dispatch size; 0 there: no vertex is inside a solid
     uint in_place;      // 1: changes are written into the proposed state; 0: the whole state into the earlier one
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
+    uint first_patch;   // of the dispatch
 };
 
 // Push constants of the pass that finds exits from solids.
@@ -72,7 +73,7 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 64);
+static_assert(sizeof(ContactPush) == 68);
 #endif
 
 VOILE_SHARED_END

@@ -32,6 +32,7 @@ struct StagePush
     float kick;           // Verlet: s, the time for which the acceleration acts on the velocity
     float drift;          // Verlet: s, the time for which the position moves; 0 at the end of a step
     uint stage;           // RK4: 1 to 4
+    uint first_patch;     // of the dispatch
 };
 
 // Push constants of an edit of one cloth.
@@ -44,7 +45,7 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StagePush) == 68);
+static_assert(sizeof(StagePush) == 72);
 static_assert(offsetof(StagePush, gust_phases) == 32);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif

@@ -14,7 +14,8 @@ uint32_t limit_passes(uint32_t widest_spacing)
 
 StepRecorder::StepRecorder(const StepContext& context)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
-      device_(*solver_.device), patches_{0, context.lists.patch_count()}
+      device_(*solver_.device), threads_(context.lists.patch_count() * solver_.options.tuning.workgroup_size),
+      group_(solver_.options.tuning.workgroup_size)
 {
     for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
         if (context.lists.levels[level].patches.count > 0)
@@ -84,9 +85,11 @@ void StepRecorder::record_limit_guard()
     {
         if (measurement > 0) // of what remains of the limit's changes
             for_each_level([&](LevelRecorder& level) { level.record_limit_work(device_.sets.limit_work[3]); });
-        recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, patches_,
-                           shared::LimitScalePush{patches_.count, 1 / context_.step.duration, measurement});
-        recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, patches_, std::span<const std::byte>{});
+        recorder_.dispatch(
+            kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
+            shared::LimitScalePush{context_.lists.patch_count(), 1 / context_.step.duration, measurement});
+        recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads_, group_,
+                           std::span<const std::byte>{});
     }
 }
 
@@ -104,7 +107,7 @@ void StepRecorder::record_limit_passes()
         ++pass;
         const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
                                       pass == passes ? 1u : 0u};
-        recorder_.dispatch(kernels_.limit_strain, set, patches_, push);
+        recorder_.dispatch(kernels_.limit_strain, set, threads_, group_, push);
     };
     for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
     {

@@ -61,12 +61,7 @@ void LevelRecorder::record_substep(uint32_t substep)
         record_contact(substep);
 }
 
-gpu::Workgroups LevelRecorder::patches() const
-{
-    return {lists_.patches.first, lists_.patches.count};
-}
-
-gpu::Workgroups LevelRecorder::verlet_patches() const
+EntryRange LevelRecorder::verlet_patches() const
 {
     return {lists_.patches.first + lists_.rk4_patches, lists_.patches.count - lists_.rk4_patches};
 }
@@ -95,9 +90,8 @@ void LevelRecorder::record_rk4(uint32_t substep)
     {
         shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
         push.stage = stage;
-        recorder_.dispatch(kernels_.stage,
-                           stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
-                           gpu::Workgroups{lists_.patches.first, lists_.rk4_patches}, push);
+        dispatch(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
+                 {lists_.patches.first, lists_.rk4_patches}, push);
     }
 }
 
@@ -108,16 +102,15 @@ void LevelRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
         set = device_.sets.verlet_first;
-    recorder_.dispatch(kernels_.verlet, set, verlet_patches(), push);
+    dispatch(kernels_.verlet, set, verlet_patches(), push);
 }
 
 void LevelRecorder::finish()
 {
     shared::StagePush push = make_push(substeps_);
     push.kick = 0.5f * h_;
-    recorder_.dispatch(kernels_.verlet,
-                       in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
-                       verlet_patches(), push);
+    dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
+             verlet_patches(), push);
 }
 
 void LevelRecorder::record_attachments(uint32_t substep, float duration)
@@ -149,10 +142,14 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
-    const shared::NearCollidersPush push{h_ * static_cast<float>(next - substep), sudden_speed(),
-                                         1 / static_cast<float>(substeps_),       solver_.passes.colliders,
-                                         solver_.passes.features ? 1u : 0u,       device_.near_stride};
-    recorder_.dispatch(kernels_.near_colliders, device_.sets.near_colliders, patches(), push);
+    const shared::NearCollidersPush push{h_ * static_cast<float>(next - substep),
+                                         sudden_speed(),
+                                         1 / static_cast<float>(substeps_),
+                                         solver_.passes.colliders,
+                                         solver_.passes.features ? 1u : 0u,
+                                         device_.near_stride,
+                                         lists_.patches.first};
+    dispatch(kernels_.near_colliders, device_.sets.near_colliders, lists_.patches, push);
 }
 
 void LevelRecorder::record_near_features(uint32_t substep)
@@ -168,8 +165,8 @@ void LevelRecorder::record_near_features(uint32_t substep)
                                         device_.near_stride,
                                         lists_.patches.first,
                                         word};
-    recorder_.dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features,
-                       device_.sets.near_features, patches(), push);
+    dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features, device_.sets.near_features,
+             lists_.patches, push);
     publish_dispatch(recorder_);
 }
 
@@ -207,7 +204,7 @@ void LevelRecorder::record_contact(uint32_t substep)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
-    recorder_.dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], patches(), push);
+    dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
 }
 
 const gpu::Kernel& LevelRecorder::contact_kernel() const
@@ -230,7 +227,7 @@ void LevelRecorder::record_limit_work(VkDescriptorSet set)
     shared::StagePush push{};
     push.gravity = context_.step.gravity;
     push.step = h_;
-    recorder_.dispatch(kernels_.limit_work, set, patches(), push);
+    dispatch(kernels_.limit_work, set, lists_.patches, push);
 }
 
 } // namespace voile

@@ -48,8 +48,13 @@ private:
     void record_features(uint32_t substep);
     void record_contact(uint32_t substep);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
-    [[nodiscard]] gpu::Workgroups patches() const;
-    [[nodiscard]] gpu::Workgroups verlet_patches() const;
+    [[nodiscard]] EntryRange verlet_patches() const;
+    template <typename Push>
+    void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, EntryRange patches, Push push)
+    {
+        push.first_patch = patches.first;
+        recorder_.dispatch(kernel, set, patches.count * group_, group_, push);
+    }
     // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
     // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
     [[nodiscard]] bool in_stage_b(uint32_t substep) const
@@ -93,7 +98,8 @@ private:
     const Solver::State& solver_;
     const Kernels& kernels_;
     const DeviceState& device_;
-    gpu::Workgroups patches_;
+    uint32_t threads_; // for all patches
+    uint32_t group_;
     std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_LEVELS> levels_; // none for a level without cloths
 };
 

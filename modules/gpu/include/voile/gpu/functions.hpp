@@ -15,7 +15,6 @@ namespace voile::gpu
     use(vkCmdBindPipeline);                                                                                            \
     use(vkCmdCopyBuffer);                                                                                              \
     use(vkCmdDispatch);                                                                                                \
-    use(vkCmdDispatchBase);                                                                                            \
     use(vkCmdDispatchIndirect);                                                                                        \
     use(vkCmdFillBuffer);                                                                                              \
     use(vkCmdPipelineBarrier2KHR);                                                                                     \

@@ -32,19 +32,6 @@ enum class Ordering
     unordered,
 };
 
-// The workgroups of a dispatch; gl_WorkGroupID.x counts from `first`.
-struct Workgroups
-{
-    uint32_t first = 0;
-    uint32_t count = 0;
-};
-
-// Enough of `size` invocations for `threads`.
-constexpr Workgroups workgroups_for(uint32_t threads, uint32_t size)
-{
-    return {0, (threads + size - 1) / size};
-}
-
 class VOILE_GPU_API Recorder
 {
 public:
@@ -67,30 +54,17 @@ public:
         split_user_ = user;
     }
 
-    // Label, optional timestamps, pipeline, set, push constants, and the workgroups; then a barrier from compute writes
-    // to compute reads and writes, unless `ordering` says otherwise. Nothing is recorded for 0 workgroups. `push` must
-    // be exactly the kernel's push-constant block.
-    void dispatch(const Kernel& kernel, VkDescriptorSet set, Workgroups groups, std::span<const std::byte> push,
-                  Ordering ordering = Ordering::ordered);
-
-    template <typename Push>
-    void dispatch(const Kernel& kernel, VkDescriptorSet set, Workgroups groups, const Push& push,
-                  Ordering ordering = Ordering::ordered)
-    {
-        dispatch(kernel, set, groups, std::as_bytes(std::span(&push, 1)), ordering);
-    }
-
-    // Enough workgroups of `group_size` for `threads`.
+    // Label, optional timestamps, pipeline, set, push constants, and enough workgroups of `group_size` for
+    // `threads`; then a barrier from compute writes to compute reads and writes, unless `ordering` says otherwise.
+    // Nothing is recorded for 0 threads. `push` must be exactly the kernel's push-constant block.
     void dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
-                  std::span<const std::byte> push, Ordering ordering = Ordering::ordered)
-    {
-        dispatch(kernel, set, workgroups_for(threads, group_size), push, ordering);
-    }
+                  std::span<const std::byte> push, Ordering ordering = Ordering::ordered);
+
     template <typename Push>
     void dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size, const Push& push,
                   Ordering ordering = Ordering::ordered)
     {
-        dispatch(kernel, set, workgroups_for(threads, group_size), push, ordering);
+        dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
     }
 
     // Like dispatch, with the workgroup counts that `sizes` holds at `offset` (bytes), three words. An earlier dispatch
