@@ -54,7 +54,8 @@ Conservative conservative_forces(PatchVertex self, FinePosition x, float mass)
     const float stiffness =
         stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, push.step).stiffness;
     const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
-    return Conservative(g.energy, g.force, g.bending + mass * cloths[cloth].gravity_scale * push.gravity);
+    precise const vec3 gravity = cloths[cloth].gravity_scale * push.gravity;
+    return Conservative(g.energy, g.force, g.bending + mass * gravity);
 }
 
 LimitWork add(LimitWork a, LimitWork b)

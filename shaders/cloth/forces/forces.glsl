@@ -303,7 +303,8 @@ vec3 acceleration(bool verlet, PatchVertex self, FinePosition x, float inverse_m
     const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(verlet, inverse_mass * g.air_rate, push.step);
-    return cloths[cloth].gravity_scale * push.gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
+    precise const vec3 gravity = cloths[cloth].gravity_scale * push.gravity; // with a scale of 1 it changes no bit
+    return gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
 }
 
 #endif

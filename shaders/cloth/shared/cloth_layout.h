@@ -65,12 +65,12 @@ struct ClothRecord
     uint flags;
     float omega_squared;      // 1/s^2, of the fastest mode in any shape, with bending
     float decay;              // 1/s, the fastest decay rate in any shape
-    float strain_limit;       // largest l / L - 1; 0: no limit
+    float gravity_scale;      // times the gravity of the step
     float inverse_density;    // 1 / areal density or vertex mass; times `start.w` of a vertex, its inverse mass
     float strain_relaxation;  // of a correction of the strain limit
     uint layers;              // bits; the cloth collides with colliders that have one of them
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
-    float gravity_scale;      // times the gravity of the step
+    float strain_limit;       // largest l / L - 1; 0: no limit
     float padding[3];
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.

@@ -81,7 +81,7 @@ struct Tuning
     uint32_t feature_threads = 0;
 
     // Cloths that need fewer substeps than others get dispatches of their own where that saves time: the dispatches of
-    // a substep take as long as stepping so many vertices. 0: 32,768, on CPU devices 256.
+    // a substep take as long as stepping so many vertices. 0: 100,000, on CPU devices 256.
     uint32_t dispatch_vertices = 0;
 
     ContactMethod contact_method = ContactMethod::nearest_point;

@@ -32,7 +32,7 @@ uint32_t dispatch_vertices(const gpu::Context& context, const SolverOptions& opt
 {
     if (options.tuning.dispatch_vertices > 0)
         return options.tuning.dispatch_vertices;
-    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 256 : 32768;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 256 : 100000;
 }
 
 // One record per slot, all 0.
