@@ -198,7 +198,7 @@ void measure_crowd(TimedQueue& queue, std::vector<HostCost>& costs)
     std::vector<HostCost> removed_colliders;
     std::vector<voile::ClothId> cloths;
     std::vector<voile::ColliderId> colliders;
-    const voile::engine::Mesh rock = voile::engine::make_sphere({5, 0, 0}, 1, 16); // 992 triangles
+    const voile::engine::Mesh rock = voile::engine::make_sphere({5, 0, 0}, 1, 16); // 960 triangles
     const voile::MeshCollider collider{.positions = rock.positions, .triangles = rock.triangles};
     for (uint32_t i = 0; i < k_repetitions; ++i)
         added.push_back(

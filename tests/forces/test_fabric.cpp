@@ -243,18 +243,14 @@ TEST_CASE("gravity_scale multiplies the gravity of a cloth, to the bit, and that
             ClothHarness scaled;
             const auto ids = sheets(scaled, {-0.5f, 0, 1, 2});
             scaled.step({.substeps = 40}, 6);
-            float scale = -0.5f;
-            for (const voile::ClothId id : {ids[0], ids[3]})
+            for (const auto& [id, scale] : {std::pair{ids[0], -0.5f}, std::pair{ids[1], 0.f}, std::pair{ids[3], 2.f}})
             {
                 ClothHarness plain;
                 const auto other = sheets(plain, {1});
                 plain.step({.substeps = 40, .gravity = {0, scale * -9.81f, 0}}, 6);
                 CHECK(scaled.positions(id) == plain.positions(other[0]));
                 CHECK(scaled.velocities(id) == plain.velocities(other[0]));
-                scale = 2;
             }
-            for (const glm::vec4& v : scaled.velocities(ids[1]))
-                CHECK(glm::vec3(v) == glm::vec3(0));
             CHECK(scaled.velocities(ids[2])[60].y < 0);
         }
 }
