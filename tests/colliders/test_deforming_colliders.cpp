@@ -190,7 +190,7 @@ TEST_CASE("a closing bowl keeps the cloth inside")
         CAPTURE(speed);
         const voile::engine::Mesh open = bowl(0.4f, 0);
         ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(40, 0.5f, -0.15f)));
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(26, 0.5f, -0.15f)));
         const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(deforming(open)));
         harness.upload();
         harness.step({}, 40);

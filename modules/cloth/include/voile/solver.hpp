@@ -91,14 +91,19 @@ struct Tuning
 struct SolverOptions
 {
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
-    bool feature_contact = true;   // corners and edges of colliders meet the triangles and edges of cloths, at moderate
-                                 // speed (see descriptions.hpp). Where vertices alone do not feel one, a substep has a
-                                 // pass more
-    bool depenetration = true; // what is inside a collider at the start of a step is brought out along a smooth field;
-                               // without, straight to the nearest surface, and out of meshes not at all
-    // None: vertex input reads the streams. A queue without graphics has no vertex input: there give the host's own
-    // stages on that queue, or HostScopes{}, and let semaphores order other queues.
+
+    // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
+    // with features that can protrude between the vertices of a cloth costs one pass more per substep.
+    bool feature_contact = true;
+
+    // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this they
+    // are moved straight to the nearest surface, and stay inside of meshes.
+    bool depenetration = true;
+
+    // None: vertex input reads the streams. A queue without graphics has no vertex input: name the host's own stages on
+    // that queue, or HostScopes{} for none. Semaphores order other queues.
     std::optional<HostScopes> host_scopes{};
+
     OutputOptions output{}; // what the vertex streams have on request
     // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
     // None: on if the module was compiled without NDEBUG.
