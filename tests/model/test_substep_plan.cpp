@@ -104,6 +104,26 @@ TEST_CASE("a small cloth has a level of its own only where the dispatches cost l
     CHECK(plan_of(needs, {.substeps = 2000, .dispatch_vertices = 16000}).level_of(100) == 0);
 }
 
+TEST_CASE("a cloth that needs more than the limit takes nothing from the others")
+{
+    const std::vector<SubstepNeed> needs{{388, 546}, {22231, 108}, {24, 32}, {3194, 156}, {110, 231}};
+    const SubstepLimits limits{.substeps = 1473, .dispatch_vertices = 256};
+    const SubstepPlan unlimited = plan_of(needs, limits);
+    CHECK(used(unlimited, 22231) == 1472);
+    CHECK(used(unlimited, 24) <= 184); // levels, though 1473 is odd
+    const uint64_t whole = vertex_substeps(unlimited, needs);
+    CHECK(whole < 900000);
+    SubstepLimits budget = limits;
+    budget.vertex_substeps = whole;
+    CHECK(plan_of(needs, budget).fraction == 1);
+    budget.vertex_substeps = whole / 2;
+    const SubstepPlan half = plan_of(needs, budget);
+    CHECK(vertex_substeps(half, needs) <= whole / 2);
+    CHECK(vertex_substeps(half, needs) > whole / 4);
+    CHECK(half.fraction > 0.25);
+    CHECK(used(plan_of({{1473, 10}, {5000, 10}}, limits), 1473) == 1473);
+}
+
 TEST_CASE("a budget takes the same fraction of every cloth's substeps, and no more than it must")
 {
     std::mt19937 random(5);

@@ -63,7 +63,7 @@ public:
         voile::Fabric fabric;
         for (float& stiffness : fabric.stretch_stiffness)
             stiffness *= place.stiffness;
-        fabric.strain_limit = strain_limit_;
+        fabric.strain_limit = index % 2 == 0 ? strain_limit_ : 0; // a cloth without one is as without the others
         const voile::ClothId cloth = place.mesh ? add_mesh(place, fabric) : add_grid(place, fabric);
         take(solver_.set_attachments(cloth,
                                      {voile::pin(0), voile::spring(10, 3, 0.01f), voile::max_distance(60, 0.02f)}));

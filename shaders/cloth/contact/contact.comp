@@ -341,6 +341,8 @@ void main()
         return;
     const uint i = self.index;
     const uint cloth = self.cloth;
+    if (push.limited_only != 0 && cloths[cloth].strain_limit == 0)
+        return;
     const vec4 proposed = proposed_positions[i];
     uint flags;
     Motion motion = proposed_motion(i, cloth, proposed.xyz, flags);

@@ -60,6 +60,7 @@ struct ContactPush
     uint in_place;      // 1: changes are written into the proposed state; 0: the whole state into the earlier one
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
+    uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
 };
 
 // Push constants of the pass that finds exits from solids.
@@ -73,7 +74,7 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 68);
+static_assert(sizeof(ContactPush) == 72);
 #endif
 
 VOILE_SHARED_END

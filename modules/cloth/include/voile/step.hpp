@@ -22,9 +22,10 @@ struct Step
     // The most substeps that a cloth takes if `substeps` is 0, 1..1000000.
     uint32_t max_substeps = 2000;
 
-    // Budget for the sum of vertices times substeps over all enabled cloths, if `substeps` is 0. If they need more, the
-    // substeps of all cloths are reduced by the same fraction, to at least one per cloth. Solver::stability reports the
-    // remaining stiffness. 0: no budget.
+    // Budget for the sum of vertices times substeps over all enabled cloths, if `substeps` is 0. If they need more,
+    // each cloth takes at least a fraction of the substeps that it needs (of max_substeps, if it needs more than
+    // these), the same for all cloths, and at least one. Solver::stability reports the remaining stiffness. 0: no
+    // budget.
     uint64_t max_vertex_substeps = 0;
 
     Vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
@@ -38,10 +39,11 @@ struct Step
 // Errors: a member out of its range, with its name and value.
 VOILE_API Result<void> validate(const Step& step);
 
-// The substeps of a cloth in a step, with the cloths that the solver has now.
+// The substeps of a cloth in a step that simulates it and all enabled cloths that are uploaded. All members are those
+// of a default-constructed Stability for an id that is not valid.
 struct Stability
 {
-    uint32_t needed = 0;       // substeps with which it keeps all of its stiffness and damping
+    uint32_t needed = 0;       // substeps with which it keeps all of its stiffness and damping; 1000000: or more
     uint32_t used = 0;         // substeps that it takes; fewer than needed only if the step limits them
     float stiffness_scale = 1; // factor of its stiffness in this step, 0..1
     float damping_scale = 1;   // factor of its damping in this step, 0..1

@@ -32,9 +32,10 @@ struct SubstepLimits
 
 struct SubstepPlan
 {
-    uint32_t substeps = 1; // of level 0
-    uint32_t levels = 1;   // that may be used
-    double fraction = 1;   // of the needed substeps that the limits leave, 0..1
+    uint32_t substeps = 1;      // of level 0
+    uint32_t levels = 1;        // that may be used
+    double fraction = 1;        // of the needed substeps that the budget leaves, 0..1
+    uint32_t most = UINT32_MAX; // of a cloth: a need above it counts as this
 
     // The level of a cloth that needs so many substeps.
     [[nodiscard]] uint32_t level_of(uint32_t needed) const;
