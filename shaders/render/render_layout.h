@@ -43,10 +43,10 @@ struct MarkPush
 {
     mat4 world_from_model;
     vec3 color;
-    float size;  // pixels
-    vec2 pixel;  // its width and height in clip space
+    float size;   // pixels
+    vec2 pixel;   // its width and height in clip space
     float extent; // m, along the directions in the second stream; 0: it holds ends
-    uint mask;   // of flags; 0: all are shown
+    uint mask;    // of flags; 0: all are shown
 };
 
 VOILE_SHARED_END

@@ -1,14 +1,19 @@
 // The storage buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
 // allocates and binds it by its name, and docs/buffers.md lists who reads and writes it.
 //
-// VOILE_BUFFER(number, name, entry, count, meaning): a buffer that uploads allocate, and copy over where it has to grow.
-// `count` is an expression over BufferCounts (device_state.hpp). A kernel that declares a binding of that name gets the
-// buffer.
+// VOILE_BUFFER(number, name, entry, count, meaning): a buffer that uploads allocate, and copy over where it has to
+// grow. `count` is an expression over BufferCounts (device_state.hpp). A kernel that declares a binding of that name
+// gets the buffer.
+//
 // VOILE_SCRATCH_BUFFER(number, name, entry, count, meaning): the same, but nothing in it outlives an upload.
-// VOILE_OUTPUT_BUFFER(number, name, entry, count, meaning): the same as VOILE_BUFFER, for the host alone. Its count is 0,
-// and it is not allocated, unless SolverOptions::output asks for it.
+//
+// VOILE_OUTPUT_BUFFER(number, name, entry, count, meaning): the same as VOILE_BUFFER, for the host alone. Its count is
+// 0, and it is not allocated, unless SolverOptions::output asks for it.
+//
 // VOILE_SOLVER_BUFFER(number, name, entry, meaning): a buffer that uploads leave alone.
+//
 // VOILE_HOST_BUFFER(number, name, entry, meaning): a buffer of the host's, another one in each set.
+//
 // VOILE_ROLE(number, name, entry, meaning): a binding whose buffer differs between descriptor sets. Each set names the
 // buffer (set_descriptions.cpp).
 //

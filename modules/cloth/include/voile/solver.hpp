@@ -223,7 +223,8 @@ public:
 
     // Replaces all attachments of the cloth, including the pins of its description. Vertices that are no longer
     // attached are free. Tethers are computed again from the new pins. More attachments than the solver has room for
-    // take effect with the next upload (needs_upload). Errors: a vertex that does not exist or has two attachments, a
+    // take effect with the next upload (needs_upload). Until then no change of attachments or tethers takes effect, of
+    // no cloth, and removed anchors keep their vertices. Errors: a vertex that does not exist or has two attachments, a
     // value out of range, an anchor that does not exist, tethers without a pin.
     Result<void> set_attachments(ClothId cloth, std::span<const Attachment> attachments);
     Result<void> set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments);
@@ -234,7 +235,8 @@ public:
                                                                          float distance);
 
     // Tethers to the present pins; none: removes them. More tethers than the solver has room for take effect with the
-    // next upload (needs_upload). Errors: no pin, a stretch out of range.
+    // next upload (needs_upload), and until then no change of attachments, as above. Errors: no pin, a stretch out of
+    // range.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
 
     // A cloth collides with the colliders that have a layer in common with it (bits). Edges and corners of colliders
@@ -299,7 +301,9 @@ public:
     // - Begins with a barrier: waits for earlier reads of the streams by vertex input, for transfers and uploads.
     // - Ends with a barrier: writes are visible to vertex input, compute and transfer reads that follow.
     // - Records nothing before the first record_upload, or without cloths.
-    // - While an upload is due, everything that is uploaded is simulated, with its motions and changes.
+    // - While an upload is due, everything that is uploaded is simulated, with its motions and changes. Attachments
+    // wait
+    //   if they are what the upload is due for (set_attachments).
     // Errors: a member of the step out of its range. Then nothing is recorded, and changes wait for the next step.
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
