@@ -2,6 +2,7 @@
 #include "add_mesh.hpp"
 
 #include "heart.hpp"
+#include "height_field.hpp"
 #include "timed_queue.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
@@ -20,25 +21,14 @@ namespace
 // 2 million triangles, open: hills of 0.3 m on 10 m x 10 m.
 voile::engine::Mesh make_terrain()
 {
-    constexpr uint32_t k_side = 1000; // squares
-    voile::engine::Mesh mesh;
-    for (uint32_t row = 0; row <= k_side; ++row)
-        for (uint32_t column = 0; column <= k_side; ++column)
-        {
-            const float x = 0.01f * static_cast<float>(column);
-            const float z = 0.01f * static_cast<float>(row);
-            const float y = 0.3f * std::sin(3 * x) * std::cos(2 * z) + 0.02f * std::sin(41 * x + 17 * z);
-            mesh.positions.emplace_back(x, y, z);
-        }
-    for (uint32_t row = 0; row < k_side; ++row)
-        for (uint32_t column = 0; column < k_side; ++column)
-        {
-            const uint32_t a = row * (k_side + 1) + column;
-            const uint32_t b = a + k_side + 1;
-            mesh.triangles.emplace_back(a, b, a + 1);
-            mesh.triangles.emplace_back(a + 1, b, b + 1);
-        }
-    return mesh;
+    constexpr uint32_t k_side = 1001; // vertices
+    const auto height = [](uint32_t row, uint32_t column)
+    {
+        const float x = k_height_field_spacing * static_cast<float>(column);
+        const float z = k_height_field_spacing * static_cast<float>(row);
+        return 0.3f * std::sin(3 * x) * std::cos(2 * z) + 0.02f * std::sin(41 * x + 17 * z);
+    };
+    return make_height_field(k_side, height);
 }
 
 // 2 million triangles, closed: every edge has to be looked at.

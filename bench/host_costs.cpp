@@ -1,6 +1,8 @@
 // Adding cloths, adding cooked data, and small changes beside much else.
 #include "host_costs.hpp"
 
+#include "height_field.hpp"
+
 #include "voile/cooked.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/solver.hpp"
@@ -39,20 +41,8 @@ HostCost time_host(const char* what, size_t size, uint32_t repetitions, const st
 // A sheet of side x side vertices, its heights uneven.
 voile::engine::Mesh make_uneven_sheet(uint32_t side)
 {
-    voile::engine::Mesh mesh;
-    for (uint32_t row = 0; row < side; ++row)
-        for (uint32_t column = 0; column < side; ++column)
-            mesh.positions.emplace_back(0.01f * static_cast<float>(column),
-                                        0.002f * static_cast<float>((row * 37 + column * 71) % 13) / 13,
-                                        0.01f * static_cast<float>(row));
-    for (uint32_t row = 0; row + 1 < side; ++row)
-        for (uint32_t column = 0; column + 1 < side; ++column)
-        {
-            const uint32_t a = row * side + column;
-            mesh.triangles.emplace_back(a, a + side, a + 1);
-            mesh.triangles.emplace_back(a + 1, a + side, a + side + 1);
-        }
-    return mesh;
+    return make_height_field(side, [](uint32_t row, uint32_t column)
+                             { return 0.002f * static_cast<float>((row * 37 + column * 71) % 13) / 13; });
 }
 
 voile::MeshCloth isometric_cloth(const voile::engine::Mesh& mesh)

@@ -15,6 +15,7 @@ namespace
 {
 
 using tests::ClothHarness;
+using tests::same_bits;
 
 voile::Fabric stretchy(float stiffness)
 {
@@ -45,11 +46,6 @@ voile::GridCloth hanging(const voile::ClothMaterial& material)
 double lengthening(const std::vector<glm::vec4>& x)
 {
     return -static_cast<double>(x[8 * 9 + 4].y) - 1;
-}
-
-bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
 }
 
 } // namespace

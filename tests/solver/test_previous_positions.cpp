@@ -3,13 +3,12 @@
 #include "support/cloth_meshes.hpp"
 #include "support/collider_scenes.hpp"
 
-#include <cstring>
-
 namespace
 {
 
 using tests::ClothHarness;
 using tests::flat_sheet;
+using tests::same_bits;
 using voile::engine::take;
 
 class Previous : public ClothHarness
@@ -28,11 +27,6 @@ public:
         return take(solver.add_cloth(flat_sheet(columns, 0.5f, height)));
     }
 };
-
-bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
-}
 
 } // namespace
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 
 namespace
@@ -18,15 +17,11 @@ using tests::ClothHarness;
 using tests::flat_sheet;
 using tests::moved;
 using tests::reason;
+using tests::same_bits;
 using voile::engine::take;
 
 constexpr float k_frame = 1.f / 60; // s
 constexpr float k_gravity = 9.81f;  // m/s^2
-
-bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
-}
 
 // Cloths of all kinds in places of their own, far from each other, each above a ball. Layers keep the features of a
 // ball from depending on the other cloths.

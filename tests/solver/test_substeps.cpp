@@ -6,7 +6,6 @@
 #include "voile/engine/assets/shapes.hpp"
 
 #include <array>
-#include <cstring>
 #include <set>
 
 namespace
@@ -15,6 +14,7 @@ namespace
 using tests::ClothHarness;
 using tests::flat_sheet;
 using tests::moved;
+using tests::same_bits;
 using voile::engine::take;
 
 constexpr float k_frame = 1.f / 60; // s
@@ -25,11 +25,6 @@ voile::SolverOptions with_levels()
     voile::SolverOptions options;
     options.tuning.dispatch_vertices = 1;
     return options;
-}
-
-bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
 }
 
 // A sheet with all kinds of attachments and colliders of its own, at a position and on a layer of its own.
@@ -131,6 +126,17 @@ voile::Step frame(uint32_t index)
     return step;
 }
 
+// The first two cloths of a row, uploaded.
+struct StiffAndSoft
+{
+    StiffAndSoft() { harness.upload(); }
+
+    ClothHarness harness{with_levels()};
+    Row row{harness};
+    voile::ClothId stiff = row.add(0);
+    voile::ClothId soft = row.add(1);
+};
+
 } // namespace
 
 TEST_CASE("cloths of different stiffness take different substeps, and each moves as it does alone, to the bit")
@@ -183,13 +189,8 @@ TEST_CASE("cloths of different stiffness take different substeps, and each moves
     }
 }
 
-TEST_CASE("substeps of a step hold for every cloth")
+TEST_CASE_FIXTURE(StiffAndSoft, "substeps of a step hold for every cloth")
 {
-    ClothHarness harness(with_levels());
-    Row row(harness);
-    const voile::ClothId stiff = row.add(0);
-    const voile::ClothId soft = row.add(1);
-    harness.upload();
     CHECK(harness.solver.stability(stiff, {.substeps = 7}).used == 7);
     CHECK(harness.solver.stability(soft, {.substeps = 7}).used == 7);
     const uint32_t most = harness.solver.stability(stiff, {}).used;
@@ -198,13 +199,8 @@ TEST_CASE("substeps of a step hold for every cloth")
     CHECK(harness.solver.stability(soft, {.max_substeps = 1}).used == 1);
 }
 
-TEST_CASE("levels follow the duration, the material and what is enabled from step to step")
+TEST_CASE_FIXTURE(StiffAndSoft, "levels follow the duration, the material and what is enabled from step to step")
 {
-    ClothHarness harness(with_levels());
-    Row row(harness);
-    const voile::ClothId stiff = row.add(0);
-    const voile::ClothId soft = row.add(1);
-    harness.upload();
     const voile::Step usual = frame(0);
     voile::Step brief = usual;
     brief.duration = 1e-5f; // one substep is enough for each
@@ -229,13 +225,8 @@ TEST_CASE("levels follow the duration, the material and what is enabled from ste
     CHECK(harness.statistics().max_stretch < 1.3f);
 }
 
-TEST_CASE("attachments that wait for an upload leave each cloth the substeps that it needs")
+TEST_CASE_FIXTURE(StiffAndSoft, "attachments that wait for an upload leave each cloth the substeps that it needs")
 {
-    ClothHarness harness(with_levels());
-    Row row(harness);
-    const voile::ClothId stiff = row.add(0);
-    const voile::ClothId soft = row.add(1);
-    harness.upload();
     harness.step(frame(0), 4);
     std::vector<voile::Attachment> all;
     for (uint32_t i = 0; i < 14 * 14; ++i)

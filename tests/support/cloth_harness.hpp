@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 namespace tests
@@ -135,6 +136,11 @@ public:
     voile::Solver solver;
     uint32_t expected_nan_vertices = 0; // in the statistics; positions() and the like accept none
 };
+
+inline bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
+}
 
 // ||a - b|| / ||b|| over all components.
 inline double relative_error(const std::vector<glm::vec4>& a, const std::vector<glm::dvec3>& b)

@@ -142,13 +142,13 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
-    const shared::NearCollidersPush push{h_ * static_cast<float>(next - substep),
-                                         sudden_speed(),
-                                         1 / static_cast<float>(substeps_),
-                                         solver_.passes.colliders,
-                                         solver_.passes.features ? 1u : 0u,
-                                         device_.near_stride,
-                                         lists_.patches.first};
+    shared::NearCollidersPush push{};
+    push.time = h_ * static_cast<float>(next - substep);
+    push.sudden = sudden_speed();
+    push.progress_per_substep = 1 / static_cast<float>(substeps_);
+    push.colliders = solver_.passes.colliders;
+    push.features = solver_.passes.features ? 1 : 0;
+    push.near_stride = device_.near_stride;
     dispatch(kernels_.near_colliders, device_.sets.near_colliders, lists_.patches, push);
 }
 
@@ -157,14 +157,14 @@ void LevelRecorder::record_near_features(uint32_t substep)
     const uint32_t word = level_ * VOILE_DISPATCH_WORDS;
     clear_dispatch(recorder_, device_[buffer::feature_dispatch].handle(), word, solver_.options.tuning.feature_threads);
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
-    const shared::NearFeaturesPush push{h_ * static_cast<float>(next - substep),
-                                        sudden_speed(),
-                                        progress(substep),
-                                        progress(next),
-                                        solver_.passes.colliders,
-                                        device_.near_stride,
-                                        lists_.patches.first,
-                                        word};
+    shared::NearFeaturesPush push{};
+    push.time = h_ * static_cast<float>(next - substep);
+    push.sudden = sudden_speed();
+    push.progress_from = progress(substep);
+    push.progress_to = progress(next);
+    push.colliders = solver_.passes.colliders;
+    push.near_stride = device_.near_stride;
+    push.dispatch_word = word;
     dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features, device_.sets.near_features,
              lists_.patches, push);
     publish_dispatch(recorder_);
