@@ -225,26 +225,6 @@ TEST_CASE_FIXTURE(StiffAndSoft, "levels follow the duration, the material and wh
     CHECK(harness.statistics().max_stretch < 1.3f);
 }
 
-TEST_CASE_FIXTURE(StiffAndSoft, "attachments that wait for an upload leave each cloth the substeps that it needs")
-{
-    harness.step(frame(0), 4);
-    std::vector<voile::Attachment> all;
-    for (uint32_t i = 0; i < 14 * 14; ++i)
-        all.push_back(voile::spring(i, 1));
-    take(harness.solver.set_tethers(soft, {}));
-    take(harness.solver.set_attachments(soft, all));
-    REQUIRE(harness.solver.needs_upload());
-    for (const voile::ClothId cloth : {stiff, soft})
-        CHECK(harness.solver.stability(cloth, frame(0)).stiffness_scale == 1);
-    harness.step(frame(1), 10);
-    CHECK(harness.statistics().max_stretch < 1.3f);
-    harness.upload();
-    const voile::Stability after = harness.solver.stability(soft, frame(0));
-    CHECK(after.used * 4 <= harness.solver.stability(stiff, frame(0)).used);
-    harness.step(frame(2), 10);
-    CHECK(harness.statistics().max_stretch < 1.3f);
-}
-
 TEST_CASE("a budget of substeps is kept, and what it costs in stiffness is named")
 {
     ClothHarness harness(with_levels());

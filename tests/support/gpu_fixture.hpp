@@ -6,12 +6,15 @@
 #include "voile/engine/gpu/download.hpp"
 #include "voile/engine/gpu/frames.hpp"
 
+#include "voile/gpu/allocator.hpp"
 #include "voile/gpu/recorder.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/glm.hpp>
 
+#include <cstring>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace tests
@@ -23,6 +26,42 @@ inline voile::engine::Device& device()
     static voile::engine::Device instance(
         {.device = {}, .validation = true, .instance_extensions = {}, .swapchain = false});
     return instance;
+}
+
+// Fills new buffers with NaN, so that a kernel that reads what nothing has written shows it in the positions. The
+// memory is visible to the host: slow on a GPU, so that devices other than CPUs get the module's own allocator.
+class FillingAllocator final : public voile::BufferAllocator
+{
+public:
+    FillingAllocator() : allocator_(voile::engine::take(voile::gpu::Allocator::create(device().context().handles))) {}
+
+    voile::Result<voile::BufferMemory> create_buffer(const voile::BufferRequest& request) noexcept override
+    {
+        voile::BufferRequest visible = request;
+        if (request.memory == voile::Memory::device)
+            visible.memory = voile::Memory::upload;
+        auto memory = allocator_->create_buffer(visible);
+        if (memory)
+            std::memset(memory->mapped, 0xff, request.bytes);
+        return memory;
+    }
+    void destroy_buffer(const voile::BufferMemory& memory) noexcept override { allocator_->destroy_buffer(memory); }
+    void flush(const voile::BufferMemory& memory) noexcept override { allocator_->flush(memory); }
+    void invalidate(const voile::BufferMemory& memory) noexcept override { allocator_->invalidate(memory); }
+
+private:
+    std::unique_ptr<voile::gpu::Allocator> allocator_;
+};
+
+// The device's handles, with that allocator on a CPU.
+inline voile::Handles filling_handles()
+{
+    voile::Handles handles = device().context().handles;
+    if (device().context().device_type != VK_PHYSICAL_DEVICE_TYPE_CPU)
+        return handles;
+    static FillingAllocator allocator;
+    handles.buffer_allocator = &allocator;
+    return handles;
 }
 
 class GpuFixture

@@ -220,7 +220,9 @@ void main()
     const uint i = self.index;
     const vec4 x = positions[i];
     const FinePosition here = FinePosition(x.xyz, unpack_residual(residuals[i]));
-    const bool limited = cloths[self.cloth].strain_limit > 0 && x.w > 0;
+    // What other cloths need changes nothing: their wider levels leave this one alone.
+    const bool on_own_level = push.spacing << push.between <= cloths[self.cloth].strain_spacing;
+    const bool limited = cloths[self.cloth].strain_limit > 0 && x.w > 0 && on_own_level;
     const bool grid = cloths[self.cloth].columns > 0;
     Correction correction = k_no_correction;
     if (limited && grid && push.between == 1)

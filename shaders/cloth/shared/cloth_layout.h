@@ -71,7 +71,8 @@ struct ClothRecord
     uint layers;              // bits; the cloth collides with colliders that have one of them
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
     float strain_limit;       // largest l / L - 1; 0: no limit
-    float padding[3];
+    uint strain_spacing;      // of the widest level of the strain limit that moves the cloth, in grid lines
+    float padding[2];
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;

@@ -53,7 +53,7 @@ struct GridCloth
 
     Integrator integrator = Integrator::rk4;
 
-    // Vertices that stay where they are. Solver::set_attachments replaces them.
+    // Vertices that stay where they are, each once or several times. Solver::set_attachments replaces them.
     std::vector<uint32_t> pins{};
 
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.
@@ -106,7 +106,7 @@ struct MeshCloth
 
     Integrator integrator = Integrator::rk4;
 
-    // Vertices that stay where they are. Solver::set_attachments replaces them.
+    // Vertices that stay where they are, each once or several times. Solver::set_attachments replaces them.
     std::vector<uint32_t> pins{};
 
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.

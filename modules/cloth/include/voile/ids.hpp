@@ -42,7 +42,7 @@ struct AnchorId
 struct OutputId
 {
     uint32_t index = k_no_index;
-    uint32_t generation = 0; // raised each time that the index is given again
+    uint32_t generation = 0; // raised each time that the index becomes free
 
     friend bool operator==(const OutputId&, const OutputId&) = default;
 };

@@ -33,7 +33,7 @@ struct OutputOptions
     // Keeps the triangles of each cloth in an index buffer.
     bool indices = false;
     // Usages of the streams' buffers, added to those that they have: vertex, storage and indirect buffer, transfer
-    // source and destination; index buffer for the indices.
+    // source and destination; index buffer for the indices. vkCreateBuffer gets them as they are.
     // VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT gives VertexStreams::addresses. The device must be made with the
     // feature bufferDeviceAddress. A BufferAllocator of the host's must allocate such buffers with
     // VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.

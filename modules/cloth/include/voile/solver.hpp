@@ -80,8 +80,9 @@ struct Tuning
     // workgroup_size. 0: eight, on CPU devices one.
     uint32_t feature_threads = 0;
 
-    // Cloths that need fewer substeps than others get dispatches of their own where that saves time: the dispatches of
-    // a substep take as long as stepping so many vertices. 0: 100,000, on CPU devices 256.
+    // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that
+    // need fewer substeps than others get dispatches of their own where these cost less than the substeps that they
+    // save. 0: 100,000, on CPU devices 256.
     uint32_t dispatch_vertices = 0;
 
     ContactMethod contact_method = ContactMethod::nearest_point;
@@ -222,10 +223,9 @@ public:
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
 
     // Replaces all attachments of the cloth, including the pins of its description. Vertices that are no longer
-    // attached are free. Tethers are computed again from the new pins. More attachments than the solver has room for
-    // take effect with the next upload (needs_upload). Until then no change of attachments or tethers takes effect, of
-    // no cloth, and removed anchors keep their vertices. Errors: a vertex that does not exist or has two attachments, a
-    // value out of range, an anchor that does not exist, tethers without a pin.
+    // attached are free. Tethers are computed again from the new pins, and end while there is none. Allocates if the
+    // solver never had so many attachments. Errors: a vertex that does not exist or has two attachments, a value out of
+    // range, an anchor that does not exist, out of memory.
     Result<void> set_attachments(ClothId cloth, std::span<const Attachment> attachments);
     Result<void> set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments);
     [[nodiscard]] const std::vector<Attachment>& attachments(ClothId cloth) const;
@@ -234,13 +234,12 @@ public:
     [[nodiscard]] Result<std::vector<Attachment>> attachments_on_surface(ClothId cloth, ColliderId collider,
                                                                          float distance);
 
-    // Tethers to the present pins; none: removes them. More tethers than the solver has room for take effect with the
-    // next upload (needs_upload), and until then no change of attachments, as above. Errors: no pin, a stretch out of
-    // range.
+    // Tethers to the present pins; none: removes them. Allocates if the solver never had so many. Errors: no pin, a
+    // stretch out of range, out of memory.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
 
-    // A cloth collides with the colliders that have a layer in common with it (bits). Edges and corners of colliders
-    // that were not needed before collide from the next upload on (needs_upload).
+    // A cloth collides with the colliders that have a layer in common with it (bits). If a collider collides with a
+    // cloth for the first time, its edges and corners do so from the next upload on (needs_upload).
     Result<void> set_layers(ClothId cloth, uint32_t layers);
     Result<void> set_layers(ColliderId collider, uint32_t layers);
 
@@ -250,8 +249,9 @@ public:
     // Errors: another kind of collider, a radius out of range.
     Result<void> set_radius(ColliderId collider, float radius);
 
-    // A frame for attachments. Errors: a transform that is not affine, an axis with an entry beyond 1e3, an origin
-    // beyond 1e6 m, a volume below 1e-9 of the unit cube's.
+    // A frame for attachments. Allocates if the solver never had so many anchors. Errors: a transform that is not
+    // affine, an axis with an entry beyond 1e3, an origin beyond 1e6 m, a volume below 1e-9 of the unit cube's, out of
+    // memory.
     Result<AnchorId> add_anchor(const Mat4& world_from_anchor);
     // The anchor's pose at the end of the next step. Its attachments move there along straight lines.
     Result<void> move_anchor(AnchorId anchor, const Mat4& world_from_anchor);
@@ -300,10 +300,8 @@ public:
     // Records the passes of one step, outside of a render pass. Never allocates, submits, waits or reads a clock.
     // - Begins with a barrier: waits for earlier reads of the streams by vertex input, for transfers and uploads.
     // - Ends with a barrier: writes are visible to vertex input, compute and transfer reads that follow.
-    // - Records nothing before the first record_upload, or without cloths.
-    // - While an upload is due, everything that is uploaded is simulated, with its motions and changes. Attachments
-    // wait
-    //   if they are what the upload is due for (set_attachments).
+    // - Records nothing before the first record_upload, and only changes and motions while no cloth is enabled.
+    // - While an upload is due, everything that is uploaded is simulated, with its motions and changes.
     // Errors: a member of the step out of its range. Then nothing is recorded, and changes wait for the next step.
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
@@ -338,8 +336,8 @@ public:
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     // The substeps of a cloth in a step. Cloths are grouped by the substeps that they need: a group takes the largest
     // number, or a half, a quarter ... a sixteenth of it, if that saves time. Each group has dispatches of its own, so
-    // on a large GPU a small soft cloth stays in the group of a stiff one. needed and used are 0 for a step that record
-    // refuses.
+    // on a large GPU a small soft cloth stays in the group of a stiff one. Takes time in proportion to the number of
+    // cloths. needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;

@@ -45,10 +45,12 @@ inline bool is_active(const ClothModel& cloth)
     return cloth.uploaded && cloth.enabled;
 }
 
+// Room for the anchors, and for the attachments and tethers of all cloths.
 struct AttachmentCounts
 {
-    size_t attachments = 0;
-    size_t tethers = 0;
+    uint64_t anchors = 0;
+    uint64_t attachments = 0;
+    uint64_t tethers = 0;
 };
 AttachmentCounts count_attachments(const Model& model);
 
@@ -62,8 +64,5 @@ inline uint32_t assigned_level(const ClothModel& cloth)
 // Neither allocates if the lists have the capacity.
 void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists);
 void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& lists);
-// Moves all attachments and tethers to level 0, in the order that they have. For lists that cannot be written again
-// yet.
-void merge_levels(ActiveLists& lists);
 
 } // namespace voile

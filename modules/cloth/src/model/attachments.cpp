@@ -1,6 +1,7 @@
 // Attachments: the functions that make them, their validation, and their records.
 #include "model/active_lists.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voile
@@ -159,15 +160,21 @@ Result<void> validate_attachments(const Model& model, const ClothModel& cloth, s
     return {};
 }
 
+bool has_pin(const ClothModel& cloth)
+{
+    return std::ranges::any_of(cloth.attachments, is_pin);
+}
+
 AttachmentCounts count_attachments(const Model& model)
 {
-    AttachmentCounts counts;
+    constexpr uint64_t k_first_ones = 16; // have room without a new buffer
+    AttachmentCounts counts{.anchors = std::max(uint64_t{model.anchors.size()}, k_first_ones)};
     for (const auto [index, cloth] : model.cloths)
-        if (is_active(cloth))
-        {
-            counts.attachments += cloth.attachments.size();
-            counts.tethers += cloth.tethers.size();
-        }
+    {
+        counts.attachments += cloth.attachments.size();
+        counts.tethers += cloth.tether_options ? cloth.record.vertices : 0; // one per vertex at most, whatever its pins
+    }
+    counts.attachments = std::max(counts.attachments, k_first_ones);
     return counts;
 }
 
@@ -201,15 +208,6 @@ void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& 
         list.attachments.count = attachments() - list.attachments.first;
         list.tethers.count = tethers() - list.tethers.first;
     }
-}
-
-void merge_levels(ActiveLists& lists)
-{
-    for (LevelLists& list : lists.levels)
-        list.attachments = list.tethers = {};
-    const auto attachments = static_cast<uint32_t>(lists.attachments.size());
-    lists.levels[0].attachments = {lists.pins, attachments - lists.pins};
-    lists.levels[0].tethers = {0, static_cast<uint32_t>(lists.tethers.size())};
 }
 
 } // namespace voile

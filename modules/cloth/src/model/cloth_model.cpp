@@ -218,6 +218,14 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
 // their diagonals, and more than half of each correction would overshoot.
 constexpr float k_strain_relaxation = 0.5f;
 
+// Half of the longer side, or less. A mesh has as many passes as a grid of its size.
+uint32_t strain_spacing(const shared::ClothRecord& cloth)
+{
+    const uint32_t side = cloth.columns > 0 ? std::max(cloth.columns, cloth.rows)
+                                            : static_cast<uint32_t>(std::sqrt(static_cast<double>(cloth.vertices)));
+    return std::bit_floor(std::max(side / 2, 1u));
+}
+
 // The members that both kinds of material have.
 template <typename M>
 void apply_surface(const M& m, shared::ClothRecord& record)
@@ -230,6 +238,7 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.gravity_scale = m.gravity_scale;
     record.strain_limit = m.strain_limit;
     record.strain_relaxation = k_strain_relaxation;
+    record.strain_spacing = strain_spacing(record);
 }
 
 } // namespace

@@ -67,7 +67,10 @@ Result<void> check_anchor(const Model& model, AnchorId anchor);
 // Errors: a vertex that does not exist or has two attachments, an anchor that does not exist, values out of range.
 Result<void> validate_attachments(const Model& model, const ClothModel& cloth, std::span<const Attachment> attachments);
 
-// The tethers of a cloth by its present pins; `index`: its slot. Errors: no pin, a value out of range.
+// Whether a vertex of the cloth is pinned.
+bool has_pin(const ClothModel& cloth);
+
+// The tethers of a cloth to its present pins, none without a pin; `index`: its slot. Errors: a value out of range.
 Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, uint32_t index, const Tethers& tethers);
 
 // How many patches a grid or a mesh has: workgroups of `workgroup_size` vertices, none across two cloths.

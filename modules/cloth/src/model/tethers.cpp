@@ -172,8 +172,6 @@ Result<std::vector<shared::TetherRecord>> make_tethers(const ClothModel& cloth, 
         return invalid("cloth", name,
                        "the tethers' stretch is " + std::to_string(tethers.stretch) + ", must be 0 to 10");
     const Surface surface = make_surface(cloth);
-    if (surface.pins.empty())
-        return invalid("cloth", name, "tethers need a pin, and it has none");
     const uint32_t first = cloth.record.first_vertex;
     std::vector<shared::TetherRecord> records(surface.positions.size());
     for (const std::vector<uint32_t>& group : pin_groups(surface))

@@ -29,6 +29,9 @@ constexpr VkDeviceSize scales_bytes(size_t cloths)
     return cloths * sizeof(shared::LimitScale);
 }
 
+// Of a cloth whose strain limit has not removed any energy yet.
+constexpr shared::LimitScale k_first_scale{1, 1, 0, 1, 0, 0};
+
 // Entries that the solver's arrays need, or have room for. Counts in buffers.h are expressions over these.
 struct BufferCounts
 {

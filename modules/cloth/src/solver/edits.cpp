@@ -26,8 +26,6 @@ void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
     const DeviceState& device = *solver.device;
     for (const auto [index, anchor] : solver.model.anchors)
     {
-        if (index >= device.capacities.anchors)
-            return;
         const shared::AnchorRecord record = make_record(anchor);
         recorder.update(device[buffer::anchors].handle(), index * sizeof(record), std::as_bytes(std::span(&record, 1)));
     }
@@ -52,6 +50,10 @@ void update_records(gpu::Recorder& recorder, const Solver::State& solver)
         if (const ClothModel* cloth = solver.model.cloths.at(index); cloth != nullptr && cloth->uploaded)
             recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
                             std::as_bytes(std::span(&cloth->record, 1)));
+    for (const uint32_t index : solver.edits.limits)
+        if (const ClothModel* cloth = solver.model.cloths.at(index); cloth != nullptr && cloth->uploaded)
+            recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
+                            std::as_bytes(std::span(&k_first_scale, 1)));
     for (const uint32_t index : solver.edits.colliders)
     {
         if (index >= device.collider_count)
@@ -77,7 +79,7 @@ void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved&
     update_records(recorder, solver);
     if (solver.edits.patches)
         record_patches(recorder, solver);
-    if (solver.edits.attachments && solver.fits())
+    if (solver.edits.attachments)
     {
         recorder.update(device[buffer::attachments].handle(), 0, bytes_of(solver.lists.attachments));
         recorder.update(device[buffer::tethers].handle(), 0, bytes_of(solver.lists.tethers));
@@ -153,9 +155,9 @@ void finish_edits(Solver::State& solver)
 {
     Edits& edits = solver.edits;
     edits.records.clear();
+    edits.limits.clear();
     edits.colliders.clear();
-    edits.pins = edits.candidates = false;
-    edits.attachments = edits.attachments && !solver.fits();
+    edits.attachments = edits.pins = edits.candidates = false;
 }
 
 // The edits of uploaded cloths. Returns how many there were.
@@ -183,13 +185,14 @@ shared::AnchorRecord make_record(const Anchor& anchor)
 
 void Edits::forget(ClothId cloth)
 {
-    std::erase(records, cloth.index);
+    records.erase(cloth.index);
+    limits.erase(cloth.index);
     std::erase_if(state_edits, [&](const shared::EditPush& edit) { return edit.cloth == cloth.index; });
 }
 
 bool Solver::State::changes_due() const
 {
-    return (edits.attachments && fits()) || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
+    return edits.attachments || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
            !edits.colliders.empty() ||
            std::ranges::any_of(edits.state_edits,
                                [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });

@@ -155,18 +155,16 @@ Result<std::vector<OutputSet>> write_outputs(const Solver::State& solver, const 
     return sets;
 }
 
-std::vector<gpu::BindingPool> Solver::State::replace_outputs(std::vector<OutputSet> sets)
+void Solver::State::replace_outputs(std::vector<OutputSet> sets)
 {
-    std::vector<gpu::BindingPool> replaced = std::exchange(retired_sets, {});
     if (sets.empty())
-        return replaced;
+        return;
     size_t next = 0;
     for (auto [index, output] : outputs)
     {
         std::swap(output.set, sets[next]);
-        replaced.push_back(std::move(sets[next++].pool));
+        replaced.sets.push_back(std::move(sets[next++].pool));
     }
-    return replaced;
 }
 
 void Solver::State::remove_outputs(ClothId cloth)
@@ -174,7 +172,7 @@ void Solver::State::remove_outputs(ClothId cloth)
     for (auto [index, output] : outputs)
         if (output.cloth == cloth)
         {
-            retired_sets.push_back(std::move(output.set.pool));
+            replaced.sets.push_back(std::move(output.set.pool));
             outputs.remove(outputs.id_at(index));
         }
 }

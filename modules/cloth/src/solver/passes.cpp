@@ -26,25 +26,7 @@ void add_passes(Passes& passes, const ColliderModel& collider)
     passes.mesh_extent = std::max(passes.mesh_extent, record.extent);
 }
 
-// The widest level of a cloth's strain limit: half of the longer side and less. A mesh has as many passes as a grid of
-// its size.
-uint32_t strain_spacing(const shared::ClothRecord& cloth)
-{
-    if (cloth.strain_limit == 0)
-        return 0;
-    const uint32_t side = cloth.columns > 0 ? std::max(cloth.columns, cloth.rows)
-                                            : static_cast<uint32_t>(std::sqrt(static_cast<double>(cloth.vertices)));
-    return std::bit_floor(std::max(side / 2, 1u));
-}
-
 } // namespace
-
-bool Solver::State::fits() const
-{
-    return device && model.anchors.size() <= device->capacities.anchors &&
-           attachment_counts.attachments <= device->capacities.attachments &&
-           attachment_counts.tethers <= device->capacities.tethers;
-}
 
 void Solver::State::update_patches()
 {
@@ -61,11 +43,7 @@ void Solver::State::update_attachments()
     edits.attachments = edits.pins = true;
     if (!device)
         return;
-    attachment_counts = count_attachments(model);
-    if (fits()) // else those in the buffers stay in use
-        list_attachments(model, assigned_level, lists);
-    else
-        dirty = true;
+    list_attachments(model, assigned_level, lists);
     update_passes();
 }
 
@@ -81,7 +59,7 @@ SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& need
     return plan_substeps(needed, {.substeps = step.max_substeps,
                                   .vertex_substeps = step.max_vertex_substeps,
                                   .dispatch_vertices = options.tuning.dispatch_vertices,
-                                  .levels = fits() ? VOILE_SUBSTEP_LEVELS : 1u});
+                                  .levels = VOILE_SUBSTEP_LEVELS});
 }
 
 void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
@@ -97,10 +75,7 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
     if (!changes)
         return;
     list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
-    if (fits())
-        list_attachments(model, assigned_level, lists);
-    else
-        merge_levels(lists); // those in the buffers stay in use
+    list_attachments(model, assigned_level, lists);
     edits.patches = edits.attachments = true;
 }
 
@@ -117,8 +92,8 @@ void Solver::State::update_passes()
         }
     next.depenetration = next.depenetration && options.depenetration;
     for (const auto [index, cloth] : model.cloths)
-        if (is_active(cloth))
-            next.strain_spacing = std::max(next.strain_spacing, strain_spacing(cloth.record));
+        if (is_active(cloth) && cloth.record.strain_limit > 0)
+            next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
     const bool attached = lists.attachments.size() > lists.pins || !lists.tethers.empty();
     next.contact = next.colliders > 0 || attached || next.strain_spacing > 0;
     passes = next;
@@ -126,7 +101,7 @@ void Solver::State::update_passes()
 
 void Solver::State::update_collider(ColliderId collider, bool meets_others)
 {
-    edits.colliders.push_back(collider.index);
+    edits.colliders.insert(collider.index);
     edits.candidates |= meets_others;
     const ColliderModel* model_of = find(collider);
     if (options.feature_contact && model_of != nullptr && needs_features(*model_of, model))

@@ -156,7 +156,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
 {
     if (auto valid = validate(step); !valid)
         return valid;
-    if (!state_->device || (state_->device->patch_count == 0 && !state_->edits.patches))
+    if (!state_->device)
         return {};
     state_->lifetime.begin(recorder.cmd());
     record_previous_positions(recorder, *state_);
@@ -165,8 +165,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     const SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
     state_->assign_levels(plan, step);
     record_edits(recorder, *state_, step);
-    if (state_->lists.patch_count() > 0)
-        record_passes(recorder, *state_, state_->lists, state_->history, step, plan);
+    record_passes(recorder, *state_, state_->lists, state_->history, step, plan);
     record_jumps(recorder, *state_);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
@@ -198,7 +197,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::
 
 uint32_t Solver::dispatches(const Step& step) const
 {
-    if (!state_->device || state_->lists.patch_count() == 0 || !validate(step))
+    if (!state_->device || !validate(step))
         return 0;
     gpu::Recorder dry(state_->context);
     StepHistory history = state_->history;

@@ -87,7 +87,7 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     if ((flags & VOILE_COLLIDER_MOVED) == 0 && motion != glm::mat4(1))
     {
         flags |= VOILE_COLLIDER_MOVED;
-        s.edits.colliders.push_back(collider.index);
+        s.edits.colliders.insert(collider.index);
         s.update_passes();
     }
     return {};
@@ -145,7 +145,7 @@ Result<void> Solver::set_layers(ClothId cloth, uint32_t layers)
     if (auto exists = s.check(cloth); !exists)
         return exists;
     s.model.cloths.find(cloth)->record.layers = layers;
-    s.edits.records.push_back(cloth.index);
+    s.edits.records.insert(cloth.index);
     s.edits.candidates = true;
     for (const auto [index, collider] : s.collider_models.colliders)
         s.dirty |= s.options.feature_contact && needs_features(collider, s.model);

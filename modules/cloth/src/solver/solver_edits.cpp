@@ -48,9 +48,12 @@ Result<void> Solver::set_material(ClothId cloth, const ClothMaterial& material)
     if (auto valid = check_kind(model, material); !valid)
         return valid;
     const bool heavier = density(material) != density(model.material);
+    const bool was_limited = model.record.strain_limit > 0;
     model.material = material;
     apply_material(model);
-    s.edits.records.push_back(cloth.index);
+    s.edits.records.insert(cloth.index);
+    if (!was_limited && model.record.strain_limit > 0)
+        s.edits.limits.insert(cloth.index);
     if (heavier)
         add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1), glm::vec3(0));
     s.update_passes();
@@ -74,19 +77,13 @@ Result<void> Solver::set_attachments(ClothId cloth, std::span<const Attachment> 
         return valid;
     std::vector<Attachment> before =
         std::exchange(model.attachments, std::vector<Attachment>(attachments.begin(), attachments.end()));
-    if (model.tether_options)
+    if (auto applied = s.apply_attachments(cloth); !applied)
     {
-        auto tethers = make_tethers(model, cloth.index, *model.tether_options);
-        if (!tethers)
-        {
-            model.attachments = std::move(before);
-            return tethers.error();
-        }
-        model.tethers = std::move(tethers.value());
+        model.attachments = std::move(before);
+        return applied;
     }
     add_state_edit(s.edits, cloth, VOILE_EDIT_MASSES, glm::mat4(1),
                    glm::vec3(0)); // of vertices that are no longer pinned
-    s.update_attachments();
     return {};
 }
 
@@ -108,17 +105,49 @@ Result<void> Solver::set_tethers(ClothId cloth, const std::optional<Tethers>& te
     if (auto exists = s.check(cloth); !exists)
         return exists;
     ClothModel& model = *s.model.cloths.find(cloth);
-    std::vector<shared::TetherRecord> records;
-    if (tethers)
+    if (tethers && !has_pin(model))
+        return invalid("cloth", model.name, "tethers need a pin, and it has none");
+    const std::optional<Tethers> before = std::exchange(model.tether_options, tethers);
+    auto applied = s.apply_attachments(cloth);
+    if (!applied)
+        model.tether_options = before;
+    return applied;
+}
+
+Result<void> Solver::State::apply_attachments(ClothId id)
+{
+    ClothModel& cloth = *model.cloths.find(id);
+    std::vector<shared::TetherRecord> tethers;
+    if (cloth.tether_options)
     {
-        auto made = make_tethers(model, cloth.index, *tethers);
+        auto made = make_tethers(cloth, id.index, *cloth.tether_options);
         if (!made)
             return made.error();
-        records = std::move(made.value());
+        tethers = std::move(made.value());
     }
-    model.tether_options = tethers;
-    model.tethers = std::move(records);
-    s.update_attachments();
+    if (auto room = reserve_attachments(); !room)
+        return room;
+    cloth.tethers = std::move(tethers);
+    update_attachments();
+    return {};
+}
+
+Result<void> Solver::State::reserve_attachments()
+{
+    if (!device)
+        return {};
+    const AttachmentCounts attached = count_attachments(model);
+    BufferCounts needed = device->capacities;
+    needed.vertices = device->vertices;
+    needed.colliders = device->collider_count;
+    needed.anchors = attached.anchors;
+    needed.attachments = attached.attachments;
+    needed.tethers = attached.tethers;
+    auto growth = grow(context, kernels, &*device, needed, statistics, options.output.usage);
+    if (!growth)
+        return growth.error();
+    if (growth.value().any)
+        replaced.buffers.push_back(replace_grown(*device, std::move(growth.value())));
     return {};
 }
 
@@ -128,7 +157,11 @@ Result<AnchorId> Solver::add_anchor(const glm::mat4& world_from_anchor)
     if (auto valid = check_frame("anchor", world_from_anchor); !valid)
         return valid.error();
     const AnchorId id = s.model.anchors.add({world_from_anchor, world_from_anchor, world_from_anchor});
-    s.dirty |= s.device && !s.fits();
+    if (auto room = s.reserve_attachments(); !room)
+    {
+        s.model.anchors.remove(id);
+        return room.error();
+    }
     s.edits.pins = true;
     return id;
 }

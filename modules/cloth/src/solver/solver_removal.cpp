@@ -46,18 +46,14 @@ Result<void> Solver::remove(AnchorId anchor)
     return {};
 }
 
-// Tethers without a pin end, too. The next pin restores them.
 void Solver::State::remove_attachments(ClothId id, AnchorId anchor)
 {
     ClothModel& cloth = *model.cloths.find(id);
     if (std::erase_if(cloth.attachments, [&](const Attachment& a) { return a.anchor == anchor; }) == 0)
         return;
     edits.state_edits.push_back({glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, id.index});
-    cloth.tethers.clear();
-    if (!cloth.tether_options)
-        return;
-    if (auto tethers = make_tethers(cloth, id.index, *cloth.tether_options))
-        cloth.tethers = std::move(tethers.value());
+    if (cloth.tether_options)
+        cloth.tethers = *make_tethers(cloth, id.index, *cloth.tether_options); // they were valid before
 }
 
 Result<void> Solver::set_enabled(ClothId cloth, bool enabled)

@@ -13,17 +13,18 @@
 #include "shared/step_layout.h"
 
 #include <optional>
+#include <set>
 
 namespace voile
 {
 
 // Changes by the host since the last record; the next one records them at its beginning. Changes of cloths and
-// colliders that are not uploaded yet wait for their upload. Lists of attachments and tethers that do not fit their
-// buffers wait for larger ones.
+// colliders that are not uploaded yet wait for their upload.
 struct Edits
 {
-    std::vector<uint32_t> records;             // cloths whose record changed
-    std::vector<uint32_t> colliders;           // colliders whose record changed, or that were removed
+    std::set<uint32_t> records;                // cloths whose record changed
+    std::set<uint32_t> limits;                 // cloths that got a strain limit
+    std::set<uint32_t> colliders;              // colliders whose record changed, or that were removed
     std::vector<shared::EditPush> state_edits; // in order
     bool patches = false;
     bool attachments = false; // the lists of attachments and tethers
@@ -60,6 +61,13 @@ constexpr float k_strain_radius = 0.95f; // of the iteration, for its accelerati
 // Steps from one check of all vertices to the next, if none was inside.
 constexpr uint32_t k_depenetration_period = 8;
 
+// What pending command buffers may use, and nothing else. The next upload takes it.
+struct Replaced
+{
+    std::vector<DeviceState> buffers;
+    std::vector<gpu::BindingPool> sets; // of outputs
+};
+
 // The state of the solver from step to step, beside the buffers.
 struct StepHistory
 {
@@ -80,12 +88,11 @@ struct Solver::State
     bool colliders_moved = false; // in the last step
     float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded, if there are features
     StepHistory history;
-    ActiveLists lists;                  // attachments and tethers: as they fitted their buffers last
-    AttachmentCounts attachment_counts; // of the active cloths
-    std::vector<SubstepNeed> needs;     // of the active cloths, in no order; kept so that recording does not allocate
-    gpu::Buffer statistics;             // one record per slot; the host reads it. Uploads leave it alone
+    ActiveLists lists;
+    std::vector<SubstepNeed> needs; // of the active cloths, in no order; kept so that recording does not allocate
+    gpu::Buffer statistics;         // one record per slot; the host reads it. Uploads leave it alone
     Slots<OutputId, Output> outputs;
-    std::vector<gpu::BindingPool> retired_sets; // of outputs whose cloth was removed; the next upload takes them
+    Replaced replaced;
     Edits edits;
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
@@ -110,14 +117,20 @@ struct Solver::State
 
     // Whether the next record has edits to record.
     [[nodiscard]] bool changes_due() const;
-    // The sets of outputs after growth, in their order; returns those that it replaces and those that were retired.
-    std::vector<gpu::BindingPool> replace_outputs(std::vector<OutputSet> sets);
+    // The sets of outputs after growth, in their order.
+    void replace_outputs(std::vector<OutputSet> sets);
     // After a cloth was uploaded, removed, enabled or disabled.
     void update_patches();
     // Removes the outputs of one cloth, while commands that use them may be pending.
     void remove_outputs(ClothId cloth);
     // Removes the attachments of one cloth to an anchor.
     void remove_attachments(ClothId cloth, AnchorId anchor);
+    // After the host changed the attachments of a cloth, or whether it has tethers: makes its tethers, and room for all
+    // of them. Errors: tethers out of range, out of memory; nothing else has changed then.
+    Result<void> apply_attachments(ClothId cloth);
+    // Replaces the buffers of anchors, attachments and tethers if they are too small. Errors: out of memory, more than
+    // the device can bind; nothing has changed then.
+    Result<void> reserve_attachments();
     // After the attachments or tethers of a cloth changed, and at the end of update_patches.
     void update_attachments();
     // After materials or colliders changed, and at the end of update_attachments.
@@ -131,8 +144,6 @@ struct Solver::State
     {
         return check_dispatch(model.limits, "cloth", name, "with it the solver has", model.patches + added);
     }
-    // Whether the attachments, with their anchors, and the tethers of the active cloths fit their buffers.
-    [[nodiscard]] bool fits() const;
 };
 
 // Copies the vertices of deforming meshes into their positions: first the copies, then, once these are visible to
@@ -184,9 +195,8 @@ bool checks_lifetime(const SolverOptions& options);
 struct Upload::Contents
 {
     gpu::Buffer staging;
-    DeviceState replaced;
-    std::vector<gpu::BindingPool> replaced_sets; // of outputs
-    LifetimeCheck lifetime;                      // the last member, as the solver's
+    Replaced replaced;
+    LifetimeCheck lifetime; // the last member, as the solver's
 };
 
 } // namespace voile

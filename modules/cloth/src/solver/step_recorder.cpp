@@ -6,11 +6,16 @@
 namespace voile
 {
 
-uint32_t limit_passes(uint32_t widest_spacing)
+namespace
 {
-    const auto levels = static_cast<uint32_t>(std::bit_width(widest_spacing));
-    return (levels * (k_strain_passes + 1) - 1) | 1u;
+
+// Each level begins with a pass between the lines of the level before.
+uint32_t level_passes(uint32_t widest_spacing)
+{
+    return static_cast<uint32_t>(std::bit_width(widest_spacing)) * (k_strain_passes + 1) - 1;
 }
+
+} // namespace
 
 StepRecorder::StepRecorder(const StepContext& context)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
@@ -93,11 +98,12 @@ void StepRecorder::record_limit_guard()
     }
 }
 
-// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it: an even number
-// has one more.
+// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it. An even number
+// has one more before them, on a level of no cloth.
 void StepRecorder::record_limit_passes()
 {
-    const uint32_t passes = limit_passes(solver_.passes.strain_spacing);
+    const uint32_t on_levels = level_passes(solver_.passes.strain_spacing);
+    const uint32_t passes = on_levels | 1u;
     uint32_t pass = 0;
     const auto record_pass = [&](uint32_t spacing, bool between, bool first, float acceleration)
     {
@@ -109,6 +115,8 @@ void StepRecorder::record_limit_passes()
                                       pass == passes ? 1u : 0u};
         recorder_.dispatch(kernels_.limit_strain, set, threads_, group_, push);
     };
+    if (on_levels < passes)
+        record_pass(2 * solver_.passes.strain_spacing, false, true, 1);
     for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
     {
         if (spacing < solver_.passes.strain_spacing)
@@ -124,8 +132,6 @@ void StepRecorder::record_limit_passes()
                                       : 4 / (4 - k_strain_radius * k_strain_radius * acceleration);
         }
     }
-    if (pass < passes)
-        record_pass(1, false, false, 1);
 }
 
 } // namespace voile

@@ -103,7 +103,4 @@ private:
     std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_LEVELS> levels_; // none for a level without cloths
 };
 
-// The number of passes of the strain limit whose widest spacing is given; it is odd.
-uint32_t limit_passes(uint32_t widest_spacing);
-
 } // namespace voile

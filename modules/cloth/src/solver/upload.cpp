@@ -3,7 +3,7 @@
 #include "solver/solver_state.hpp"
 #include "solver/staging.hpp"
 
-#include <bit>
+#include <utility>
 
 namespace voile
 {
@@ -38,7 +38,7 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index, cons
     if (output.indices)
         staging.add_copy(buffer::indices, cloth.first_triangle, cloth_triangles(cloth));
     staging.add_copy(buffer::cloths, index, std::vector{cloth.record});
-    staging.add_copy(buffer::limit_scales, index, std::vector{shared::LimitScale{1, 1, 0, 1, 0, 0}});
+    staging.add_copy(buffer::limit_scales, index, std::vector{k_first_scale});
     for (const buffer::Name votes : k_depenetration_votes)
         staging.add_copy(votes, index * uint64_t{VOILE_VOTE_WORDS}, std::vector<uint32_t>(VOILE_VOTE_WORDS));
 }
@@ -120,18 +120,9 @@ Staging stage_new(Solver::State& solver)
 // The entries that the buffers must have room for.
 BufferCounts count_entries(const Solver::State& solver)
 {
-    // For attachments and anchors that come later.
-    static constexpr uint32_t k_room = 16;
-    const auto room = [](size_t count) { return std::bit_ceil(std::max(static_cast<uint32_t>(count), k_room)); };
     const Model& model = solver.model;
     const ColliderModels& models = solver.collider_models;
-    size_t attachments = 0;
-    size_t tethers = 0;
-    for (const auto [index, cloth] : model.cloths)
-    {
-        attachments += cloth.attachments.size();
-        tethers += cloth.tether_options ? cloth.record.vertices : 0; // one per vertex at most, whatever its pins
-    }
+    const AttachmentCounts attached = count_attachments(model);
     return {.cloths = model.cloths.size(),
             .vertices = model.vertices.end(),
             .patches = model.patches,
@@ -146,9 +137,9 @@ BufferCounts count_entries(const Solver::State& solver)
             .padded_boxes = models.padded_boxes.end(),
             .feature_nodes = models.features.end(k_feature_nodes),
             .features = models.features.end(k_feature_list),
-            .anchors = room(model.anchors.size()),
-            .attachments = room(attachments),
-            .tethers = room(tethers),
+            .anchors = attached.anchors,
+            .attachments = attached.attachments,
+            .tethers = attached.tethers,
             .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
             .cloth_triangles = model.triangles.end()};
 }
@@ -238,8 +229,9 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const std::vector<GrowthCopy> copies = std::move(growth.value().copies);
     if (!s.device)
         s.device.emplace();
-    upload.contents_->replaced = replace_grown(*s.device, std::move(growth.value()));
-    upload.contents_->replaced_sets = s.replace_outputs(std::move(outputs.value()));
+    s.replaced.buffers.push_back(replace_grown(*s.device, std::move(growth.value())));
+    s.replace_outputs(std::move(outputs.value()));
+    upload.contents_->replaced = std::exchange(s.replaced, {});
     upload.contents_->staging = std::move(staged.value());
     gpu::Recorder recorder(s.context, cmd);
     record_copies(recorder, s, copies, staging, upload.contents_->staging.handle());

@@ -37,7 +37,8 @@ struct BufferMemory
 
 // Serves the buffers of solvers from the host's allocator. Without one the module has its own. The functions must not
 // throw. Several threads call them at the same time if the host uses several solvers so. Nothing is allocated or freed
-// while a step is recorded: only creating and destroying solvers, uploads and snapshots, and record_upload, do so.
+// while a step is recorded: only creating and destroying solvers, uploads and snapshots, and record_upload, do so, and
+// set_attachments, set_tethers and add_anchor where the solver never had so many.
 class BufferAllocator
 {
 public:
