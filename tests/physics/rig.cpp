@@ -1,5 +1,7 @@
 #include "physics/rig.hpp"
 
+#include "support/kept_pipelines.hpp"
+
 #include "voile/engine/gpu/download.hpp"
 #include "voile/gpu/recorder.hpp"
 
@@ -23,7 +25,11 @@ voile::engine::Device& device()
 
 } // namespace
 
-Rig::Rig() : solver(voile::engine::take(voile::Solver::create(device().context().handles, {}))), frames_(device(), 1) {}
+Rig::Rig()
+    : solver(voile::engine::take(voile::Solver::create(tests::KeptPipelines::handles(device().context()), {}))),
+      frames_(device(), 1)
+{
+}
 
 void Rig::run(const std::function<void(VkCommandBuffer)>& record)
 {

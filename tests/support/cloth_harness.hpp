@@ -67,7 +67,7 @@ class ClothHarness : public GpuFixture
 {
 public:
     explicit ClothHarness(const voile::SolverOptions& options = {})
-        : solver(voile::engine::take(voile::Solver::create(filling_handles(), options)))
+        : solver(voile::engine::take(voile::Solver::create(test_handles(), options)))
     {
     }
 

@@ -2,6 +2,8 @@
 // Its destructor fails the test on any validation message.
 #pragma once
 
+#include "support/kept_pipelines.hpp"
+
 #include "voile/engine/gpu/device.hpp"
 #include "voile/engine/gpu/download.hpp"
 #include "voile/engine/gpu/frames.hpp"
@@ -53,10 +55,10 @@ private:
     std::unique_ptr<voile::gpu::Allocator> allocator_;
 };
 
-// The device's handles, with that allocator on a CPU.
-inline voile::Handles filling_handles()
+// What solvers of the tests get: the device's handles with kept pipelines, and that allocator on a CPU.
+inline voile::Handles test_handles()
 {
-    voile::Handles handles = device().context().handles;
+    voile::Handles handles = KeptPipelines::handles(device().context());
     if (device().context().device_type != VK_PHYSICAL_DEVICE_TYPE_CPU)
         return handles;
     static FillingAllocator allocator;
