@@ -1,4 +1,5 @@
 // The strain limit: kept at the end of each step, without jitter, and without a change of momentum.
+#include "support/cloth_meshes.hpp"
 #include "support/momenta.hpp"
 
 #include "voile/fabrics.hpp"
@@ -64,6 +65,31 @@ TEST_CASE("a soft sheet that swings down keeps its strain limit at the end of ev
             for (uint32_t column = 0; column < side; ++column)
                 CHECK(end[column] == start[column]); // what is held has not moved by a bit
         }
+}
+
+TEST_CASE("a strain limit takes the same passes beside a wider cloth")
+{
+    const tests::ClothMesh shape = tests::jittered_sheet(9, 9);
+    std::vector<glm::vec4> states[3][2];
+    const uint32_t sides[] = {4, 16, 40}; // of the other cloth: an odd and an even number of levels more
+    for (size_t i = 0; i < std::size(sides); ++i)
+    {
+        ClothHarness harness;
+        voile::MeshCloth mesh = shape.cloth();
+        mesh.material = soft();
+        mesh.pins = {0};
+        const voile::ClothId ids[] = {
+            voile::engine::take(harness.solver.add_cloth(mesh)),
+            voile::engine::take(harness.solver.add_cloth(sheet(8, voile::Integrator::verlet)))};
+        (void)voile::engine::take(harness.solver.add_cloth(sheet(sides[i], voile::Integrator::verlet)));
+        harness.upload();
+        harness.step({.substeps = 12}, 12);
+        for (size_t cloth = 0; cloth < 2; ++cloth)
+            states[i][cloth] = harness.positions(ids[cloth]);
+    }
+    for (size_t cloth = 0; cloth < 2; ++cloth)
+        for (size_t i = 1; i < std::size(sides); ++i)
+            CHECK(tests::same_bits(states[i][cloth], states[0][cloth]));
 }
 
 TEST_CASE("a cloth at its strain limit hangs still")
