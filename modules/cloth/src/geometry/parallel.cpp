@@ -91,4 +91,10 @@ void parallel_for(size_t count, size_t piece, const std::function<void(size_t, s
     run_together(thread_count(threads, pieces), work);
 }
 
+size_t piece_per_thread(size_t count, size_t least)
+{
+    const size_t threads = thread_count(0, count / least);
+    return std::max<size_t>((count + threads - 1) / threads, 1);
+}
+
 } // namespace voile

@@ -36,4 +36,8 @@ void run_together(uint32_t threads, const std::function<void()>& work);
 // `piece`, their size, decides where pieces begin, so results need not depend on the number of threads.
 void parallel_for(size_t count, size_t piece, const std::function<void(size_t, size_t)>& body, uint32_t threads = 0);
 
+// The size of a piece that gives each thread one, of at least `least`. For pieces that go through all items in their
+// order and process those that belong to them, so that results do not depend on where pieces begin.
+size_t piece_per_thread(size_t count, size_t least);
+
 } // namespace voile

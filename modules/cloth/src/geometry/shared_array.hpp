@@ -1,6 +1,8 @@
 // SharedArray: values that never change and that several owners share.
 #pragma once
 
+#include "geometry/uninitialized_array.hpp"
+
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -10,7 +12,7 @@
 namespace voile
 {
 
-// Copies share the values. They lie in a vector that was moved in, or in memory of another owner, such as
+// Copies share the values. They lie in a vector or array that was moved in, or in memory of another owner, such as
 // cooked data, which is not copied.
 template <typename T>
 class SharedArray
@@ -23,6 +25,7 @@ public:
         values_ = *kept;
         owner_ = std::move(kept);
     }
+    SharedArray(UninitializedArray<T> values) : values_(values) { owner_ = std::shared_ptr<T[]>(values.release()); }
     // `owner` keeps the values alive.
     SharedArray(std::span<const T> values, std::shared_ptr<const void> owner)
         : values_(values), owner_(std::move(owner))

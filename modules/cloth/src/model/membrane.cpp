@@ -1,6 +1,7 @@
 // Triangles at rest, springs from a fabric, and the stability bound of both.
 #include "model/membrane.hpp"
 
+#include "geometry/parallel.hpp"
 #include "model/stability.hpp"
 
 #include <algorithm>
@@ -14,7 +15,9 @@ namespace
 {
 
 // Of the coordinates' triangle: below it rounding decides where the fabric runs.
-constexpr double k_least_area = 1e-6; // times the longest side squared
+constexpr double k_least_area = 1e-6;  // times the longest side squared
+constexpr size_t k_piece = 8192;       // triangles per piece of work
+constexpr size_t k_least_owned = 2048; // vertices per thread
 
 // The direction in the triangle along which the first coordinate alone grows; 0 where the coordinates have no area.
 glm::dvec3 growing(const glm::dvec3 (&x)[3], std::span<const glm::vec2> coordinates, const glm::uvec3& t)
@@ -52,16 +55,11 @@ glm::uvec3 from_largest_angle(std::span<const glm::dvec3> x, const glm::uvec3& t
     return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
 }
 
-// Of the corners' barycentric coordinates, 1/m.
-std::array<glm::dvec2, 3> gradients(const MembraneTriangle& triangle)
+// Of a corner's barycentric coordinate, 1/m.
+glm::dvec2 gradient(const MembraneTriangle& triangle, size_t corner)
 {
-    std::array<glm::dvec2, 3> result;
-    for (size_t i = 0; i < 3; ++i)
-    {
-        const glm::dvec2 opposite = triangle.position[(i + 2) % 3] - triangle.position[(i + 1) % 3];
-        result[i] = glm::dvec2(-opposite.y, opposite.x) / (2 * triangle.area);
-    }
-    return result;
+    const glm::dvec2 opposite = triangle.position[(corner + 2) % 3] - triangle.position[(corner + 1) % 3];
+    return glm::dvec2(-opposite.y, opposite.x) / (2 * triangle.area);
 }
 
 } // namespace
@@ -87,9 +85,9 @@ MembraneTriangle make_membrane_triangle(std::span<const glm::dvec3> positions, c
 
 shared::MembraneCorner make_membrane_corner(const MembraneTriangle& triangle, uint32_t vertex)
 {
-    const auto g = gradients(triangle);
     const uint32_t corner = vertex == triangle.corner[0] ? 0 : vertex == triangle.corner[1] ? 1 : 2;
-    return {glm::vec2(g[1]), glm::vec2(g[2]), static_cast<float>(triangle.weight), corner};
+    return {glm::vec2(gradient(triangle, 1)), glm::vec2(gradient(triangle, 2)), static_cast<float>(triangle.weight),
+            corner};
 }
 
 MembraneSprings make_membrane_springs(const Fabric& fabric, double spacing)
@@ -115,34 +113,52 @@ std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, 
     { return t.weight * (m.x * g.x * g.x + m.y * g.y * g.y); };
     const size_t kinds = constants.size();
     std::vector<double> sums(areas.size() * kinds);
-    for (const MembraneTriangle& t : triangles)
+    // Each thread goes through all triangles and owns a range of vertices.
+    parallel_for(areas.size(), piece_per_thread(areas.size(), k_least_owned),
+                 [&](size_t begin, size_t end)
+                 {
+                     for (const MembraneTriangle& t : triangles)
+                         for (size_t i = 0; i < 3; ++i)
+                             if (begin <= t.corner[i] && t.corner[i] < end)
+                             {
+                                 const glm::dvec2 g = gradient(t, i);
+                                 for (size_t kind = 0; kind < kinds; ++kind)
+                                     sums[t.corner[i] * kinds + kind] += stiffness(along[kind], t, g);
+                             }
+                 });
+    const auto largest_of = [&](std::span<const MembraneTriangle> some)
     {
-        const auto g = gradients(t);
-        for (size_t i = 0; i < 3; ++i)
-            for (size_t kind = 0; kind < kinds; ++kind)
-                sums[t.corner[i] * kinds + kind] += stiffness(along[kind], t, g[i]);
-    }
-    std::vector<double> largest(kinds);
-    for (const MembraneTriangle& t : triangles)
-    {
-        const auto g = gradients(t);
-        for (size_t kind = 0; kind < kinds; ++kind)
+        std::vector<double> largest(kinds);
+        for (const MembraneTriangle& t : some)
         {
-            const glm::dvec2& m = along[kind];
-            glm::dmat2 mobility(0); // sum of g g^T over mass
-            for (size_t i = 0; i < 3; ++i)
-                if (const double own = stiffness(m, t, g[i]); own > 0)
-                    mobility +=
-                        glm::outerProduct(g[i], g[i]) * (sums[t.corner[i] * kinds + kind] / (own * areas[t.corner[i]]));
-            const double xx = m.x * mobility[0].x;
-            const double yy = m.y * mobility[1].y;
-            constexpr double k_rounding = 1 + 1e-9;
-            if (t.weight * (xx + yy) * k_rounding < largest[kind]) // no eigenvalue is above the trace
-                continue;
-            largest[kind] =
-                std::max(largest[kind], t.weight * largest_eigenvalue(xx, std::sqrt(m.x * m.y) * mobility[0].y, yy));
+            const std::array g{gradient(t, 0), gradient(t, 1), gradient(t, 2)};
+            for (size_t kind = 0; kind < kinds; ++kind)
+            {
+                const glm::dvec2& m = along[kind];
+                glm::dmat2 mobility(0); // sum of g g^T over mass
+                for (size_t i = 0; i < 3; ++i)
+                    if (const double own = stiffness(m, t, g[i]); own > 0)
+                        mobility += glm::outerProduct(g[i], g[i]) *
+                                    (sums[t.corner[i] * kinds + kind] / (own * areas[t.corner[i]]));
+                const double xx = m.x * mobility[0].x;
+                const double yy = m.y * mobility[1].y;
+                constexpr double k_rounding = 1 + 1e-9;
+                if (t.weight * (xx + yy) * k_rounding < largest[kind]) // no eigenvalue is above the trace
+                    continue;
+                largest[kind] = std::max(largest[kind],
+                                         t.weight * largest_eigenvalue(xx, std::sqrt(m.x * m.y) * mobility[0].y, yy));
+            }
         }
-    }
+        return largest;
+    };
+    std::vector<std::vector<double>> pieces((triangles.size() + k_piece - 1) / k_piece);
+    parallel_for(triangles.size(), k_piece,
+                 [&](size_t begin, size_t end)
+                 { pieces[begin / k_piece] = largest_of(triangles.subspan(begin, end - begin)); });
+    std::vector<double> largest(kinds);
+    for (const std::vector<double>& piece : pieces)
+        for (size_t kind = 0; kind < kinds; ++kind)
+            largest[kind] = std::max(largest[kind], piece[kind]);
     return largest;
 }
 

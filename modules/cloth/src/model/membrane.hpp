@@ -65,7 +65,7 @@ struct MembraneConstants
 
 // Bounds for the squared frequency of the fastest mode, in any shape, of triangles with the given stiffness and of
 // vertices with 1 kg/m^2 of their areas: 1/s^2. Given damping, for the fastest decay: 1/s. One per entry of
-// `constants`.
+// `constants`. Runs on several threads.
 std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, std::span<const double> areas,
                                    std::span<const MembraneConstants> constants);
 

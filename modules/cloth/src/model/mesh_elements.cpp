@@ -1,7 +1,8 @@
 // Springs and hinges of a mesh, and the softening of what its slivers have too stiff.
 #include "model/mesh_elements.hpp"
 
-#include "geometry/counting_sort.hpp"
+#include "geometry/offsets.hpp"
+#include "geometry/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,22 +24,102 @@ constexpr size_t k_fewest = 3;
 constexpr double k_ahead = 8;
 constexpr double k_bending_ahead = 64;
 
+constexpr size_t k_piece = 8192; // elements or vertices per piece of work
+
 // Cotangent of the angle at `at` between the ways to p and q.
 double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
 {
     return glm::dot(p - at, q - at) / glm::length(glm::cross(p - at, q - at));
 }
 
-Hinge make_hinge(std::span<const glm::dvec3> positions, const MeshSide& first, const MeshSide& second)
+// A triangle seen from one of its edges.
+struct Side
 {
-    Hinge hinge{};
-    const uint32_t corners[4] = {first.a, first.b, first.opposite, second.opposite};
+    uint32_t triangle;
+    uint32_t corner; // of the triangle, where the side begins
+    uint32_t opposite;
+};
+
+Side side_of(const SolidTriangles& triangles, uint32_t number)
+{
+    const uint32_t corner = number % 3;
+    return {number / 3, corner, triangles.corners[number / 3][static_cast<int>((corner + 2) % 3)]};
+}
+
+// The sides of a vertex are those of the edges to higher vertices.
+struct SidesOfVertices
+{
+    std::vector<uint32_t> first; // one per vertex, then their number
+    // The edge's higher vertex in the upper half, 3 * triangle + corner in the lower one; in ascending order.
+    UninitializedArray<uint64_t> sides;
+
+    [[nodiscard]] std::span<const uint64_t> of(size_t vertex) const
+    {
+        return std::span(sides).subspan(first[vertex], first[vertex + 1] - first[vertex]);
+    }
+};
+
+SidesOfVertices sides_of_vertices(size_t vertices, std::span<const glm::uvec3> triangles)
+{
+    const auto visit = [&](auto&& each)
+    {
+        for (uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                const uint32_t a = triangles[triangle][corner];
+                const uint32_t b = triangles[triangle][(corner + 1) % 3];
+                each(std::min(a, b), std::max(a, b), 3 * triangle + static_cast<uint32_t>(corner));
+            }
+    };
+    SidesOfVertices result{std::vector<uint32_t>(vertices + 1), UninitializedArray<uint64_t>(3 * triangles.size())};
+    visit([&](uint32_t a, uint32_t, uint32_t) { ++result.first[a]; });
+    counts_to_offsets(result.first);
+    std::vector<uint32_t> next = result.first;
+    visit([&](uint32_t a, uint32_t b, uint32_t side) { result.sides[next[a]++] = uint64_t{b} << 32 | side; });
+    parallel_for(vertices, k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     for (size_t v = begin; v < end; ++v)
+                         std::sort(&result.sides[0] + result.first[v], &result.sides[0] + result.first[v + 1]);
+                 });
+    return result;
+}
+
+// Calls visit(b, sides) for each edge from a vertex to a higher one, b.
+template <typename Visit>
+void for_each_edge(std::span<const uint64_t> sides, const Visit& visit)
+{
+    for (size_t first = 0; first < sides.size();)
+    {
+        const uint64_t b = sides[first] >> 32;
+        size_t last = first + 1;
+        while (last < sides.size() && sides[last] >> 32 == b)
+            ++last;
+        visit(static_cast<uint32_t>(b), sides.subspan(first, last - first));
+        first = last;
+    }
+}
+
+// Calls visit(first, second) for each pair of triangles at an edge.
+template <typename Visit>
+void for_each_hinge(const SolidTriangles& triangles, std::span<const uint64_t> sides, const Visit& visit)
+{
+    for (size_t i = 0; i < sides.size(); ++i)
+        for (size_t j = i + 1; j < sides.size(); ++j)
+        {
+            const Side first = side_of(triangles, static_cast<uint32_t>(sides[i]));
+            const Side second = side_of(triangles, static_cast<uint32_t>(sides[j]));
+            if (first.opposite != second.opposite) // else two triangles back to back
+                visit(first, second);
+        }
+}
+
+Hinge make_hinge(std::span<const glm::dvec3> positions, const Edge& edge, const Side& first, const Side& second)
+{
+    Hinge hinge{{edge.a, edge.b, first.opposite, second.opposite}, {}, {first.triangle, second.triangle}, 0};
     glm::dvec3 x[4];
     for (int i = 0; i < 4; ++i)
-    {
-        hinge.corner[i] = corners[i];
-        x[i] = positions[corners[i]];
-    }
+        x[i] = positions[hinge.corner[i]];
     const double c01 = cotangent(x[0], x[1], x[2]);
     const double c02 = cotangent(x[0], x[1], x[3]);
     const double c03 = cotangent(x[1], x[0], x[2]);
@@ -47,20 +128,80 @@ Hinge make_hinge(std::span<const glm::dvec3> positions, const MeshSide& first, c
     hinge.factor[1] = c01 + c02;
     hinge.factor[2] = -c01 - c03;
     hinge.factor[3] = -c02 - c04;
-    const glm::dvec3 along = x[1] - x[0];
-    const double length = glm::length(along);
-    for (int side = 0; side < 2; ++side)
-    {
-        const glm::dvec3 to_opposite = x[2 + side] - x[0];
-        hinge.normal[side] = glm::normalize(to_opposite - glm::dot(to_opposite, along) / (length * length) * along);
-        hinge.areas[side] = side == 0 ? first.area : second.area;
-        hinge.triangle[side] = side == 0 ? first.triangle : second.triangle;
-    }
     return hinge;
 }
 
+// Where the edges and hinges of each vertex begin, then their numbers.
+struct FirstElements
+{
+    std::vector<size_t> edges;
+    std::vector<size_t> hinges;
+};
+
+FirstElements count_elements(const SidesOfVertices& sides, const SolidTriangles& triangles)
+{
+    const size_t vertices = sides.first.size() - 1;
+    FirstElements first{std::vector<size_t>(vertices + 1), std::vector<size_t>(vertices + 1)};
+    parallel_for(vertices, k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     for (size_t a = begin; a < end; ++a)
+                         for_each_edge(sides.of(a),
+                                       [&](uint32_t, std::span<const uint64_t> of_edge)
+                                       {
+                                           ++first.edges[a];
+                                           for_each_hinge(triangles, of_edge,
+                                                          [&](const Side&, const Side&) { ++first.hinges[a]; });
+                                       });
+                 });
+    counts_to_offsets(first.edges);
+    counts_to_offsets(first.hinges);
+    return first;
+}
+
+// Fills the elements of edges from vertices `begin` .. `end` - 1 to higher ones. Returns what the report says of these.
+MeshReport fill_elements(std::span<const glm::dvec3> positions, const SolidTriangles& triangles,
+                         const SidesOfVertices& sides, const FirstElements& first, size_t begin, size_t end,
+                         MeshElements& elements)
+{
+    MeshReport report;
+    report.shortest_edge = std::numeric_limits<float>::max();
+    size_t index = first.edges[begin];
+    size_t hinge = first.hinges[begin];
+    for (size_t a = begin; a < end; ++a)
+        for_each_edge(sides.of(a),
+                      [&](uint32_t b, std::span<const uint64_t> of_edge)
+                      {
+                          const Edge edge{static_cast<uint32_t>(a), b};
+                          elements.edges[index] = edge;
+                          if (!elements.triangles.empty())
+                              for (const uint64_t number : of_edge)
+                              {
+                                  const Side side = side_of(triangles, static_cast<uint32_t>(number));
+                                  elements.triangles[side.triangle].edge[side.corner] = static_cast<uint32_t>(index);
+                              }
+                          for_each_hinge(triangles, of_edge,
+                                         [&](const Side& one, const Side& other)
+                                         {
+                                             // One bend spring for three edges a vertex, where a grid has two
+                                             // directions: two thirds of its B / area.
+                                             const double area =
+                                                 triangles.areas[one.triangle] + triangles.areas[other.triangle];
+                                             elements.opposites[hinge] = {one.opposite, other.opposite, 2.0 / 3 / area};
+                                             elements.hinges[hinge] = make_hinge(positions, edge, one, other);
+                                             elements.hinges[hinge++].edge = static_cast<uint32_t>(index);
+                                         });
+                          const double length = glm::distance(positions[a], positions[b]);
+                          report.boundary_edges += of_edge.size() == 1 ? 1 : 0;
+                          report.non_manifold_edges += of_edge.size() > 2 ? 1 : 0;
+                          report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
+                          ++index;
+                      });
+    return report;
+}
+
 // Stiffness over the mass of the lighter end.
-double rate_of(const ElementSpring& spring, std::span<const double> areas)
+double rate_of(const OppositeSpring& spring, std::span<const double> areas)
 {
     return spring.weight / std::min(areas[spring.a], areas[spring.b]);
 }
@@ -78,23 +219,28 @@ double rate_of(const MembraneTriangle& t, std::span<const double> areas)
 }
 
 // The largest rate that is left as it is.
-double largest_rate(std::vector<double> rates, double ahead)
+double largest_rate(std::span<const double> rates, double ahead)
 {
     const size_t few = std::max(rates.size() / 100, std::min(rates.size() / 20, k_few));
     if (few < k_fewest)
         return std::numeric_limits<double>::max();
-    const auto last = rates.end() - 1 - static_cast<std::ptrdiff_t>(few);
-    std::nth_element(rates.begin(), last, rates.end());
+    const double most = *std::max_element(rates.begin(), rates.end());
+    const auto near = std::count_if(rates.begin(), rates.end(), [&](double rate) { return most <= ahead * rate; });
+    if (static_cast<size_t>(near) > few) // the usual mesh
+        return most;
+    std::vector<double> ordered(rates.begin(), rates.end());
+    const auto last = ordered.end() - 1 - static_cast<std::ptrdiff_t>(few);
+    std::nth_element(ordered.begin(), last, ordered.end());
     const double bound = ahead * *last;
     double largest = *last;
-    for (auto rate = last; rate != rates.end(); ++rate) // the others are at most *last
+    for (auto rate = last; rate != ordered.end(); ++rate) // the others are at most *last
         if (*rate <= bound)
             largest = std::max(largest, *rate);
     return largest;
 }
 
 // Likewise, of the corner where it is largest: what the fold alone has of the row sums of the bending form.
-double rate_of(const Hinge& hinge, std::span<const double> areas)
+double rate_of(const Hinge& hinge, const SolidTriangles& triangles, std::span<const double> areas)
 {
     double sum = 0;
     for (const double factor : hinge.factor)
@@ -105,10 +251,10 @@ double rate_of(const Hinge& hinge, std::span<const double> areas)
         const double own = std::abs(hinge.factor[i]);
         rate = std::max(rate, own * (sum - own) / areas[hinge.corner[i]]);
     }
-    return rate * (1 / hinge.areas[0] + 1 / hinge.areas[1]) / 4;
+    return rate * (1 / triangles.areas[hinge.triangle[0]] + 1 / triangles.areas[hinge.triangle[1]]) / 4;
 }
 
-void soften(ElementSpring& spring, double scale)
+void soften(OppositeSpring& spring, double scale)
 {
     spring.weight *= scale;
 }
@@ -118,101 +264,87 @@ void soften(MembraneTriangle& triangle, double scale)
     triangle.weight *= scale;
 }
 
-void add_edges(const MembraneTriangle& triangle, std::vector<uint32_t>& edges)
-{
-    edges.insert(edges.end(), std::begin(triangle.edge), std::end(triangle.edge));
-}
-
-template <typename Element>
-void add_edges(const Element& element, std::vector<uint32_t>& edges)
-{
-    edges.push_back(element.edge);
-}
-
 void soften(Hinge& hinge, double scale)
 {
     for (double& factor : hinge.factor)
         factor *= std::sqrt(scale);
 }
 
-// Adds the edges of softened elements to `edges`.
-template <typename Element>
-void soften_stiffest(std::vector<Element>& elements, std::span<const double> areas, double ahead,
-                     std::vector<uint32_t>& edges)
+// Returns the indices of the elements that it softens. `rate`: of an element.
+template <typename Element, typename Rate>
+std::vector<size_t> soften_stiffest(UninitializedArray<Element>& elements, double ahead, const Rate& rate)
 {
-    std::vector<double> rates;
-    rates.reserve(elements.size());
-    for (const Element& element : elements)
-        rates.push_back(rate_of(element, areas));
+    UninitializedArray<double> rates(elements.size());
+    parallel_for(elements.size(), k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     for (size_t i = begin; i < end; ++i)
+                         rates[i] = rate(elements[i]);
+                 });
     const double largest = largest_rate(rates, ahead);
+    std::vector<size_t> softened;
     for (size_t i = 0; i < elements.size(); ++i)
         if (rates[i] > largest)
         {
             soften(elements[i], largest / rates[i]);
-            add_edges(elements[i], edges);
+            softened.push_back(i);
         }
+    return softened;
 }
 
 } // namespace
 
-double triangle_area(std::span<const glm::dvec3> x, const glm::uvec3& t)
+MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTriangles& triangles,
+                           const FabricCoordinates* fabric, MeshReport& report)
 {
-    const glm::dvec3 a(x[t.x]);
-    return 0.5 * glm::length(glm::cross(x[t.y] - a, x[t.z] - a));
-}
-
-std::vector<MeshSide> sides_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
-{
-    std::vector<MeshSide> sides;
-    sides.reserve(3 * triangles.size());
-    for (uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
+    MeshElements elements;
+    if (fabric)
     {
-        const glm::uvec3& t = triangles[triangle];
-        const double area = triangle_area(positions, t);
-        for (int corner = 0; corner < 3; ++corner)
-        {
-            const uint32_t a = t[corner];
-            const uint32_t b = t[(corner + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), t[(corner + 2) % 3], triangle, corner, area});
-        }
+        elements.triangles = UninitializedArray<MembraneTriangle>(triangles.corners.size());
+        parallel_for(triangles.corners.size(), k_piece,
+                     [&](size_t begin, size_t end)
+                     {
+                         for (size_t i = begin; i < end; ++i)
+                             elements.triangles[i] = make_membrane_triangle(positions, triangles.corners[i], *fabric);
+                     });
     }
-    sort_by_two_keys(
-        sides, positions.size(), [](const MeshSide& side) { return side.a; },
-        [](const MeshSide& side) { return side.b; });
-    return sides;
+    const SidesOfVertices sides = sides_of_vertices(positions.size(), triangles.corners);
+    const FirstElements first = count_elements(sides, triangles);
+    elements.edges = UninitializedArray<Edge>(first.edges.back());
+    elements.opposites = UninitializedArray<OppositeSpring>(first.hinges.back());
+    elements.hinges = UninitializedArray<Hinge>(first.hinges.back());
+    std::vector<MeshReport> reports((positions.size() + k_piece - 1) / k_piece);
+    parallel_for(positions.size(), k_piece,
+                 [&](size_t begin, size_t end) {
+                     reports[begin / k_piece] = fill_elements(positions, triangles, sides, first, begin, end, elements);
+                 });
+    report.shortest_edge = std::numeric_limits<float>::max();
+    for (const MeshReport& part : reports)
+    {
+        report.boundary_edges += part.boundary_edges;
+        report.non_manifold_edges += part.non_manifold_edges;
+        report.shortest_edge = std::min(report.shortest_edge, part.shortest_edge);
+    }
+    return elements;
 }
 
-void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> sides, MeshElements& elements)
+uint32_t soften_slivers(MeshElements& elements, const SolidTriangles& triangles, std::span<const double> areas,
+                        bool uniform_masses)
 {
-    const auto index = static_cast<uint32_t>(elements.edges.size());
-    elements.edges.push_back({sides[0].a, sides[0].b, 1, index});
-    if (!elements.triangles.empty())
-        for (const MeshSide& side : sides)
-            elements.triangles[side.triangle].edge[side.corner] = index;
-    for (size_t i = 0; i < sides.size(); ++i)
-        for (size_t j = i + 1; j < sides.size(); ++j)
-        {
-            if (sides[i].opposite == sides[j].opposite) // two triangles back to back
-                continue;
-            // One bend spring for three edges a vertex, where a grid has two directions: two thirds of its B / area.
-            elements.opposites.push_back(
-                {sides[i].opposite, sides[j].opposite, 2.0 / 3 / (sides[i].area + sides[j].area), index});
-            elements.hinges.push_back(make_hinge(positions, sides[i], sides[j]));
-            elements.hinges.back().edge = index;
-        }
-}
-
-uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool uniform_masses)
-{
+    const std::vector<double> ones(uniform_masses ? areas.size() : 0, 1.0);
+    const std::span<const double> measures = uniform_masses ? ones : areas;
+    const auto rate = [&](const auto& element) { return rate_of(element, areas); };
     std::vector<uint32_t> edges;
-    if (uniform_masses)
-        soften_stiffest(elements.hinges, std::vector<double>(areas.size(), 1.0), k_bending_ahead, edges);
-    else
+    if (!uniform_masses)
     {
-        soften_stiffest(elements.triangles, areas, k_ahead, edges);
-        soften_stiffest(elements.opposites, areas, k_bending_ahead, edges);
-        soften_stiffest(elements.hinges, areas, k_bending_ahead, edges);
+        for (const size_t i : soften_stiffest(elements.triangles, k_ahead, rate))
+            edges.insert(edges.end(), std::begin(elements.triangles[i].edge), std::end(elements.triangles[i].edge));
+        for (const size_t i : soften_stiffest(elements.opposites, k_bending_ahead, rate))
+            edges.push_back(elements.hinges[i].edge);
     }
+    for (const size_t i : soften_stiffest(elements.hinges, k_bending_ahead,
+                                          [&](const Hinge& hinge) { return rate_of(hinge, triangles, measures); }))
+        edges.push_back(elements.hinges[i].edge);
     std::sort(edges.begin(), edges.end());
     return static_cast<uint32_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
 }

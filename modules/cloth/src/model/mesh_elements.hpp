@@ -2,6 +2,9 @@
 // the folds at them.
 #pragma once
 
+#include "voile/descriptions.hpp"
+
+#include "geometry/uninitialized_array.hpp"
 #include "model/membrane.hpp"
 
 #include <glm/glm.hpp>
@@ -13,53 +16,49 @@
 namespace voile
 {
 
-// A triangle seen from one of its edges.
-struct MeshSide
+struct Edge
 {
-    uint32_t a; // a < b, the edge
+    uint32_t a; // a < b
     uint32_t b;
-    uint32_t opposite;
-    uint32_t triangle;
-    int corner;  // of the triangle, where the side begins
-    double area; // m^2
-
-    [[nodiscard]] uint64_t key() const { return uint64_t{a} << 32 | b; }
 };
 
-// All sides, those of an edge side by side.
-std::vector<MeshSide> sides_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles);
-double triangle_area(std::span<const glm::dvec3> positions, const glm::uvec3& triangle); // m^2
-
-struct ElementSpring
+// From one side of an edge to the other.
+struct OppositeSpring
 {
     uint32_t a;
     uint32_t b;
-    double weight;
-    uint32_t edge; // along which it lies or which it crosses
+    double weight; // 1/m^2
 };
 
 // How far two triangles are folded at an edge: sum of factor * x over the corners is the angle times the edge's length,
 // along the normal (Bergou et al. 2006, section 3: cotangents of the angles between the edge and its neighbors).
 struct Hinge
 {
-    uint32_t corner[4]; // the edge's ends, the vertices opposite to it
+    uint32_t corner[4]; // the edge's ends, the vertices opposite to it in either triangle
     double factor[4];
-    double areas[2];      // m^2, of the triangles
-    glm::dvec3 normal[2]; // unit length, of the edge in the plane of either triangle
     uint32_t triangle[2];
     uint32_t edge;
 };
 
 struct MeshElements
 {
-    std::vector<ElementSpring> edges;     // weight: 1
-    std::vector<ElementSpring> opposites; // weight: 1/m^2
-    std::vector<Hinge> hinges;
-    std::vector<MembraneTriangle> triangles; // of a fabric
+    UninitializedArray<Edge> edges;                 // by a, then by b
+    UninitializedArray<OppositeSpring> opposites;   // one per hinge
+    UninitializedArray<Hinge> hinges;               // in the order of their edges
+    UninitializedArray<MembraneTriangle> triangles; // of a fabric
 };
 
-// The springs and folds of an edge, given all of its sides; it is noted with the triangles, if there are any.
-void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> sides, MeshElements& elements);
+// A mesh's triangles, all of them with an area.
+struct SolidTriangles
+{
+    std::vector<glm::uvec3> corners;
+    std::vector<double> areas; // m^2
+};
+
+// `fabric`: of the membrane; none: springs along the edges. Counts the report's edges and finds the shortest one. Runs
+// on several threads.
+MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTriangles& triangles,
+                           const FabricCoordinates* fabric, MeshReport& report);
 
 // Softens slivers. A sliver is a triangle of nearly no height. Its edges connect vertices of nearly no mass or are
 // shorter than all others, and its folds turn over when a vertex moves by its height. One of them would set the
@@ -69,7 +68,8 @@ void add_edge(std::span<const glm::dvec3> positions, std::span<const MeshSide> s
 // edges with a softened element.
 //
 // `areas`: of the vertices. `uniform_masses`: masses are not in proportion to them and springs have no weights, so only
-// folds are softened.
-uint32_t soften_slivers(MeshElements& elements, std::span<const double> areas, bool uniform_masses);
+// folds are softened. Runs on several threads.
+uint32_t soften_slivers(MeshElements& elements, const SolidTriangles& triangles, std::span<const double> areas,
+                        bool uniform_masses);
 
 } // namespace voile

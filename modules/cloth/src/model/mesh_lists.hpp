@@ -19,7 +19,7 @@ struct MeshLists
 };
 
 // Those of a workgroup's vertices interleaved: their first entries side by side, then their second ones, each list as
-// long as the longest of the workgroup.
+// long as the longest of the workgroup. Runs on several threads.
 MeshLists interleave(const MeshLists& lists, uint32_t workgroup_size);
 
 } // namespace voile

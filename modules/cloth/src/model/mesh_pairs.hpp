@@ -18,17 +18,22 @@ struct PairSums
     double bending = 0;
 };
 
-// Every pair that has any, once, at its lower vertex a: pair i of first[a] .. first[a + 1] is a and others[i], in
-// ascending order.
+// Every pair that has any and whose lower vertex is one of begin .. end - 1, once, there: pair i of
+// first[a - begin] .. first[a - begin + 1] is a and others[i], in ascending order.
 struct MeshPairs
 {
+    uint32_t begin = 0;
+    uint32_t end = 0;
     std::vector<uint32_t> first; // one per vertex, then the number of pairs
     std::vector<uint32_t> others;
     std::vector<PairSums> sums;
+
+    [[nodiscard]] bool owns(uint32_t low) const { return begin <= low && low < end; }
 };
 
-// `isometric`: folds bend by the isometric model. Each sum is made in the order of the elements, so that its bits do
-// not depend on how pairs are found.
-MeshPairs make_pairs(const MeshElements& elements, size_t vertices, size_t triangles, bool isometric);
+// Consecutive, for all vertices. `isometric`: folds bend by the isometric model. Runs on several threads. Each sum is
+// made by one of them in the order of the elements, so its bits do not depend on the number of threads.
+std::vector<MeshPairs> make_pairs(const MeshElements& elements, std::span<const glm::dvec3> positions,
+                                  const SolidTriangles& triangles, bool isometric);
 
 } // namespace voile

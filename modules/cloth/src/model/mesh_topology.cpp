@@ -2,13 +2,12 @@
 #include "model/mesh_topology.hpp"
 
 #include "geometry/closedness.hpp"
+#include "geometry/parallel.hpp"
 #include "model/mesh_elements.hpp"
 #include "model/mesh_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace voile
@@ -17,43 +16,38 @@ namespace voile
 namespace
 {
 
-// A triangle is degenerate if its height is 0 within the precision of float.
-bool degenerate(std::span<const glm::dvec3> x, const glm::uvec3& t)
+constexpr size_t k_piece = 8192;       // triangles or vertices per piece of work
+constexpr size_t k_least_owned = 2048; // vertices per thread, where threads go through all triangles or pairs
+
+// 0 for a degenerate triangle: if its height is 0 within the precision of float.
+double solid_area(std::span<const glm::dvec3> x, const glm::uvec3& t)
 {
+    const glm::dvec3 a(x[t.x]);
+    const double area = 0.5 * glm::length(glm::cross(x[t.y] - a, x[t.z] - a));
     const double longest =
-        std::max({glm::distance(x[t.x], x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], x[t.x])});
-    return triangle_area(x, t) <= 1e-6 * longest * longest;
+        std::max({glm::distance(a, x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], a)});
+    return area <= 1e-6 * longest * longest ? 0 : area;
 }
 
-// `fabric`: of the membrane; none: springs along the edges.
-MeshElements elements_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
-                         const FabricCoordinates* fabric, MeshReport& report)
+SolidTriangles solid_triangles(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
 {
-    const std::vector<MeshSide> sides = sides_of(positions, triangles);
-    MeshElements elements;
-    const size_t pairs_of_sides = sides.size() / 2; // as many edges and folds as a closed surface has, or so
-    elements.edges.reserve(pairs_of_sides + pairs_of_sides / 16);
-    elements.opposites.reserve(pairs_of_sides);
-    elements.hinges.reserve(pairs_of_sides);
-    if (fabric)
-    {
-        elements.triangles.reserve(triangles.size());
-        for (const glm::uvec3& t : triangles)
-            elements.triangles.push_back(make_membrane_triangle(positions, t, *fabric));
-    }
-    for (size_t first = 0; first < sides.size();)
-    {
-        size_t last = first + 1;
-        while (last < sides.size() && sides[last].key() == sides[first].key())
-            ++last;
-        const double length = glm::distance(positions[sides[first].a], positions[sides[first].b]);
-        add_edge(positions, std::span(sides).subspan(first, last - first), elements);
-        report.boundary_edges += last - first == 1 ? 1 : 0;
-        report.non_manifold_edges += last - first > 2 ? 1 : 0;
-        report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
-        first = last;
-    }
-    return elements;
+    SolidTriangles solid{std::vector(triangles.begin(), triangles.end()), std::vector<double>(triangles.size())};
+    parallel_for(triangles.size(), k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     for (size_t i = begin; i < end; ++i)
+                         solid.areas[i] = solid_area(positions, triangles[i]);
+                 });
+    size_t kept = 0;
+    for (size_t i = 0; i < triangles.size(); ++i)
+        if (solid.areas[i] > 0)
+        {
+            solid.corners[kept] = triangles[i];
+            solid.areas[kept++] = solid.areas[i];
+        }
+    solid.corners.resize(kept);
+    solid.areas.resize(kept);
+    return solid;
 }
 
 uint32_t count_components(size_t vertices, std::span<const glm::uvec3> triangles)
@@ -97,88 +91,107 @@ void add_entries(const PairSums& pair, uint32_t other, float rest_length, shared
 
 using Vertices = std::vector<shared::MeshVertex>;
 
-// Counts lists to where they begin. Returns that of each vertex, to be counted on while lists are filled; the last one
-// is the length of all.
-std::vector<uint32_t> set_first(Vertices& vertices, uint32_t shared::MeshVertex::*first,
-                                uint32_t shared::MeshVertex::*count)
+// Counts lists to where they begin. Returns the length of all.
+uint32_t set_first(Vertices& vertices, uint32_t shared::MeshVertex::*first, uint32_t shared::MeshVertex::*count)
 {
-    std::vector<uint32_t> next;
-    next.reserve(vertices.size() + 1);
     uint32_t all = 0;
     for (shared::MeshVertex& vertex : vertices)
     {
-        next.push_back(vertex.*first = all);
+        vertex.*first = all;
         all += vertex.*count;
     }
-    next.push_back(all);
-    return next;
+    return all;
 }
 
-// A vertex has its lower neighbors first.
-std::vector<shared::MeshSpring> fill_springs(Vertices& vertices, std::span<const glm::dvec3> positions,
-                                             const MeshPairs& pairs)
+// A vertex has its lower neighbors first. Each thread goes through all pairs and owns a range of vertices.
+UninitializedArray<shared::MeshSpring> fill_springs(Vertices& vertices, std::span<const glm::dvec3> positions,
+                                                    std::span<const MeshPairs> pieces)
 {
     const auto visit = [&](auto&& each)
     {
-        for (uint32_t a = 0; a < positions.size(); ++a)
-            for (uint32_t i = pairs.first[a]; i < pairs.first[a + 1]; ++i)
-                each(a, pairs.others[i], pairs.sums[i]);
+        for (const MeshPairs& pairs : pieces)
+            for (uint32_t a = pairs.begin; a < pairs.end; ++a)
+                for (uint32_t i = pairs.first[a - pairs.begin]; i < pairs.first[a - pairs.begin + 1]; ++i)
+                    each(a, pairs.others[i], pairs.sums[i]);
     };
-    visit(
-        [&](uint32_t a, uint32_t b, const PairSums& pair)
-        {
-            vertices[a].springs += entries_of(pair);
-            vertices[b].springs += entries_of(pair);
-        });
-    std::vector<uint32_t> next = set_first(vertices, &shared::MeshVertex::first_spring, &shared::MeshVertex::springs);
-    std::vector<shared::MeshSpring> springs(next.back());
-    const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair, float length)
-    {
-        add_entries(pair, other, length, &springs[next[vertex]]);
-        next[vertex] += entries_of(pair);
-    };
-    const auto length_of = [&](uint32_t a, uint32_t b)
-    { return static_cast<float>(glm::distance(positions[a], positions[b])); };
-    visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(b, a, pair, length_of(a, b)); });
-    visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(a, b, pair, length_of(a, b)); });
+    const size_t piece = piece_per_thread(vertices.size(), k_least_owned);
+    parallel_for(vertices.size(), piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     visit(
+                         [&](uint32_t a, uint32_t b, const PairSums& pair)
+                         {
+                             if (begin <= a && a < end)
+                                 vertices[a].springs += entries_of(pair);
+                             if (begin <= b && b < end)
+                                 vertices[b].springs += entries_of(pair);
+                         });
+                 });
+    UninitializedArray<shared::MeshSpring> springs(
+        set_first(vertices, &shared::MeshVertex::first_spring, &shared::MeshVertex::springs));
+    parallel_for(vertices.size(), piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     std::vector<uint32_t> next;
+                     for (size_t i = begin; i < end; ++i)
+                         next.push_back(vertices[i].first_spring);
+                     const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair)
+                     {
+                         if (vertex < begin || vertex >= end)
+                             return;
+                         const auto length = static_cast<float>(glm::distance(positions[vertex], positions[other]));
+                         add_entries(pair, other, length, &springs[next[vertex - begin]]);
+                         next[vertex - begin] += entries_of(pair);
+                     };
+                     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(b, a, pair); });
+                     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(a, b, pair); });
+                 });
     return springs;
 }
 
 struct Corners
 {
-    std::vector<shared::MeshCorner> corners;
-    std::vector<shared::MembraneCorner> membrane; // one for each; zeros where there is none
+    UninitializedArray<shared::MeshCorner> corners;
+    UninitializedArray<shared::MembraneCorner> membrane; // one for each; zeros where there is none
 };
 
+// Each thread goes through all triangles and owns a range of vertices.
 Corners fill_corners(Vertices& vertices, std::span<const glm::uvec3> triangles,
                      std::span<const MembraneTriangle> membrane)
 {
     for (const glm::uvec3& t : triangles)
         for (int corner = 0; corner < 3; ++corner)
             ++vertices[t[corner]].corners;
-    std::vector<uint32_t> next = set_first(vertices, &shared::MeshVertex::first_corner, &shared::MeshVertex::corners);
-    Corners result{std::vector<shared::MeshCorner>(next.back()), std::vector<shared::MembraneCorner>(next.back())};
-    for (size_t i = 0; i < triangles.size(); ++i)
-        for (int corner = 0; corner < 3; ++corner)
-        {
-            const glm::uvec3& t = triangles[i];
-            const uint32_t entry = next[t[corner]]++;
-            result.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
-            if (!membrane.empty())
-                result.membrane[entry] = make_membrane_corner(membrane[i], t[corner]);
-        }
+    const uint32_t all = set_first(vertices, &shared::MeshVertex::first_corner, &shared::MeshVertex::corners);
+    Corners result{UninitializedArray<shared::MeshCorner>(all), UninitializedArray<shared::MembraneCorner>(all)};
+    parallel_for(vertices.size(), piece_per_thread(vertices.size(), k_least_owned),
+                 [&](size_t begin, size_t end)
+                 {
+                     std::vector<uint32_t> next;
+                     for (size_t i = begin; i < end; ++i)
+                         next.push_back(vertices[i].first_corner);
+                     for (size_t i = 0; i < triangles.size(); ++i)
+                         for (int corner = 0; corner < 3; ++corner)
+                         {
+                             const glm::uvec3& t = triangles[i];
+                             const uint32_t vertex = t[corner];
+                             if (vertex < begin || vertex >= end)
+                                 continue;
+                             const uint32_t entry = next[vertex - begin]++;
+                             result.corners[entry] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+                             result.membrane[entry] = membrane.empty() ? shared::MembraneCorner{}
+                                                                       : make_membrane_corner(membrane[i], vertex);
+                         }
+                 });
     return result;
 }
 
-std::vector<double> areas_of(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
+std::vector<double> areas_of(size_t vertices, const SolidTriangles& triangles)
 {
-    std::vector<double> areas(positions.size());
-    for (const glm::uvec3& t : triangles)
-    {
-        const double third = triangle_area(positions, t) / 3;
+    std::vector<double> areas(vertices);
+    for (size_t i = 0; i < triangles.corners.size(); ++i)
         for (int corner = 0; corner < 3; ++corner)
-            areas[t[corner]] += third;
-    }
+            areas[triangles.corners[i][corner]] += triangles.areas[i] / 3;
     return areas;
 }
 
@@ -207,41 +220,68 @@ void find_bounds(MeshTopology& mesh)
         double uniform[2] = {0, 0}; // by kind: edges, opposite vertices
         double bending = 0;
     };
-    std::vector<Sums> sums(mesh.lists.vertices.size());
-    const auto visit_springs = [&](auto&& visit)
+    const std::span<const shared::MeshVertex> vertices = mesh.lists.vertices;
+    const auto visit_springs = [&](size_t i, auto&& visit)
     {
-        for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
-            for (uint32_t s = 0; s < mesh.lists.vertices[i].springs; ++s)
-            {
-                const shared::MeshSpring& spring = mesh.lists.springs[mesh.lists.vertices[i].first_spring + s];
-                const bool opposite = (spring.neighbor & VOILE_OPPOSITE_BIT) != 0;
-                visit(i, spring.neighbor & ~VOILE_OPPOSITE_BIT, opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE,
-                      spring);
-            }
-    };
-    visit_springs(
-        [&](size_t i, uint32_t, int kind, const shared::MeshSpring& spring)
+        for (uint32_t s = 0; s < vertices[i].springs; ++s)
         {
-            sums[i].opposite += kind == VOILE_CLASS_OPPOSITE ? static_cast<double>(spring.weight) : 0;
-            sums[i].uniform[kind] += spring.weight > 0 ? 1 : 0;
-            sums[i].bending += std::abs(static_cast<double>(spring.bending));
-        });
-    double* const uniform[] = {&mesh.uniform.edge, &mesh.uniform.opposite};
-    const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
-    visit_springs(
-        [&](size_t i, uint32_t j, int kind, const shared::MeshSpring& spring)
-        {
-            if (spring.weight > 0)
-                raise(*uniform[kind], sums[i].uniform[kind] + sums[j].uniform[kind]);
-            if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
-                raise(mesh.fabric.opposite, sums[i].opposite / mesh.areas[i] + sums[j].opposite / mesh.areas[j]);
-        });
-    for (size_t i = 0; i < mesh.lists.vertices.size(); ++i)
-        if (mesh.areas[i] > 0)
-        {
-            raise(mesh.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
-            raise(mesh.uniform.bending, 2 * sums[i].bending);
+            const shared::MeshSpring& spring = mesh.lists.springs[vertices[i].first_spring + s];
+            const bool opposite = (spring.neighbor & VOILE_OPPOSITE_BIT) != 0;
+            visit(spring.neighbor & ~VOILE_OPPOSITE_BIT, opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE, spring);
         }
+    };
+    std::vector<Sums> sums(vertices.size());
+    parallel_for(vertices.size(), k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     for (size_t i = begin; i < end; ++i)
+                         visit_springs(i,
+                                       [&, &own = sums[i]](uint32_t, int kind, const shared::MeshSpring& spring)
+                                       {
+                                           const auto weight = static_cast<double>(spring.weight);
+                                           own.opposite += kind == VOILE_CLASS_OPPOSITE ? weight : 0;
+                                           own.uniform[kind] += weight > 0 ? 1 : 0;
+                                           own.bending += std::abs(static_cast<double>(spring.bending));
+                                       });
+                 });
+    const auto raise = [](double& bound, double value) { bound = std::max(bound, value); };
+    struct Bounds
+    {
+        MeshTopology::Bounds fabric;
+        MeshTopology::Bounds uniform;
+    };
+    std::vector<Bounds> pieces((vertices.size() + k_piece - 1) / k_piece);
+    parallel_for(vertices.size(), k_piece,
+                 [&](size_t begin, size_t end)
+                 {
+                     Bounds& bounds = pieces[begin / k_piece];
+                     double* const uniform[] = {&bounds.uniform.edge, &bounds.uniform.opposite};
+                     for (size_t i = begin; i < end; ++i)
+                     {
+                         visit_springs(i,
+                                       [&](uint32_t j, int kind, const shared::MeshSpring& spring)
+                                       {
+                                           if (spring.weight > 0)
+                                               raise(*uniform[kind], sums[i].uniform[kind] + sums[j].uniform[kind]);
+                                           if (spring.weight > 0 && kind == VOILE_CLASS_OPPOSITE)
+                                               raise(bounds.fabric.opposite, sums[i].opposite / mesh.areas[i] +
+                                                                                 sums[j].opposite / mesh.areas[j]);
+                                       });
+                         if (mesh.areas[i] > 0)
+                         {
+                             raise(bounds.fabric.bending, 2 * sums[i].bending / mesh.areas[i]);
+                             raise(bounds.uniform.bending, 2 * sums[i].bending);
+                         }
+                     }
+                 });
+    for (const Bounds& bounds : pieces)
+    {
+        raise(mesh.fabric.opposite, bounds.fabric.opposite);
+        raise(mesh.fabric.bending, bounds.fabric.bending);
+        raise(mesh.uniform.edge, bounds.uniform.edge);
+        raise(mesh.uniform.opposite, bounds.uniform.opposite);
+        raise(mesh.uniform.bending, bounds.uniform.bending);
+    }
 }
 
 } // namespace
@@ -249,17 +289,13 @@ void find_bounds(MeshTopology& mesh)
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                                 const FabricCoordinates& fabric, bool isometric, bool uniform_masses)
 {
-    std::vector<glm::uvec3> solid;
-    solid.reserve(triangles.size());
-    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(solid),
-                 [&](const glm::uvec3& t) { return !degenerate(positions, t); });
+    const SolidTriangles solid = solid_triangles(positions, triangles);
     MeshTopology mesh;
     mesh.isometric = isometric;
     mesh.uniform_masses = uniform_masses;
-    mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.size());
-    mesh.report.components = count_components(positions.size(), solid);
-    mesh.report.shortest_edge = std::numeric_limits<float>::max();
-    mesh.areas = areas_of(positions, solid);
+    mesh.report.degenerate_triangles = static_cast<uint32_t>(triangles.size() - solid.corners.size());
+    mesh.report.components = count_components(positions.size(), solid.corners);
+    mesh.areas = areas_of(positions.size(), solid);
     for (const double area : mesh.areas)
     {
         mesh.report.isolated_vertices += area > 0 ? 0 : 1;
@@ -268,12 +304,11 @@ MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span
     mesh.mean_area /= static_cast<double>(std::max<size_t>(positions.size() - mesh.report.isolated_vertices, 1));
     mesh.report.coincident_vertices = count_coincident(positions, mesh.areas);
 
-    MeshElements elements = elements_of(positions, solid, uniform_masses ? nullptr : &fabric, mesh.report);
-    mesh.report.softened_edges = soften_slivers(elements, mesh.areas, uniform_masses);
+    MeshElements elements = make_elements(positions, solid, uniform_masses ? nullptr : &fabric, mesh.report);
+    mesh.report.softened_edges = soften_slivers(elements, solid, mesh.areas, uniform_masses);
     Vertices vertices(positions.size());
-    mesh.lists.springs =
-        fill_springs(vertices, positions, make_pairs(elements, positions.size(), solid.size(), isometric));
-    Corners corners = fill_corners(vertices, solid, elements.triangles);
+    mesh.lists.springs = fill_springs(vertices, positions, make_pairs(elements, positions, solid, isometric));
+    Corners corners = fill_corners(vertices, solid.corners, elements.triangles);
     mesh.lists.corners = std::move(corners.corners);
     mesh.lists.membrane = std::move(corners.membrane);
     mesh.lists.vertices = std::move(vertices);
