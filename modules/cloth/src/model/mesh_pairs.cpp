@@ -251,12 +251,15 @@ private:
         const size_t count = vertices_.size();
         const size_t pairs = count * (count - 1) / 2;
         slots_.resize(pairs);
-        sums_.resize(pairs + 1);
-        numbers_.assign(count * count, static_cast<uint32_t>(pairs));
+        sums_.assign(pairs + count, 0);
+        numbers_.resize(count * count);
         uint32_t number = 0;
         for (size_t i = 0; i < count; ++i)
+        {
             for (size_t j = i + 1; j < count; ++j)
                 numbers_[i * count + j] = numbers_[j * count + i] = number++;
+            numbers_[i * count + i] = static_cast<uint32_t>(pairs + i);
+        }
     }
 
     // Each pair comes twice, once either way round.
@@ -278,9 +281,9 @@ private:
     MeshPairs& pairs_;
     std::vector<LocalHinge> hinges_; // of a triangle
     std::vector<uint32_t> vertices_; // of these
-    std::vector<uint32_t> numbers_;  // of the pairs of vertices_; their number for a vertex with itself
+    std::vector<uint32_t> numbers_;  // of the pairs of vertices_, then those of a vertex with itself
     std::vector<uint32_t> slots_;    // the index of each pair; k_none: another thread has it
-    std::vector<double> sums_;       // its sum so far; one more for what has none
+    std::vector<double> sums_;       // by number, so far; not used of a vertex with itself
 };
 
 void fill_pairs(const MeshElements& elements, const TriangleHinges& hinges, std::span<const glm::dvec3> positions,

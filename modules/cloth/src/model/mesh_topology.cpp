@@ -103,49 +103,62 @@ uint32_t set_first(Vertices& vertices, uint32_t shared::MeshVertex::*first, uint
     return all;
 }
 
-// A vertex has its lower neighbors first. Each thread goes through all pairs and owns a range of vertices.
+// A vertex has its lower neighbors first. `pieces`: those of threads, which fill the lists of the vertices that they
+// begin with: they find lower neighbors in the pieces up to their own.
 UninitializedArray<shared::MeshSpring> fill_springs(Vertices& vertices, std::span<const glm::dvec3> positions,
                                                     std::span<const MeshPairs> pieces)
 {
-    const auto visit = [&](auto&& each)
+    const auto visit = [](const MeshPairs& pairs, auto&& each)
     {
-        for (const MeshPairs& pairs : pieces)
-            for (uint32_t a = pairs.begin; a < pairs.end; ++a)
-                for (uint32_t i = pairs.first[a - pairs.begin]; i < pairs.first[a - pairs.begin + 1]; ++i)
-                    each(a, pairs.others[i], pairs.sums[i]);
+        for (uint32_t a = pairs.begin; a < pairs.end; ++a)
+            for (uint32_t i = pairs.first[a - pairs.begin]; i < pairs.first[a - pairs.begin + 1]; ++i)
+                each(a, pairs.others[i], pairs.sums[i]);
     };
-    const size_t piece = piece_per_thread(vertices.size(), k_least_owned);
-    parallel_for(vertices.size(), piece,
-                 [&](size_t begin, size_t end)
-                 {
-                     visit(
-                         [&](uint32_t a, uint32_t b, const PairSums& pair)
-                         {
-                             if (begin <= a && a < end)
-                                 vertices[a].springs += entries_of(pair);
-                             if (begin <= b && b < end)
-                                 vertices[b].springs += entries_of(pair);
-                         });
-                 });
+    // Calls each(vertex, neighbor, pair) for the lists of a piece's vertices, in their order.
+    const auto visit_lists = [&](size_t piece, auto&& each)
+    {
+        const MeshPairs& own = pieces[piece];
+        for (const MeshPairs& pairs : pieces.first(piece + 1))
+            visit(pairs,
+                  [&](uint32_t a, uint32_t b, const PairSums& pair)
+                  {
+                      if (own.owns(b))
+                          each(b, a, pair);
+                  });
+        visit(own, each);
+    };
+    const auto for_each_piece = [&](auto&& body)
+    {
+        parallel_for(pieces.size(), 1,
+                     [&](size_t begin, size_t end)
+                     {
+                         for (size_t piece = begin; piece < end; ++piece)
+                             body(piece);
+                     });
+    };
+    for_each_piece(
+        [&](size_t piece)
+        {
+            visit_lists(piece, [&](uint32_t vertex, uint32_t, const PairSums& pair)
+                        { vertices[vertex].springs += entries_of(pair); });
+        });
     UninitializedArray<shared::MeshSpring> springs(
         set_first(vertices, &shared::MeshVertex::first_spring, &shared::MeshVertex::springs));
-    parallel_for(vertices.size(), piece,
-                 [&](size_t begin, size_t end)
-                 {
-                     std::vector<uint32_t> next;
-                     for (size_t i = begin; i < end; ++i)
-                         next.push_back(vertices[i].first_spring);
-                     const auto put = [&](uint32_t vertex, uint32_t other, const PairSums& pair)
-                     {
-                         if (vertex < begin || vertex >= end)
-                             return;
-                         const auto length = static_cast<float>(glm::distance(positions[vertex], positions[other]));
-                         add_entries(pair, other, length, &springs[next[vertex - begin]]);
-                         next[vertex - begin] += entries_of(pair);
-                     };
-                     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(b, a, pair); });
-                     visit([&](uint32_t a, uint32_t b, const PairSums& pair) { put(a, b, pair); });
-                 });
+    for_each_piece(
+        [&](size_t piece)
+        {
+            std::vector<uint32_t> next;
+            for (uint32_t i = pieces[piece].begin; i < pieces[piece].end; ++i)
+                next.push_back(vertices[i].first_spring);
+            visit_lists(piece,
+                        [&](uint32_t vertex, uint32_t other, const PairSums& pair)
+                        {
+                            const double length = glm::distance(positions[vertex], positions[other]);
+                            uint32_t& entry = next[vertex - pieces[piece].begin];
+                            add_entries(pair, other, static_cast<float>(length), &springs[entry]);
+                            entry += entries_of(pair);
+                        });
+        });
     return springs;
 }
 
