@@ -1,5 +1,6 @@
 // What a model makes of cloth meshes, to the bit: the same springs in the same order as ever. The hashes are of IEEE
 // arithmetic without contraction; compilers for other machines than x86-64 contract by default.
+#include "geometry/parallel.hpp"
 #include "model/active_lists.hpp"
 #include "support/odd_meshes.hpp"
 #include "support/record_hash.hpp"
@@ -11,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <thread>
 
 namespace
 {
@@ -215,4 +217,69 @@ TEST_CASE("what is uploaded of several cloths is what it was, to the bit")
         }
     }
     CHECK(hash_model(model) == 0xe5adea04d96306ff);
+}
+
+namespace
+{
+
+// Job systems of a host: a thread for each task, and one after the other from the last one on.
+void run_on_threads(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    *static_cast<uint32_t*>(user) += count;
+    std::vector<std::jthread> threads;
+    for (uint32_t i = 0; i < count; ++i)
+        threads.emplace_back(task, data, i);
+}
+
+void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    *static_cast<uint32_t*>(user) += count;
+    for (uint32_t i = count; i-- > 0;)
+        task(data, i);
+}
+
+// Of a mesh with each kind of material.
+std::array<uint64_t, 2> hash_added(const tests::ClothMesh& mesh)
+{
+    voile::Model model;
+    model.limits.workgroup_size = 32;
+    voile::MeshCloth cloth = mesh.cloth();
+    RecordHash topologies;
+    for (const bool fabric : {true, false})
+    {
+        cloth.material = material(fabric, true);
+        REQUIRE(model.add(cloth));
+        topologies.add(hash_topology(*model.cloths.at(fabric ? 0 : 1)->mesh));
+    }
+    return {topologies.value(), hash_model(std::move(model))};
+}
+
+} // namespace
+
+TEST_CASE("large meshes have the same springs, corners and membranes for any number of threads and any jobs")
+{
+    tests::ClothMesh sheet = tests::rough_sheet(170, 120); // several pieces of work, and ranges for seven threads
+    tests::add_sliver(sheet, 170, 120, tests::Sliver::inside, 1e-5f);
+    tests::ClothMesh shuffled = sheet;
+    tests::shuffle(shuffled);
+    for (const tests::ClothMesh& mesh : {sheet, shuffled})
+    {
+        uint32_t tasks = 0;
+        const auto hash = [&](auto run, uint32_t workers)
+        {
+            tasks = 0;
+            const voile::JobScope scope({.run = run, .user = &tasks, .workers = workers});
+            return hash_added(mesh);
+        };
+        const std::array<uint64_t, 2> expected = hash(run_on_threads, 1);
+        CHECK(tasks == 0);
+        for (const uint32_t workers : {2u, 7u})
+            for (const auto run : {run_on_threads, run_backwards})
+            {
+                CAPTURE(workers);
+                CHECK(hash(run, workers) == expected);
+                CHECK(tasks > 0);
+            }
+        CHECK(hash_added(mesh) == expected); // by the module's own threads
+    }
 }
