@@ -80,7 +80,7 @@ SidesOfVertices sides_of_vertices(size_t vertices, std::span<const glm::uvec3> t
                  [&](size_t begin, size_t end)
                  {
                      for (size_t v = begin; v < end; ++v)
-                         std::sort(&result.sides[0] + result.first[v], &result.sides[0] + result.first[v + 1]);
+                         std::sort(result.sides.data() + result.first[v], result.sides.data() + result.first[v + 1]);
                  });
     return result;
 }
@@ -159,46 +159,53 @@ FirstElements count_elements(const SidesOfVertices& sides, const SolidTriangles&
     return first;
 }
 
-// Fills the elements of edges from vertices `begin` .. `end` - 1 to higher ones. Returns what the report says of these.
-MeshReport fill_elements(std::span<const glm::dvec3> positions, const SolidTriangles& triangles,
-                         const SidesOfVertices& sides, const FirstElements& first, size_t begin, size_t end,
-                         MeshElements& elements)
+// Fills the elements of consecutive edges, from the given indices on.
+class ElementFiller
 {
-    MeshReport report;
-    report.shortest_edge = std::numeric_limits<float>::max();
-    size_t index = first.edges[begin];
-    size_t hinge = first.hinges[begin];
-    for (size_t a = begin; a < end; ++a)
-        for_each_edge(sides.of(a),
-                      [&](uint32_t b, std::span<const uint64_t> of_edge)
-                      {
-                          const Edge edge{static_cast<uint32_t>(a), b};
-                          elements.edges[index] = edge;
-                          if (!elements.triangles.empty())
-                              for (const uint64_t number : of_edge)
-                              {
-                                  const Side side = side_of(triangles, static_cast<uint32_t>(number));
-                                  elements.triangles[side.triangle].edge[side.corner] = static_cast<uint32_t>(index);
-                              }
-                          for_each_hinge(triangles, of_edge,
-                                         [&](const Side& one, const Side& other)
-                                         {
-                                             // One bend spring for three edges a vertex, where a grid has two
-                                             // directions: two thirds of its B / area.
-                                             const double area =
-                                                 triangles.areas[one.triangle] + triangles.areas[other.triangle];
-                                             elements.opposites[hinge] = {one.opposite, other.opposite, 2.0 / 3 / area};
-                                             elements.hinges[hinge] = make_hinge(positions, edge, one, other);
-                                             elements.hinges[hinge++].edge = static_cast<uint32_t>(index);
-                                         });
-                          const double length = glm::distance(positions[a], positions[b]);
-                          report.boundary_edges += of_edge.size() == 1 ? 1 : 0;
-                          report.non_manifold_edges += of_edge.size() > 2 ? 1 : 0;
-                          report.shortest_edge = std::min(report.shortest_edge, static_cast<float>(length));
-                          ++index;
-                      });
-    return report;
-}
+public:
+    ElementFiller(std::span<const glm::dvec3> positions, const SolidTriangles& triangles, MeshElements& elements,
+                  size_t edge, size_t hinge)
+        : positions_(positions), triangles_(triangles), elements_(elements), edge_(edge), hinge_(hinge)
+    {
+        report_.shortest_edge = std::numeric_limits<float>::max();
+    }
+
+    void add(const Edge& edge, std::span<const uint64_t> sides)
+    {
+        const auto index = static_cast<uint32_t>(edge_++);
+        elements_.edges[index] = edge;
+        if (!elements_.triangles.empty())
+            for (const uint64_t number : sides)
+            {
+                const Side side = side_of(triangles_, static_cast<uint32_t>(number));
+                elements_.triangles[side.triangle].edge[side.corner] = index;
+            }
+        for_each_hinge(triangles_, sides,
+                       [&](const Side& first, const Side& second)
+                       {
+                           // One bend spring for three edges a vertex, where a grid has two directions: two thirds of
+                           // its B / area.
+                           const double area = triangles_.areas[first.triangle] + triangles_.areas[second.triangle];
+                           elements_.opposites[hinge_] = {first.opposite, second.opposite, 2.0 / 3 / area};
+                           elements_.hinges[hinge_] = make_hinge(positions_, edge, first, second);
+                           elements_.hinges[hinge_++].edge = index;
+                       });
+        const double length = glm::distance(positions_[edge.a], positions_[edge.b]);
+        report_.boundary_edges += sides.size() == 1 ? 1 : 0;
+        report_.non_manifold_edges += sides.size() > 2 ? 1 : 0;
+        report_.shortest_edge = std::min(report_.shortest_edge, static_cast<float>(length));
+    }
+
+    [[nodiscard]] const MeshReport& report() const { return report_; } // of these edges
+
+private:
+    std::span<const glm::dvec3> positions_;
+    const SolidTriangles& triangles_;
+    MeshElements& elements_;
+    size_t edge_;
+    size_t hinge_;
+    MeshReport report_;
+};
 
 // Stiffness over the mass of the lighter end.
 double rate_of(const OppositeSpring& spring, std::span<const double> areas)
@@ -315,8 +322,15 @@ MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTri
     elements.hinges = UninitializedArray<Hinge>(first.hinges.back());
     std::vector<MeshReport> reports((positions.size() + k_piece - 1) / k_piece);
     parallel_for(positions.size(), k_piece,
-                 [&](size_t begin, size_t end) {
-                     reports[begin / k_piece] = fill_elements(positions, triangles, sides, first, begin, end, elements);
+                 [&](size_t begin, size_t end)
+                 {
+                     ElementFiller filler(positions, triangles, elements, first.edges[begin], first.hinges[begin]);
+                     for (size_t a = begin; a < end; ++a)
+                         for_each_edge(sides.of(a),
+                                       [&](uint32_t b, std::span<const uint64_t> of_edge) {
+                                           filler.add({static_cast<uint32_t>(a), b}, of_edge);
+                                       });
+                     reports[begin / k_piece] = filler.report();
                  });
     report.shortest_edge = std::numeric_limits<float>::max();
     for (const MeshReport& part : reports)
