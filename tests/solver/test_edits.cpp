@@ -3,6 +3,8 @@
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
+#include "voile/fabrics.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -174,6 +176,37 @@ TEST_CASE("a snapshot restores the state to the bit, also through the host")
             CHECK_FALSE(other.assign(std::span(kept).first(16)).has_value());
         }
     }
+}
+
+TEST_CASE("a restored state has the masses and the pins of the present material and attachments")
+{
+    ClothHarness harness;
+    voile::GridCloth grid = tests::flat_sheet(12, 0.5f, 1);
+    grid.material = voile::cotton();
+    grid.pins = {0, 11};
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    harness.step({}, 3);
+    const voile::Snapshot snapshot = voile::engine::take(harness.solver.create_snapshot());
+    harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_save(cmd, snapshot)); });
+    const auto saved = harness.positions(id);
+    voile::Fabric heavy = voile::cotton();
+    heavy.areal_density *= 15;
+    voile::engine::take(harness.solver.set_material(id, heavy));
+    voile::engine::take(harness.solver.set_attachments(id, {voile::pin(11), voile::pin(60)}));
+    harness.step({}, 2);
+    harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_restore(cmd, snapshot)); });
+    harness.step({}, 5);
+    const auto x = harness.positions(id);
+    CHECK(x[70].w == tests::close_to(static_cast<double>(saved[70].w) / 15, 1e-6));
+    CHECK(x[0].w == tests::close_to(static_cast<double>(saved[1].w) / 15 * 2, 1e-6)); // a corner has half of a border's
+    CHECK(x[0].y < saved[0].y - 1e-4f);
+    for (const uint32_t pinned : {11u, 60u})
+    {
+        CHECK(x[pinned].w == 0);
+        CHECK(glm::vec3(x[pinned]) == glm::vec3(saved[pinned]));
+    }
+    CHECK(harness.statistics().max_stretch < 0.5f);
 }
 
 // A sheet in the middle of a box, which has no preferred side to leave, and a sheet released in a stretched state,

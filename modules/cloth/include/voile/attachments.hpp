@@ -28,7 +28,9 @@ struct Attachment
 
     // The point, m in the anchor's space, -1e6..1e6. In the world, where the anchor was added: -2e6..2e6.
     // Default: where the vertex was at the start, moved as the anchor has moved since it was added. A pin without a
-    // position keeps the vertex where it is when the pin is set.
+    // position begins where the vertex is and moves by the motion of its anchor in each step of the cloth. It stays
+    // behind where the anchor moves while the cloth is disabled, and after reset, teleport and record_restore it begins
+    // where these put the vertex. A pin that must be exact after these has a position.
     std::optional<Vec3> position{};
 
     // Pull towards the point, N/m, 0..1e9. Infinite, the default, makes a pin: the vertex has no inverse mass and

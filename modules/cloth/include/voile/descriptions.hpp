@@ -243,7 +243,7 @@ struct PlaneCollider
     Vec3 normal{0, 1, 0};
 
     // m, -1e6..1e6. An inclined plane far from the origin is as precise as at the origin near the middle of where the
-    // cloths that collide with it started.
+    // cloths that collide with it started, so that another such cloth changes the rounding of contact with it.
     float offset = 0;
 
     std::optional<Friction> friction{};

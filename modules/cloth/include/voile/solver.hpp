@@ -150,7 +150,8 @@ public:
 
     // What record_save copied, once its command buffer has completed.
     [[nodiscard]] std::span<const std::byte> bytes() const;
-    // Takes the bytes() of another snapshot. Errors: another number of bytes; a vertex that is not finite.
+    // Takes the bytes() of another snapshot of cloths with as many vertices. Whether they are the same cloths cannot be
+    // checked. Errors: another number of bytes; a vertex that is not finite.
     Result<void> assign(std::span<const std::byte> bytes);
 
 private:
@@ -199,9 +200,11 @@ public:
     Result<void> remove(OutputId output);
 
     // A disabled cloth keeps its state: no pass runs over it, and stable_substeps, budgets and statistics leave it out.
-    // It can still be drawn. When it is enabled again it continues with its former velocities. A disabled collider
-    // collides with no cloth. It can be moved meanwhile, and so can anchors: they have their new poses when it is
-    // enabled again. Everything is enabled when it is added. Errors: an id that is not valid.
+    // It can still be drawn. When it is enabled again it continues with its former velocities. Pins with a position are
+    // then at their anchors' new poses; pins without one have not followed (attachments.hpp). set_material, reset,
+    // teleport and set_velocity act on a disabled cloth, too. A disabled collider collides with no cloth. It can be
+    // moved meanwhile, and has its new pose when it is enabled again. Everything is enabled when it is added. Errors:
+    // an id that is not valid.
     Result<void> set_enabled(ClothId cloth, bool enabled);
     Result<void> set_enabled(ColliderId collider, bool enabled);
     [[nodiscard]] bool enabled(ClothId cloth) const; // false for an id that is not valid
@@ -307,8 +310,9 @@ public:
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
-    // saving. Materials, attachments, anchors and colliders are not part of a snapshot. Errors: nothing uploaded yet,
-    // out of memory; cloths were uploaded or removed since create_snapshot; nothing saved to restore.
+    // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of
+    // the solver when it restores. Errors: nothing uploaded yet, out of memory; cloths were uploaded or removed since
+    // create_snapshot; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);

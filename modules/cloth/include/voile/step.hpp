@@ -16,7 +16,7 @@ struct Step
     float duration = 1.f / 60; // s, 1e-6..10
 
     // Substeps of every cloth, 0..1000000. 0: each cloth takes as many as it needs (Solver::stability). A cloth that
-    // needs more than it takes is softened.
+    // needs more than it takes is softened. If that changes from step to step, stretched springs change their energy.
     uint32_t substeps = 0;
 
     // The most substeps that a cloth takes if `substeps` is 0, 1..1000000.

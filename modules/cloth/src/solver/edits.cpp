@@ -157,7 +157,17 @@ void finish_edits(Solver::State& solver)
     edits.records.clear();
     edits.limits.clear();
     edits.colliders.clear();
-    edits.attachments = edits.pins = edits.candidates = false;
+    edits.attachments = edits.pins = edits.masses = edits.candidates = false;
+}
+
+// A vertex that kept its mass is left as it is, to the bit.
+void record_masses(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    for (const auto [index, cloth] : solver.model.cloths)
+        if (cloth.uploaded)
+            recorder.dispatch(solver.kernels.edit, solver.device->sets.edit, cloth.record.vertices,
+                              solver.options.tuning.workgroup_size,
+                              shared::EditPush{glm::mat4(1), glm::vec3(0), VOILE_EDIT_MASSES, index});
 }
 
 // The edits of uploaded cloths. Returns how many there were.
@@ -228,6 +238,8 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (solver.edits.candidates)
         forget_candidates(recorder, device);
     record_deforming_passes(recorder, solver);
+    if (solver.edits.masses)
+        record_masses(recorder, solver);
     const size_t edited = record_state_edits(recorder, solver);
     if (due.anchors || edited > 0)
         recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.lists.pins,

@@ -239,6 +239,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     state_->lifetime.end(cmd);
     state_->history.depenetration_step = snapshot.contents_->depenetration_step;
     state_->history.depenetration_due = true;
+    state_->edits.masses = state_->edits.pins = true; // materials and pins may have changed since it was saved
     return {};
 }
 

@@ -29,6 +29,7 @@ struct Edits
     bool patches = false;
     bool attachments = false; // the lists of attachments and tethers
     bool pins = false;        // they must be set again
+    bool masses = false;      // of all cloths: they must be set again
     bool candidates = false;  // lists of near triangles must be cleared
 
     // Drops the edits of a cloth that was removed.
