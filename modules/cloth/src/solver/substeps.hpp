@@ -15,7 +15,7 @@ struct StepContext
     const StepHistory& history;
     const Step& step;
     SubstepPlan plan;
-    uint32_t first_substep; // counted over all steps
+    uint32_t first_substep = 0; // counted over all steps
 };
 
 // The passes of the cloths that take the same number of substeps.
