@@ -58,8 +58,7 @@ SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& need
             needed.push_back({voile::stable_substeps(cloth.record, duration), cloth.record.vertices});
     return plan_substeps(needed, {.substeps = step.max_substeps,
                                   .vertex_substeps = step.max_vertex_substeps,
-                                  .dispatch_vertices = options.tuning.dispatch_vertices,
-                                  .levels = VOILE_SUBSTEP_LEVELS});
+                                  .dispatch_vertices = options.tuning.dispatch_vertices});
 }
 
 void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
