@@ -73,13 +73,15 @@ set_tests_properties("consumer: clean" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: clean")
 set_tests_properties("consumer: move" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: install")
 set_tests_properties("consumer: the package names no folder and has its license" PROPERTIES FIXTURES_REQUIRED installed)
-set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 600)
+set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED installed)
 add_test(NAME "consumer: add_subdirectory"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer/subdirectory
                  ${CMAKE_CURRENT_BINARY_DIR}/subdirectory_consumer --build-generator ${CMAKE_GENERATOR}
                  --build-options -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
-set_tests_properties("consumer: add_subdirectory" PROPERTIES TIMEOUT 900 PROCESSORS 2)
+# They take long and use one core each, so they begin first.
+set_tests_properties("consumer: find_package" "consumer: add_subdirectory" PROPERTIES
+    TIMEOUT 900 COST 1000 ENVIRONMENT CMAKE_BUILD_PARALLEL_LEVEL=1)
 
 # The sample of the guide, with validation and synchronization validation, which print what they find.
 add_test(NAME "foreign_engine: a sheet falls on a ball" COMMAND foreign_engine ${CMAKE_CURRENT_BINARY_DIR}/sheet.ply)

@@ -38,12 +38,15 @@ void run(bool headless)
 
     voile::engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
     const voile::engine::IdleGuard idle(app.device());
-    if (!app.has_window())
-        app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
-        { readback.record(cmd, app.renderer().color(), frame.slot); };
+    constexpr uint64_t k_frames = 60;
     uint32_t last_slot = 0;
-    app.completed = [&](const voile::engine::FrameInfo& frame) { last_slot = frame.slot; };
-    app.run(60);
+    app.draws = [](const voile::engine::FrameInfo& frame) { return frame.index + 1 == k_frames; };
+    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
+    {
+        if (!app.has_window() && app.draws(frame))
+            readback.record(cmd, app.renderer().color(), last_slot = frame.slot);
+    };
+    app.run(k_frames);
     if (!app.has_window())
         voile::engine::take(voile::engine::save_png("hello_cloth.png", readback.picture(last_slot)));
 }

@@ -41,9 +41,11 @@ public:
     // Completes the film and the caches; what fails does not keep the others from it.
     void finish(Outcome& outcome);
 
+    // Whether the frame's picture goes to a file.
+    [[nodiscard]] bool wants_picture(const voile::engine::FrameInfo& frame) const;
+
 private:
     FrameOutputs() = default;
-    [[nodiscard]] bool wants_picture(const voile::engine::FrameInfo& frame) const;
     voile::Result<void> create_caches(voile::engine::App& app, const Stage& stage, const Options& options);
 
     voile::engine::App* app_ = nullptr;

@@ -74,6 +74,8 @@ bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* 
 void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
                 voile::engine::Capture* capture, const Options& options)
 {
+    app.draws = [&](const voile::engine::FrameInfo& frame)
+    { return options.stats || options.capture == frame.index || outputs.wants_picture(frame); };
     app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { outputs.record(cmd, frame); };
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {

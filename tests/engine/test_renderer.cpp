@@ -3,6 +3,7 @@
 #include "support/test_paths.hpp"
 
 #include "voile/cloth_component.hpp"
+#include "voile/engine/app/app.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/engine/gpu/upload.hpp"
 #include "voile/engine/render/readback.hpp"
@@ -326,4 +327,20 @@ TEST_CASE("a resized renderer draws the scene in its new size")
     CHECK(small.width == 160);
     CHECK(brightness(pixel(small, 80, 80)) > 0);
     CHECK(pixel(small, 80, 80) != pixel(small, 80, 2));
+}
+
+TEST_CASE("without a window, frames that are not to be drawn only simulate")
+{
+    voile::engine::App app(
+        {.extent = {64, 36}, .headless = true, .device = {.device = {}, .validation = true}, .timestamps = true});
+    app.draws = [](const voile::engine::FrameInfo& frame) { return frame.index % 3 == 1; };
+    std::vector<bool> drawn;
+    app.completed = [&](const voile::engine::FrameInfo& frame)
+    {
+        const auto passes = frame.timestamps->read(frame.slot);
+        drawn.push_back(std::ranges::count(passes, std::string_view("scene"), &voile::gpu::PassTime::name) > 0);
+    };
+    app.run(6);
+    CHECK(drawn == std::vector<bool>{false, true, false, false, true, false});
+    CHECK(app.device().validation().count() == 0);
 }

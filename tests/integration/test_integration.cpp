@@ -297,7 +297,7 @@ TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for
                 harness.run(
                     [&](VkCommandBuffer cmd)
                     {
-                        voile::gpu::Recorder recorder(harness.context(), cmd);
+                        voile::gpu::Recorder recorder(tests::solver_context(), cmd);
                         voile::engine::take(harness.solver.record(recorder, step));
                         dispatches = recorder.dispatches();
                     });

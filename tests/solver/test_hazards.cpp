@@ -26,7 +26,7 @@ class TwoDispatches : public tests::GpuFixture
 {
 public:
     TwoDispatches()
-        : kernels_(voile::engine::take(voile::create_kernels(context(), {}))), first_(buffer("first")),
+        : kernels_(voile::engine::take(voile::create_kernels(tests::solver_context(), {}))), first_(buffer("first")),
           second_(buffer("second")), third_(buffer("third")),
           pool_(voile::engine::take(voile::gpu::BindingPool::create(context(), 4, 8)))
     {
@@ -40,7 +40,7 @@ public:
 
     void record(VkCommandBuffer cmd, VkDescriptorSet a, VkDescriptorSet b, voile::gpu::Ordering ordering)
     {
-        voile::gpu::Recorder recorder(context(), cmd);
+        voile::gpu::Recorder recorder(tests::solver_context(), cmd);
         const voile::shared::StatisticsReducePush push{1, 0};
         recorder.dispatch(kernels_.statistics_reduce, a, 64, 64, push, ordering);
         recorder.dispatch(kernels_.statistics_reduce, b, 64, 64, push);
@@ -171,13 +171,13 @@ TEST_CASE_FIXTURE(TwoDispatches, "a write that does not wait for a write is repo
     for (const auto ordering : {voile::gpu::Ordering::unordered, voile::gpu::Ordering::ordered})
     {
         OneDispatchEach buffers(tests::device());
-        voile::gpu::Recorder recorder(context(), buffers.begin());
+        voile::gpu::Recorder recorder(tests::solver_context(), buffers.begin());
         recorder.split_with(OneDispatchEach::next, &buffers);
         const auto messages = messages_of(
             [&](VkCommandBuffer)
             {
                 const voile::shared::StatisticsReducePush push{1, 0};
-                const voile::Kernels kernels = voile::engine::take(voile::create_kernels(context(), {}));
+                const voile::Kernels kernels = voile::engine::take(voile::create_kernels(tests::solver_context(), {}));
                 recorder.dispatch(kernels.statistics_reduce, a, 64, 64, push, ordering);
                 recorder.dispatch(kernels.statistics_reduce, b, 64, 64, push);
                 buffers.submit();
@@ -200,7 +200,7 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
         harness.solver.add_collider(voile::MeshCollider{.positions = ball.positions, .triangles = ball.triangles}));
     harness.upload();
     OneDispatchEach buffers(tests::device());
-    voile::gpu::Recorder recorder(harness.context(), buffers.begin());
+    voile::gpu::Recorder recorder(tests::solver_context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
     voile::engine::take(harness.solver.record(recorder, {.substeps = 3}));
     voile::engine::take(harness.solver.record(recorder, {.substeps = 2}));
@@ -228,7 +228,7 @@ TEST_CASE("steps with previous positions and outputs have no hazard, each in its
         sheet,
         {.buffer = vertices.handle(), .size = vertices.size(), .stride = 24, .position = 0, .previous_position = 12}));
     OneDispatchEach buffers(tests::device());
-    voile::gpu::Recorder recorder(harness.context(), buffers.begin());
+    voile::gpu::Recorder recorder(tests::solver_context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
     VkDeviceSize copied = 0;
     const auto copy = [&](VkCommandBuffer cmd, VkBuffer buffer)
@@ -278,7 +278,7 @@ TEST_CASE("a step with several levels of substeps has no hazard, each dispatch i
     const voile::Step step{.duration = 2e-3f};
     const uint32_t dispatches = harness.solver.dispatches(step);
     OneDispatchEach buffers(tests::device());
-    voile::gpu::Recorder recorder(harness.context(), buffers.begin());
+    voile::gpu::Recorder recorder(tests::solver_context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
     voile::engine::take(harness.solver.record(recorder, step));
     buffers.submit();

@@ -138,7 +138,7 @@ TEST_CASE("lifetime checks accept correct use and commands that are never submit
 
 TEST_CASE("a solver destroyed while its commands run (in a process of its own)" * doctest::skip())
 {
-    auto* stuck = new Stuck(tests::device().context()); // its commands never end
+    auto* stuck = new Stuck(tests::solver_context()); // its commands never end
     auto* fixture = new ClothHarness({.lifetime_checks = true});
     (void)voile::engine::take(fixture->solver.add_cloth(tests::flat_sheet(6, 0.5f, 0)));
     fixture->upload();
@@ -149,7 +149,7 @@ TEST_CASE("a solver destroyed while its commands run (in a process of its own)" 
 
 TEST_CASE("the object of a check destroyed while its commands run (in a process of its own)" * doctest::skip())
 {
-    auto* stuck = new Stuck(tests::device().context());
+    auto* stuck = new Stuck(tests::solver_context());
     voile::LifetimeCheck check =
         voile::engine::take(voile::LifetimeCheck::create(tests::device().context(), "voile::Upload"));
     stuck->submit(

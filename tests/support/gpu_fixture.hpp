@@ -66,6 +66,13 @@ inline voile::Handles test_handles()
     return handles;
 }
 
+// For recorders that a test hands to a solver: a context whose functions know the solver's pipelines.
+inline const voile::gpu::Context& solver_context()
+{
+    static const voile::gpu::Context context = voile::engine::take(voile::gpu::create_context(test_handles()));
+    return context;
+}
+
 class GpuFixture
 {
 public:

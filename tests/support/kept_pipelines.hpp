@@ -1,12 +1,16 @@
-// Keeps compute pipelines from one solver to the next. A software device takes longer to make those of a solver than
-// most tests take to run. Solvers get handles whose functions return a pipeline that was made before from the same code
-// with the same constants; nothing is destroyed before the process ends.
+// Makes compute pipelines when they are first bound, and keeps them from one solver to the next. A software device takes
+// longer to make those of a solver than most tests take to run, and most tests bind a few of them. Solvers get handles
+// whose functions return a promise in place of a pipeline: of the same code with the same constants the same one.
+// Nothing is destroyed before the process ends. The viewer makes all pipelines in advance.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
 
 #include <cstring>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -39,19 +43,36 @@ private:
     // Before the device, which was made first.
     ~KeptPipelines()
     {
-        for (const auto& [key, pipeline] : pipelines_)
-            fn_.vkDestroyPipeline(context_.device(), pipeline, nullptr);
+        for (const auto& [key, promise] : promises_)
+            fn_.vkDestroyPipeline(context_.device(), promise->pipeline, nullptr); // if any
         for (const VkPipelineLayout layout : layouts_)
             fn_.vkDestroyPipelineLayout(context_.device(), layout, nullptr);
         for (const VkDescriptorSetLayout layout : set_layouts_)
             fn_.vkDestroyDescriptorSetLayout(context_.device(), layout, nullptr);
     }
 
+    // A pipeline that is made when it is first bound.
+    struct Promise
+    {
+        std::string code;
+        std::vector<VkSpecializationMapEntry> entries;
+        std::vector<char> constants;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        std::string name;
+        std::once_flag made;
+        VkPipeline pipeline = VK_NULL_HANDLE;
+    };
+
+    static Promise& promise_of(VkPipeline handle) { return *reinterpret_cast<Promise*>(handle); }
+
     static PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, const char* name)
     {
         if (std::string_view(name) == "vkGetDeviceProcAddr")
             return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
-        return s_kept->context_.handles.get_instance_proc_addr(instance, name);
+        const PFN_vkVoidFunction function = s_kept->context_.handles.get_instance_proc_addr(instance, name);
+        if (function != nullptr && std::string_view(name) == "vkSetDebugUtilsObjectNameEXT")
+            return reinterpret_cast<PFN_vkVoidFunction>(&set_name);
+        return function;
     }
 
     static PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char* name)
@@ -61,6 +82,8 @@ private:
             return reinterpret_cast<PFN_vkVoidFunction>(&create_module);
         if (wanted == "vkCreateComputePipelines")
             return reinterpret_cast<PFN_vkVoidFunction>(&create_pipeline);
+        if (wanted == "vkCmdBindPipeline")
+            return reinterpret_cast<PFN_vkVoidFunction>(&bind_pipeline);
         if (wanted == "vkDestroyPipeline")
             return reinterpret_cast<PFN_vkVoidFunction>(&keep_pipeline);
         if (wanted == "vkDestroyPipelineLayout")
@@ -80,25 +103,67 @@ private:
     }
 
     // The module makes one pipeline per call.
-    static VkResult VKAPI_CALL create_pipeline(VkDevice device, VkPipelineCache cache, uint32_t count,
-                                               const VkComputePipelineCreateInfo* info,
-                                               const VkAllocationCallbacks* allocator, VkPipeline* pipeline)
+    static VkResult VKAPI_CALL create_pipeline(VkDevice, VkPipelineCache, uint32_t,
+                                               const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*,
+                                               VkPipeline* pipeline)
     {
         const VkSpecializationInfo& constants = *info->stage.pSpecializationInfo;
         std::string key = s_kept->code_[info->stage.module];
         key.append(reinterpret_cast<const char*>(constants.pMapEntries),
                    constants.mapEntryCount * sizeof(VkSpecializationMapEntry));
         key.append(static_cast<const char*>(constants.pData), constants.dataSize);
-        const auto found = s_kept->pipelines_.find(key);
-        if (found != s_kept->pipelines_.end())
+        std::unique_ptr<Promise>& promise = s_kept->promises_[key];
+        if (!promise)
         {
-            *pipeline = found->second;
-            return VK_SUCCESS;
+            promise = std::make_unique<Promise>();
+            promise->code = s_kept->code_[info->stage.module];
+            promise->entries.assign(constants.pMapEntries, constants.pMapEntries + constants.mapEntryCount);
+            const auto* data = static_cast<const char*>(constants.pData);
+            promise->constants.assign(data, data + constants.dataSize);
+            promise->layout = info->layout;
         }
-        const VkResult result = s_kept->fn_.vkCreateComputePipelines(device, cache, count, info, allocator, pipeline);
+        *pipeline = reinterpret_cast<VkPipeline>(promise.get());
+        return VK_SUCCESS;
+    }
+
+    void make(Promise& promise) const
+    {
+        VkShaderModuleCreateInfo module{};
+        module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+        module.codeSize = promise.code.size();
+        module.pCode = reinterpret_cast<const uint32_t*>(promise.code.data());
+        const VkSpecializationInfo constants{static_cast<uint32_t>(promise.entries.size()), promise.entries.data(),
+                                             promise.constants.size(), promise.constants.data()};
+        VkComputePipelineCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+        info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+        info.stage.pName = "main";
+        info.stage.pSpecializationInfo = &constants;
+        info.layout = promise.layout;
+        VkResult result = fn_.vkCreateShaderModule(context_.device(), &module, nullptr, &info.stage.module);
         if (result == VK_SUCCESS)
-            s_kept->pipelines_.emplace(std::move(key), *pipeline);
-        return result;
+            result = fn_.vkCreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr,
+                                                  &promise.pipeline);
+        fn_.vkDestroyShaderModule(context_.device(), info.stage.module, nullptr);
+        if (result != VK_SUCCESS)
+            throw std::runtime_error("no pipeline \"" + promise.name + "\": VkResult " + std::to_string(result));
+        voile::gpu::set_name(context_, VK_OBJECT_TYPE_PIPELINE, promise.pipeline, promise.name.c_str());
+    }
+
+    static void VKAPI_CALL bind_pipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline)
+    {
+        Promise& promise = promise_of(pipeline);
+        std::call_once(promise.made, [&] { s_kept->make(promise); });
+        s_kept->fn_.vkCmdBindPipeline(cmd, point, promise.pipeline);
+    }
+
+    static VkResult VKAPI_CALL set_name(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info)
+    {
+        if (info->objectType != VK_OBJECT_TYPE_PIPELINE)
+            return s_kept->context_.set_object_name(device, info);
+        promise_of(reinterpret_cast<VkPipeline>(info->objectHandle)).name = info->pObjectName;
+        return VK_SUCCESS;
     }
 
     static void VKAPI_CALL keep_pipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*) {}
@@ -117,7 +182,7 @@ private:
     voile::gpu::DeviceFunctions fn_;
     PFN_vkGetDeviceProcAddr get_device_function_ = nullptr;
     std::unordered_map<VkShaderModule, std::string> code_; // of each module that was made last under its handle
-    std::map<std::string, VkPipeline> pipelines_;          // by code and constants
+    std::map<std::string, std::unique_ptr<Promise>> promises_; // by code and constants
     std::vector<VkPipelineLayout> layouts_;
     std::vector<VkDescriptorSetLayout> set_layouts_;
 };

@@ -14,18 +14,35 @@ namespace tests
 
 inline const std::string k_camera = R"("camera": {"position": [0, 1, 4], "target": [0, 0.4, 0]})";
 
-// A sheet of silk at a height, and colliders.
+// A sheet at a height, m, with more members of its object: silk that stretches more, so that it needs few substeps.
+inline std::string soft_sheet(const std::string& members, float height)
+{
+    return R"({"grid": {"vertices": [12, 12], "size": [0.6, 0.6]},
+"material": {"preset": "silk", "stretch_stiffness": 100, "shear_stiffness": 10}, "transform": {"translate": [0, )" +
+           std::to_string(height) + ", 0]}" + members + "}";
+}
+
+inline std::string scene_of(const std::string& cloths, const std::string& colliders)
+{
+    return R"({"cloths": [)" + cloths + "],\n\"colliders\": [" + colliders + "],\n" + k_camera + "}";
+}
+
+// A sheet and colliders.
 inline std::string scene(const std::string& colliders, const std::string& cloth = "", float height = 0.6f)
 {
-    return R"({"cloths": [{"grid": {"vertices": [12, 12], "size": [0.6, 0.6]}, "material": "silk",
-"transform": {"translate": [0, )" +
-           std::to_string(height) + ", 0]}" + cloth + "}],\n\"colliders\": [" + colliders + "],\n" + k_camera + "}";
+    return scene_of(soft_sheet(cloth, height), colliders);
 }
+
+// A sheet and its collider among others in one scene. Their layers keep them apart.
+struct SceneCase
+{
+    std::string collider; // an object without `layers`
+    float height = 0.6f;  // m
+};
 
 struct SceneResult
 {
-    std::string hash;
-    double deepest = 0; // m
+    double deepest = 0; // m, of all cloths of the run
     voile::engine::Mesh cloth;
 };
 
@@ -35,17 +52,30 @@ public:
     // With the exact checks. Without, the depth is that of the solver's own statistics.
     SceneResult run(const std::string& text, uint32_t frames, const std::string& options = "--validate --verify")
     {
-        const auto file = folder_.write("s.json", text);
-        const Run run =
-            run_viewer(file.string() + " --headless --size 64x36 --frames " + std::to_string(frames) + " " + options +
-                       " --stats " + (folder_ / "s.stats").string() + " --export " + (folder_ / "s.obj").string());
-        CAPTURE(run.errors);
-        REQUIRE(run.exit_code == 0);
-        const auto statistics = voile::engine::take(viewer::parse_json(text_of(folder_ / "s.stats"), "s.stats"));
-        const viewer::JsonNode* summary = statistics.find("summary");
-        REQUIRE(summary != nullptr);
-        return {summary->find("state_hash")->text, summary->find("deepest_penetration")->number,
-                voile::engine::take(voile::engine::load_mesh(folder_ / "s.obj"))};
+        const double deepest = run_scene(text, frames, options);
+        return {deepest, voile::engine::take(voile::engine::load_mesh(folder_ / "s.obj"))};
+    }
+
+    // All cases in one run.
+    std::vector<SceneResult> run_each(const std::vector<SceneCase>& cases, uint32_t frames,
+                                      const std::string& options = "--validate --verify")
+    {
+        std::string cloths;
+        std::string colliders;
+        for (size_t i = 0; i < cases.size(); ++i)
+        {
+            const std::string layers = R"(, "layers": [)" + std::to_string(i) + "]";
+            const std::string separator = i == 0 ? "" : ",\n";
+            cloths += separator + soft_sheet(layers + R"(, "name": "c)" + std::to_string(i) + '"', cases[i].height);
+            const std::string& collider = cases[i].collider;
+            colliders += separator + collider.substr(0, collider.rfind('}')) + layers + "}";
+        }
+        const double deepest = run_scene(scene_of(cloths, colliders), frames, options);
+        std::vector<SceneResult> results;
+        for (size_t i = 0; i < cases.size(); ++i)
+            results.push_back({deepest, voile::engine::take(voile::engine::load_mesh(
+                                            folder_ / ("s_c" + std::to_string(i) + ".obj")))});
+        return results;
     }
 
     voile::engine::Picture picture(const std::string& text, uint32_t frame, const std::string& options = "")
@@ -64,6 +94,31 @@ public:
     [[nodiscard]] const TestFolder& folder() const { return folder_; }
 
 private:
+    // m: the deepest penetration. The exact checks print it; statistics take longer, because they measure every pass of
+    // every frame.
+    double run_scene(const std::string& text, uint32_t frames, const std::string& options)
+    {
+        const bool verifies = options.find("--verify") != std::string::npos;
+        const auto file = folder_.write("s.json", text);
+        const Run run =
+            run_viewer(file.string() + " --headless --size 64x36 --frames " + std::to_string(frames) + " " + options +
+                       (verifies ? "" : " --stats " + (folder_ / "s.stats").string()) + " --export " +
+                       (folder_ / "s.obj").string());
+        CAPTURE(run.errors);
+        REQUIRE(run.exit_code == 0);
+        if (verifies)
+        {
+            const std::string before = "penetrating vertices, deepest ";
+            const size_t found = run.output.find(before);
+            REQUIRE(found != std::string::npos);
+            return std::stod(run.output.substr(found + before.size())) / 1000; // of mm
+        }
+        const auto statistics = voile::engine::take(viewer::parse_json(text_of(folder_ / "s.stats"), "s.stats"));
+        const viewer::JsonNode* summary = statistics.find("summary");
+        REQUIRE(summary != nullptr);
+        return summary->find("deepest_penetration")->number;
+    }
+
     TestFolder folder_;
 };
 

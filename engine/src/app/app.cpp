@@ -123,7 +123,8 @@ void App::record(const FrameRing::Frame& frame, const FrameInfo& info, const Win
             uploads_in_flight_[frame.slot] = std::move(uploads_);
         }
         scene_.record_compute(frame.cmd, info);
-        renderer_.record(frame.cmd, scene_, info);
+        if (window_ || !draws || draws(info))
+            renderer_.record(frame.cmd, scene_, info);
         if (after_render)
             after_render(frame.cmd, info);
         if (target != nullptr)

@@ -74,16 +74,13 @@ LimitWork work_of(PatchVertex self)
     const FinePosition here = FinePosition(stage_positions[i].xyz, unpack_residual(stage_residuals[i]));
     const vec3 dx = displacement(from, to);
     const float inverse_mass = before[i].w;
+    const float mass = inverse_mass == 0 ? 0 : 1 / inverse_mass;
+    const Conservative c = conservative_forces(self, here, mass);
     if (inverse_mass == 0) // a pinned vertex: whatever moves it does work against its springs
-    {
-        const Conservative c = conservative_forces(self, here, 0);
         return LimitWork(c.energy, 0, -dot(c.springs, dx), 0, 0, 0, 0, 0, 0);
-    }
     const FinePosition start = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
     const vec3 v = velocities_before[i].xyz;
     const vec3 dv = velocities_after[i].xyz - v;
-    const float mass = 1 / inverse_mass;
-    const Conservative c = conservative_forces(self, here, mass);
     return LimitWork(c.energy, dot(c.springs + c.linear, dx), dot(c.linear, dx), mass * dot(v, dv), mass * dot(dv, dv),
                      mass * dot(v, dx), mass * dot(dx, dx), mass * dot(dv, dx),
                      -mass * dot(dx, displacement(start, from)));

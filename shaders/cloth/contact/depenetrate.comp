@@ -100,9 +100,19 @@ bool obstructs(Solid solid, FinePosition from, vec3 displacement)
     const vec3 end = start + rotated_into(solid.index, collider.flags, displacement);
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return plane_surface(collider, end).distance < 0;
-    if (is_solid(collider))
-        return is_inside(solid, end);
-    return first_crossing(solid, start, end, false) <= 1;
+    if (is_convex(collider))
+        return convex_surface(collider, end).distance < 0;
+    // One traversal for both kinds of meshes: each is inlined, and this kernel takes long to compile.
+    const bool closed = is_solid(collider);
+    if (closed && !in_box(collider, end))
+        return false;
+    SolidQuery query;
+    if (closed)
+        query = line_query(solid, end, 1);
+    else
+        query = segment_query(solid, start, end, false);
+    traverse(query, collider);
+    return closed ? query.winding > 0 : query.crossing <= 1;
 }
 
 bool is_free(Vertex vertex, vec3 displacement)
@@ -227,26 +237,29 @@ float exit_of_one(Solid solid, vec3 local, vec3 direction, float thickness, floa
 {
     if (is_convex(solid.collider))
         return min(convex_exit(solid.collider, local, direction) + thickness, limit);
-    const float crossing = first_crossing(solid, local, local + limit * direction, true);
-    if (!(crossing <= 1))
+    SolidQuery query = segment_query(solid, local, local + limit * direction, true); // its first exit
+    traverse(query, solid.collider);
+    if (!(query.crossing <= 1))
         return limit;
-    return min(crossing * limit + thickness, limit);
+    return min(query.crossing * limit + thickness, limit);
 }
 
-// The same for all solids that overlap there. `direction`: world; `distance`: m, the exit of solid c.
-float exit_of_all(Vertex vertex, uint c, vec3 direction, float distance, float limit)
+// m: the same, out of all solids that overlap there. `local_direction`: in the space of the first solid, where the vertex
+// is at `local`; `direction`: in the world.
+float exit_of_all(Vertex vertex, Solid solid, vec3 local, vec3 local_direction, vec3 direction, float limit)
 {
-    uint other;
-    for (int i = 0; i < k_most_overlaps && distance < limit && other_solid(vertex, distance * direction, c, other); ++i)
+    float distance = 0;
+    for (int i = 0; i <= k_most_overlaps; ++i)
     {
-        const Solid solid = solid_at(other);
-        const uint flags = solid.collider.flags;
-        const vec3 local =
-            into_collider(other, flags, vertex.x, 0) + rotated_into(other, flags, distance * direction);
-        const vec3 local_direction = rotated_into(other, flags, direction);
         distance += max(exit_of_one(solid, local, local_direction, vertex.thickness, limit - distance),
                         0.01 * vertex.thickness);
-        c = other;
+        uint other;
+        if (distance >= limit || !other_solid(vertex, distance * direction, solid.index, other))
+            break;
+        solid = solid_at(other);
+        const uint flags = solid.collider.flags;
+        local = into_collider(other, flags, vertex.x, 0) + rotated_into(other, flags, distance * direction);
+        local_direction = rotated_into(other, flags, direction);
     }
     return min(distance, limit);
 }
@@ -268,9 +281,8 @@ Depenetration depenetration_of(Vertex vertex, uint c, vec3 normal)
               : agreed_direction(vertex.cloth, c, flags,
                                  direction_out(vertex.cloth, field, rotated_into(c, flags, normal)), own);
     const float most = k_exit_speed * push.step;
-    const float first_exit = exit_of_one(solid, local, direction, vertex.thickness, 2 * most);
     const vec3 world = rotated_out_of(c, flags, direction);
-    const float distance = exit_of_all(vertex, c, world, first_exit, 2 * most);
+    const float distance = exit_of_all(vertex, solid, local, direction, world, 2 * most);
     const float step_distance = distance < most ? distance : distance < 2 * most ? 0.5 * distance : most;
     // Without a vote neighbors may differ, so the first step only votes.
     const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * vertex.cloth + VOILE_VOTE_COUNT] > 0;

@@ -146,8 +146,9 @@ struct LineExits
     float behind; // m, against it
 };
 
-// Boxes of the hierarchy are exact, so a box without width finds all triangles that the line crosses.
-LineExits line_exits(Solid solid, vec3 origin, int axis)
+// The query of a line along an axis. Boxes of the hierarchy are exact, so a box without width finds all triangles that
+// the line crosses.
+SolidQuery line_query(Solid solid, vec3 origin, int axis)
 {
     SolidQuery query = solid_query(solid, k_solid_line, origin);
     query.axis = axis;
@@ -156,20 +157,25 @@ LineExits line_exits(Solid solid, vec3 origin, int axis)
     query.box = Box(origin, origin);
     query.box.min[axis] = -3e38;
     query.box.max[axis] = 3e38;
+    return query;
+}
+
+LineExits line_exits(Solid solid, vec3 origin, int axis)
+{
+    SolidQuery query = line_query(solid, origin, axis);
     traverse(query, solid.collider);
     return LineExits(query.winding, query.ahead, query.behind);
 }
 
-// The first crossing of the mesh by a segment, as a fraction of it; more than 1: none. `outwards`: only from inside.
-float first_crossing(Solid solid, vec3 from, vec3 to, bool outwards)
+// The query of a segment. `outwards`: only crossings from inside count.
+SolidQuery segment_query(Solid solid, vec3 from, vec3 to, bool outwards)
 {
     SolidQuery query = solid_query(solid, k_solid_segment, from);
     query.span = to - from;
     query.outwards = outwards;
     query.crossing = 2;
     query.box = box_around(from, to);
-    traverse(query, solid.collider);
-    return query.crossing;
+    return query;
 }
 
 bool in_box(ColliderRecord collider, vec3 local)
