@@ -30,7 +30,7 @@ seconds_each=300
 export LD_LIBRARY_PATH="$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 export VK_LAYER_PATH="$here/layers"
 export VOILE_TEST_SOURCES="$here/sources"
-export LP_NUM_THREADS="${LP_NUM_THREADS:-1}" # like scripts/test.sh; real drivers ignore it
+export LP_NUM_THREADS="${LP_NUM_THREADS:-0}" # like scripts/test.sh; real drivers ignore it
 unset DISPLAY WAYLAND_DISPLAY
 
 [ -f version ] && printf 'version: %s\n' "$(cat version)"

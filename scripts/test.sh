@@ -27,8 +27,9 @@ done
 scripts/setup.sh
 scripts/build.sh
 
-# One test per core runs at a time. A software device that used all cores in each test would only wait for the others.
-export LP_NUM_THREADS="${LP_NUM_THREADS:-1}"
+# One test per core runs at a time, so a software device gets no threads of its own: its kernels run on the thread that
+# submits them.
+export LP_NUM_THREADS="${LP_NUM_THREADS:-0}"
 SECONDS=0
 status=0
 ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure \

@@ -1,5 +1,5 @@
-// Fabrics against exact values: a hanging sheet, a falling plate, a catenary, the periods of a hanging chain. The same
-// fabric on grids of different spacing.
+// Fabrics against exact values: a hanging sheet, a falling plate. The same fabric on grids of different spacing. The
+// physics report has more (tests/physics).
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -104,90 +104,6 @@ TEST_CASE("a plate that falls face on reaches its terminal speed")
                                                                            // flat
             CHECK(std::abs(static_cast<double>(v.x) / exact) < 1e-3);
         }
-    }
-}
-
-TEST_CASE("a strip held at both ends hangs in a catenary")
-{
-    struct Row
-    {
-        float span; // of the length
-        double sag; // of the length
-    };
-    for (const Row& row : {Row{0.5f, 0.3982}, Row{0.8f, 0.2654}})
-    {
-        CAPTURE(row.span);
-        voile::Fabric fabric = still_air(0);
-        fabric.stretch_stiffness = {3000, 3000};
-        fabric.damping_ratio = 0.2f;
-        voile::GridCloth grid;
-        grid.columns = 65;
-        grid.rows = 2;
-        grid.width = 1;
-        grid.depth = 0.02f;
-        grid.material = voile::make_material(fabric, 1.f / 64, 0.02f);
-        tests::raw(grid).linear_drag = 4 * tests::raw(grid).vertex_mass; // 1/s, near critical for its slow swing
-        grid.pins = {0, 64, 65, 129};
-        // Compressed to its span along x and tilted slightly: otherwise symmetry would keep it on a line.
-        grid.transform[0] = {row.span, 0, 0, 0};
-        ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-        harness.upload();
-        harness.step({.duration = 0.1f}, 40);
-        double lowest = 0;
-        for (const glm::vec4& p : harness.positions(id))
-            lowest = std::min(lowest, static_cast<double>(p.y));
-        // A chain of 64 links, stretched by less than rho g L / k = 0.07 %.
-        CHECK(std::abs(-lowest / row.sag - 1) < 0.005);
-    }
-}
-
-TEST_CASE("a hanging strip swings with the periods of a chain")
-{
-    // Started in the shape of a mode, J0(j sqrt(s / L)) with s the height above the free end (Daniel Bernoulli 1733),
-    // the strip swings only in that mode: T = 4 pi sqrt(L / g) / j.
-    struct Mode
-    {
-        double root; // of J0
-        double period;
-    };
-    for (const Mode& mode : {Mode{2.404826, 1.668}, Mode{5.520078, 0.7268}})
-    {
-        CAPTURE(mode.period);
-        voile::Fabric fabric = still_air(0);
-        fabric.stretch_stiffness = {3000, 3000};
-        fabric.damping_ratio = 0;
-        const voile::GridCloth grid = hanging_sheet(2, 49, 0.02f, 1, fabric);
-        ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-        harness.upload();
-        // No wind can have the mode's shape. A uniform push excites the modes by known fractions, and the mass-weighted
-        // projection onto the mode's shape isolates the mode.
-        const auto shape = [&](uint32_t row)
-        { return std::cyl_bessel_j(0, mode.root * std::sqrt(static_cast<double>(48 - row) / 48)); };
-        const auto amplitude = [&]
-        {
-            const auto x = harness.positions(id);
-            double sum = 0;
-            for (uint32_t row = 1; row < 49; ++row)
-                sum += (row == 48 ? 0.5 : 1) * shape(row) * static_cast<double>(x[size_t{2} * row].z);
-            return sum;
-        };
-        harness.step({.duration = 0.02f, .gravity = {0, -9.81f, 2}}); // the push
-        constexpr double k_interval = 0.02;
-        double previous = amplitude();
-        std::vector<double> crossings; // from below, s
-        for (int i = 1; i < 220; ++i)
-        {
-            harness.step({.duration = static_cast<float>(k_interval)});
-            const double now = amplitude();
-            if (previous < 0 && now >= 0)
-                crossings.push_back((i - 1 - previous / (now - previous)) * k_interval);
-            previous = now;
-        }
-        REQUIRE(crossings.size() >= 2);
-        const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-        CHECK(period == tests::close_to(mode.period, 5e-3));
     }
 }
 
