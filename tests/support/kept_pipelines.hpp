@@ -1,7 +1,7 @@
-// Makes compute pipelines when they are first bound, and keeps them from one solver to the next. A software device takes
-// longer to make those of a solver than most tests take to run, and most tests bind a few of them. Solvers get handles
-// whose functions return a promise in place of a pipeline: of the same code with the same constants the same one.
-// Nothing is destroyed before the process ends. The viewer makes all pipelines in advance.
+// Makes compute pipelines when they are first bound, and keeps them from one solver to the next. A software device
+// takes longer to make those of a solver than most tests take to run, and most tests bind a few of them. Solvers get
+// handles whose functions return a promise in place of a pipeline: of the same code with the same constants the same
+// one. Nothing is destroyed before the process ends. The viewer makes all pipelines in advance.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
@@ -143,8 +143,8 @@ private:
         info.layout = promise.layout;
         VkResult result = fn_.vkCreateShaderModule(context_.device(), &module, nullptr, &info.stage.module);
         if (result == VK_SUCCESS)
-            result = fn_.vkCreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr,
-                                                  &promise.pipeline);
+            result =
+                fn_.vkCreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, &promise.pipeline);
         fn_.vkDestroyShaderModule(context_.device(), info.stage.module, nullptr);
         if (result != VK_SUCCESS)
             throw std::runtime_error("no pipeline \"" + promise.name + "\": VkResult " + std::to_string(result));
@@ -181,7 +181,7 @@ private:
     const voile::gpu::Context& context_;
     voile::gpu::DeviceFunctions fn_;
     PFN_vkGetDeviceProcAddr get_device_function_ = nullptr;
-    std::unordered_map<VkShaderModule, std::string> code_; // of each module that was made last under its handle
+    std::unordered_map<VkShaderModule, std::string> code_;     // of each module that was made last under its handle
     std::map<std::string, std::unique_ptr<Promise>> promises_; // by code and constants
     std::vector<VkPipelineLayout> layouts_;
     std::vector<VkDescriptorSetLayout> set_layouts_;

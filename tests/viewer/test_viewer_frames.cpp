@@ -86,14 +86,14 @@ TEST_CASE("a transform and a rigid motion place all frames")
         save(runs, "half_" + number, moved(mesh, 0.5f, glm::vec3(0)));
         save(runs, "fall_" + number, moved(mesh, 1, glm::vec3(0.05f, -0.1f, 0) * static_cast<float>(i)));
     }
-    const std::vector<SceneResult> results = runs.run_each(
-        {{R"({"frames": "dome_%d.obj", "rate": 2})", 0.35f},
-         {R"({"frames": "half_%d.obj", "rate": 2, "transform": {"scale": 2}})", 0.35f},
-         // Within `motion` too; a mesh of its faces may stand beside it and changes nothing.
-         {R"({"mesh": "half_1.obj", "motion": {"frames": "dome_%d.obj", "rate": 2}})", 0.35f},
-         {R"({"frames": "dome_%d.obj", "rate": 2, "motion": {"velocity": [0.1, -0.2, 0]}})", 0.35f},
-         {R"({"frames": "fall_%d.obj", "rate": 2})", 0.35f}},
-        15);
+    const std::vector<SceneResult> results =
+        runs.run_each({{R"({"frames": "dome_%d.obj", "rate": 2})", 0.35f},
+                       {R"({"frames": "half_%d.obj", "rate": 2, "transform": {"scale": 2}})", 0.35f},
+                       // Within `motion` too; a mesh of its faces may stand beside it and changes nothing.
+                       {R"({"mesh": "half_1.obj", "motion": {"frames": "dome_%d.obj", "rate": 2}})", 0.35f},
+                       {R"({"frames": "dome_%d.obj", "rate": 2, "motion": {"velocity": [0.1, -0.2, 0]}})", 0.35f},
+                       {R"({"frames": "fall_%d.obj", "rate": 2})", 0.35f}},
+                      15);
     const SceneResult& plain = results[0];
     CHECK(plain.deepest < 1e-5);
     CHECK(results[1].cloth.positions == plain.cloth.positions);
@@ -145,8 +145,8 @@ TEST_CASE("frames that no file gets are not drawn, and change no pixel of the ot
     const auto frames = [&](const std::string& name, const std::string& options)
     {
         const std::string out = (folder / name).string();
-        const Run run = run_viewer("moving --headless --size 160x90 --cloth-resolution 12 --frames 8 --validate --out " +
-                                   out + " " + options);
+        const Run run = run_viewer(
+            "moving --headless --size 160x90 --cloth-resolution 12 --frames 8 --validate --out " + out + " " + options);
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
         return out;

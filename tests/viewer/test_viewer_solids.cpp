@@ -78,7 +78,8 @@ TEST_CASE("solids move, and the exact checks use their current positions")
     {
         CAPTURE(cases[i].collider);
         // It has sunk 0.3 m: at its pose of time 0 nearly all of the cloth would be inside.
-        CHECK(bounds(results[i]).max.y == tests::close_to(0.202, 0.03)); // the fabric's thickness above; measured: 0.2037
+        CHECK(bounds(results[i]).max.y ==
+              tests::close_to(0.202, 0.03)); // the fabric's thickness above; measured: 0.2037
     }
     CHECK(runs.run_each(cases, 40, "")[0].deepest < 1e-5); // by the solver's own statistics
     check_refused(

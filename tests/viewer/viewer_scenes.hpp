@@ -73,8 +73,8 @@ public:
         const double deepest = run_scene(scene_of(cloths, colliders), frames, options);
         std::vector<SceneResult> results;
         for (size_t i = 0; i < cases.size(); ++i)
-            results.push_back({deepest, voile::engine::take(voile::engine::load_mesh(
-                                            folder_ / ("s_c" + std::to_string(i) + ".obj")))});
+            results.push_back({deepest, voile::engine::take(
+                                            voile::engine::load_mesh(folder_ / ("s_c" + std::to_string(i) + ".obj")))});
         return results;
     }
 
@@ -100,10 +100,9 @@ private:
     {
         const bool verifies = options.find("--verify") != std::string::npos;
         const auto file = folder_.write("s.json", text);
-        const Run run =
-            run_viewer(file.string() + " --headless --size 64x36 --frames " + std::to_string(frames) + " " + options +
-                       (verifies ? "" : " --stats " + (folder_ / "s.stats").string()) + " --export " +
-                       (folder_ / "s.obj").string());
+        const Run run = run_viewer(file.string() + " --headless --size 64x36 --frames " + std::to_string(frames) + " " +
+                                   options + (verifies ? "" : " --stats " + (folder_ / "s.stats").string()) +
+                                   " --export " + (folder_ / "s.obj").string());
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
         if (verifies)

@@ -46,8 +46,8 @@ public:
     // Collects uploads of components under construction. Recorded at the start of the next frame.
     [[nodiscard]] UploadBatch& uploads();
 
-    // Without a window: whether a frame is drawn. Default: every frame is. The others only simulate, which saves most of
-    // the time of a software device.
+    // Without a window: whether a frame is drawn. Default: every frame is. The others only simulate, which saves most
+    // of the time of a software device.
     std::function<bool(const FrameInfo&)> draws;
     // Called after the scene has been drawn, outside rendering: for copies out of the frame.
     std::function<void(VkCommandBuffer, const FrameInfo&)> after_render;
