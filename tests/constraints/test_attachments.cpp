@@ -4,6 +4,7 @@
 #include "support/cloth_harness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -193,6 +194,50 @@ TEST_CASE("attachments, tethers and anchors beyond the capacity hold from the ne
     CHECK(glm::distance(glm::vec3(z[99]), glm::vec3(z[88])) < 1.001f * diagonal);
     harness.upload(); // takes the former buffers
     harness.step({}, 2);
+}
+
+TEST_CASE("a pin without a position stays behind with its cloth, one with a position does not")
+{
+    ClothHarness harness;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(4)));
+    const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(at({0, 2, -0.5f})));
+    REQUIRE(harness.solver.set_attachments(id, {voile::pin(0, rod), voile::pin(3, rod, {0.5f, 0, 0})}));
+    harness.upload();
+    harness.step({}, 2);
+    const auto pins = [&]
+    {
+        const auto x = harness.positions(id);
+        return std::array{glm::vec3(x[0]), glm::vec3(x[3])};
+    };
+    const auto near = [](const glm::vec3& a, const glm::vec3& b) { return glm::distance(a, b) < 1e-6f; };
+    const auto move_to = [&](const glm::vec3& position)
+    {
+        REQUIRE(harness.solver.move_anchor(rod, at(position)));
+        harness.step({});
+    };
+    const glm::vec3 first(-0.5f, 2, -0.5f);
+    const glm::vec3 second(0.5f, 2, -0.5f);
+    const glm::vec3 x(1, 0, 0);
+    move_to(x + glm::vec3(0, 2, -0.5f));
+    CHECK(near(pins()[0], first + x));
+    CHECK(near(pins()[1], second + x));
+
+    // Moved while the cloth is disabled.
+    REQUIRE(harness.solver.set_enabled(id, false));
+    move_to(3.f * x + glm::vec3(0, 2, -0.5f));
+    REQUIRE(harness.solver.set_enabled(id, true));
+    harness.step({});
+    CHECK(near(pins()[0], first + x));
+    CHECK(near(pins()[1], second + 3.f * x));
+    move_to(4.f * x + glm::vec3(0, 2, -0.5f)); // by 1 m
+    CHECK(near(pins()[0], first + 2.f * x));
+    CHECK(near(pins()[1], second + 4.f * x));
+
+    // It begins where a reset puts it.
+    REQUIRE(harness.solver.reset(id));
+    harness.step({});
+    CHECK(near(pins()[0], first));
+    CHECK(near(pins()[1], second + 4.f * x));
 }
 
 TEST_CASE("a spring holds a vertex at m g / k below its target")
