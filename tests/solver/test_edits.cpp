@@ -300,3 +300,59 @@ TEST_CASE("a snapshot that is empty or not finite is refused")
     CHECK(snapshot.assign(bytes).error().message == "snapshot: vertex 2 is not finite");
     CHECK_FALSE(harness.solver.record_restore(VK_NULL_HANDLE, snapshot).has_value());
 }
+
+TEST_CASE("a snapshot of another solver is refused")
+{
+    ClothHarness small;
+    voile::GridCloth grid = hanging(stretchy(50));
+    (void)voile::engine::take(small.solver.add_cloth(grid));
+    small.upload();
+    const voile::Snapshot snapshot = voile::engine::take(small.solver.create_snapshot());
+    small.run([&](VkCommandBuffer cmd) { voile::engine::take(small.solver.record_save(cmd, snapshot)); });
+    ClothHarness large;
+    grid.columns *= 10;
+    (void)voile::engine::take(large.solver.add_cloth(grid));
+    large.upload();
+    for (ClothHarness* other : {&large, &small})
+        other->run(
+            [&](VkCommandBuffer cmd)
+            {
+                const bool own = other == &small;
+                CHECK(other->solver.record_save(cmd, snapshot).has_value() == own);
+                const auto restored = other->solver.record_restore(cmd, snapshot);
+                CHECK((own || restored.error().message == "snapshot: it was made by another solver"));
+            });
+}
+
+TEST_CASE("pins of a disabled cloth keep their inverse mass of 0, whatever changes")
+{
+    ClothHarness harness;
+    const voile::GridCloth grid = hanging(stretchy(50));
+    REQUIRE(grid.pins.size() >= 2);
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    harness.step({}, 2);
+    const voile::Snapshot snapshot = voile::engine::take(harness.solver.create_snapshot());
+    harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_save(cmd, snapshot)); });
+    voile::engine::take(harness.solver.set_enabled(id, false));
+    const auto pinned = [&](uint32_t vertex)
+    {
+        harness.step({});
+        const float speed = glm::length(glm::vec3(harness.velocities(id)[vertex]));
+        return harness.positions(id)[vertex].w == 0 && speed == 0;
+    };
+    CHECK(pinned(grid.pins[0]));
+    voile::engine::take(harness.solver.reset(id));
+    CHECK(pinned(grid.pins[0]));
+    voile::engine::take(harness.solver.set_velocity(id, {1, 0, 0}));
+    CHECK(pinned(grid.pins[0]));
+    voile::engine::take(harness.solver.set_material(id, stretchy(60)));
+    CHECK(pinned(grid.pins[0]));
+    harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_restore(cmd, snapshot)); });
+    CHECK(pinned(grid.pins[0]));
+    voile::engine::take(harness.solver.set_attachments(id, {voile::pin(grid.pins[1])}));
+    CHECK(pinned(grid.pins[1]));
+    CHECK_FALSE(pinned(grid.pins[0]));
+    voile::engine::take(harness.solver.set_attachments(id, {}));
+    CHECK_FALSE(pinned(grid.pins[1]));
+}

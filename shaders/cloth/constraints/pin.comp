@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Pins, once per step before its first substep. Sets each to its position and gives it the velocity that moves it along
 // a straight line to its position at the step's end. One thread per pin. Anchors can jump and scale, so positions are
-// clamped to their range.
+// clamped to their range. Pins of a disabled cloth stay where they are.
 #include "shared/attachment_layout.h"
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
@@ -22,6 +22,12 @@ void main()
     if (gl_GlobalInvocationID.x >= push.count)
         return;
     const AttachmentRecord attachment = attachments[push.first + gl_GlobalInvocationID.x];
+    if (push.step == 0)
+    {
+        positions[attachment.vertex].w = 0;
+        velocities[attachment.vertex] = vec4(0);
+        return;
+    }
     const AnchorRecord anchor = anchors[attachment.anchor];
     const bool placed = (attachment.flags & VOILE_ATTACHMENT_PLACED) != 0;
     const vec3 bound = vec3(VOILE_MOST_COORDINATE);

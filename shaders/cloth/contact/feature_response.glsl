@@ -15,6 +15,8 @@ const float k_lift_speed = 0.2;
 const float k_slow = 100;
 // Barycentric coordinates this far below 0 count as inside, so that no point between two triangles is missed.
 const float k_border = 1e-3;
+// The most that a vertex moves per motion of the contact point. Equal masses need 1.4, a ratio of 16 needs 3.4.
+const float k_most_portion = 4;
 
 // No contact.
 const uint k_no_collider = 0xffffffffu;
@@ -191,10 +193,12 @@ void merge(Response other)
     response.pressed = max(response.pressed, other.pressed);
 }
 
-// The motion of the vertex per motion of the contact point.
+// The motion of the vertex per motion of the contact point. Bounded: a vertex of a millionth of its neighbors' mass and
+// a thousandth of the weight would be thrown. The products of the smallest inverse masses underflow.
 float portion_of(vec3 weights, vec3 inverse_masses)
 {
-    return inverse_masses.x * weights.x / dot(inverse_masses, weights * weights);
+    const float sum = max(dot(inverse_masses, weights * weights), 1e-37);
+    return min(inverse_masses.x * weights.x / sum, k_most_portion);
 }
 
 // A feature vertex and the triangle.

@@ -53,7 +53,7 @@ struct AttachmentPush
 {
     uint first; // of the records
     uint count;
-    float step;     // s, of the substep; for pins, of the whole step
+    float step;     // s, of the substep; for pins, of the whole step, or 0 if their cloths are disabled
     float progress; // 0..1, of the step, at the substep's end
     float rate;     // 1/s, of the progress
 };

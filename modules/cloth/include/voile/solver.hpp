@@ -151,7 +151,7 @@ public:
     // What record_save copied, once its command buffer has completed.
     [[nodiscard]] std::span<const std::byte> bytes() const;
     // Takes the bytes() of another snapshot of cloths with as many vertices. Whether they are the same cloths cannot be
-    // checked. Errors: another number of bytes; a vertex that is not finite.
+    // checked. Errors: another number of bytes; a position or velocity that is not finite.
     Result<void> assign(std::span<const std::byte> bytes);
 
 private:
@@ -178,6 +178,8 @@ public:
     // than the device's buffers or dispatches can hold.
     Result<ClothId> add_cloth(const GridCloth& grid);
     Result<ClothId> add_cloth(const MeshCloth& mesh);
+    // A vertex that touches several colliders meets them in the order of their ids' indices. A new collider takes the
+    // smallest index that is free.
     Result<ColliderId> add_collider(const Collider& collider);
 
     // Remove something, at any time. It takes no part from the next record on; no upload is needed. Later additions use
@@ -311,8 +313,10 @@ public:
 
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
     // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of
-    // the solver when it restores. Errors: nothing uploaded yet, out of memory; cloths were uploaded or removed since
-    // create_snapshot; nothing saved to restore.
+    // the solver when it restores, and a vertex that is heavier than it was keeps its momentum, as in set_material.
+    // Changes that wait for the next record, such as reset, are made after it. Errors: nothing uploaded yet, out of
+    // memory; a snapshot of another solver; cloths were uploaded or removed since create_snapshot; nothing saved to
+    // restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);

@@ -33,7 +33,8 @@ struct ActiveLists
     std::array<LevelLists, VOILE_SUBSTEP_LEVELS> levels;
     std::vector<shared::Patch> patches;
     std::vector<shared::AttachmentRecord> attachments;
-    uint32_t pins = 0; // the first ones, of all levels
+    uint32_t pins = 0;       // the first ones, of all levels
+    EntryRange resting_pins; // the last ones, of cloths that are disabled
     std::vector<shared::TetherRecord> tethers;
 
     [[nodiscard]] uint32_t patch_count() const { return static_cast<uint32_t>(patches.size()); }

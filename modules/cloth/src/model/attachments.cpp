@@ -208,6 +208,11 @@ void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& 
         list.attachments.count = attachments() - list.attachments.first;
         list.tethers.count = tethers() - list.tethers.first;
     }
+    lists.resting_pins.first = attachments();
+    for (const auto [index, cloth] : model.cloths)
+        if (cloth.uploaded && !cloth.enabled)
+            add(cloth, index, true);
+    lists.resting_pins.count = attachments() - lists.resting_pins.first;
 }
 
 } // namespace voile

@@ -185,6 +185,15 @@ size_t record_state_edits(gpu::Recorder& recorder, Solver::State& solver)
     return std::erase_if(solver.edits.state_edits, uploaded);
 }
 
+// `duration`: s, of the step; 0: the pins do not move.
+void record_pins(gpu::Recorder& recorder, const Solver::State& solver, EntryRange pins, float duration)
+{
+    if (pins.count > 0)
+        recorder.dispatch(solver.kernels.pins, solver.device->sets.pins, pins.count,
+                          solver.options.tuning.workgroup_size,
+                          shared::AttachmentPush{pins.first, pins.count, duration, 0, 0});
+}
+
 } // namespace
 
 shared::AnchorRecord make_record(const Anchor& anchor)
@@ -242,9 +251,9 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
         record_masses(recorder, solver);
     const size_t edited = record_state_edits(recorder, solver);
     if (due.anchors || edited > 0)
-        recorder.dispatch(solver.kernels.pins, device.sets.pins, solver.lists.pins,
-                          solver.options.tuning.workgroup_size,
-                          shared::AttachmentPush{0, solver.lists.pins, step.duration, 0, 0});
+        record_pins(recorder, solver, {0, solver.lists.pins}, step.duration);
+    if (solver.edits.pins || solver.edits.masses || edited > 0)
+        record_pins(recorder, solver, solver.lists.resting_pins, 0);
     solver.history.normals_due |= edited > 0;
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;

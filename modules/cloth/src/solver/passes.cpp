@@ -93,7 +93,7 @@ void Solver::State::update_passes()
     for (const auto [index, cloth] : model.cloths)
         if (is_active(cloth) && cloth.record.strain_limit > 0)
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
-    const bool attached = lists.attachments.size() > lists.pins || !lists.tethers.empty();
+    const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
     next.contact = next.colliders > 0 || attached || next.strain_spacing > 0;
     passes = next;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -11,7 +12,8 @@ namespace voile
 
 struct Snapshot::Contents
 {
-    gpu::Buffer buffer; // one stream after the other, then depenetration's step
+    gpu::Buffer buffer;  // one stream after the other, then depenetration's step
+    uint64_t solver = 0; // its number
     std::vector<ClothId> cloths;
     uint32_t vertices = 0;           // of these
     uint32_t depenetration_step = 0; // modulo its period
@@ -149,12 +151,15 @@ std::vector<ClothId> uploaded_cloths(const Model& model)
     return ids;
 }
 
-// Errors: cloths were uploaded or removed since the snapshot was made.
-Result<void> check_cloths(const Solver::State& solver, std::span<const ClothId> cloths)
+// `number`: of the solver that made the snapshot, for `cloths`. Errors: another solver; cloths were uploaded or removed
+// since.
+Result<void> check_cloths(const Solver::State& solver, uint64_t number, std::span<const ClothId> cloths)
 {
-    if (std::ranges::equal(uploaded_cloths(solver.model), cloths))
-        return {};
-    return Error{"snapshot: it was made for other cloths: some were uploaded or removed since"};
+    if (solver.number != number)
+        return Error{"snapshot: it was made by another solver"};
+    if (!std::ranges::equal(uploaded_cloths(solver.model), cloths))
+        return Error{"snapshot: it was made for other cloths: some were uploaded or removed since"};
+    return {};
 }
 
 // Copies wait for compute, the host's stages and earlier copies; what follows waits for them.
@@ -176,9 +181,16 @@ void barrier(const gpu::Context& context, const SolverOptions& options, VkComman
 
 } // namespace
 
+uint64_t Solver::State::next_number()
+{
+    static std::atomic<uint64_t> numbers = 0;
+    return ++numbers;
+}
+
 Result<Snapshot> Solver::create_snapshot() const
 {
     auto contents = std::make_unique<Snapshot::Contents>();
+    contents->solver = state_->number;
     contents->cloths = uploaded_cloths(state_->model);
     if (contents->cloths.empty())
         return Error{"snapshot: nothing has been uploaded yet"};
@@ -195,7 +207,7 @@ Result<Snapshot> Solver::create_snapshot() const
 
 Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const
 {
-    if (auto same = check_cloths(*state_, snapshot.contents_->cloths); !same)
+    if (auto same = check_cloths(*state_, snapshot.contents_->solver, snapshot.contents_->cloths); !same)
         return same;
     const uint32_t step = state_->history.depenetration_step % k_depenetration_period;
     const VkBuffer buffer = snapshot.contents_->buffer.handle();
@@ -219,7 +231,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
 
 Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapshot)
 {
-    if (auto same = check_cloths(*state_, snapshot.contents_->cloths); !same)
+    if (auto same = check_cloths(*state_, snapshot.contents_->solver, snapshot.contents_->cloths); !same)
         return same;
     if (!snapshot.contents_->filled)
         return Error{"snapshot: nothing was saved in it"};

@@ -98,7 +98,10 @@ struct Solver::State
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
     bool dirty = false;
-    LifetimeCheck lifetime; // the last member, so that it checks before anything is destroyed
+    uint64_t number = next_number(); // tells the snapshots of this solver from those of others
+    LifetimeCheck lifetime;          // the last member, so that it checks before anything is destroyed
+
+    static uint64_t next_number();
 
     [[nodiscard]] const ClothModel* find(ClothId cloth) const { return model.cloths.find(cloth); }
     [[nodiscard]] const ColliderModel* find(ColliderId collider) const
