@@ -224,20 +224,20 @@ TEST_CASE("features of a mesh are found again only where cloths are thinner or c
 TEST_CASE("own masses of any size are not thrown at the edges of a box")
 {
     for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
-        for (const auto& [many, few] : {std::pair{1.4e-45f, 1.4e-45f}, std::pair{1e-42f, 1.4e-45f},
-                                        std::pair{10.f, 1e9f}, std::pair{10.f, 1e7f}, std::pair{1.f, 1e4f}})
+        for (const auto& masses : {std::pair{1.4e-45f, 1.4e-45f}, std::pair{1e-42f, 1.4e-45f}, std::pair{10.f, 1e9f},
+                                   std::pair{10.f, 1e7f}, std::pair{1.f, 1e4f}})
         {
             CAPTURE(int(integrator));
-            CAPTURE(many);
-            CAPTURE(few);
+            CAPTURE(masses.first);
+            CAPTURE(masses.second);
             tests::ClothHarness harness;
             voile::GridCloth grid;
             grid.columns = 5;
             grid.rows = 4;
             grid.integrator = integrator;
-            grid.inverse_masses.assign(20, many);
+            grid.inverse_masses.assign(20, masses.first);
             for (size_t i = 0; i < grid.inverse_masses.size(); i += 3)
-                grid.inverse_masses[i] = few;
+                grid.inverse_masses[i] = masses.second;
             grid.transform = tests::moved({0, 0.25f, 0});
             const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
             (void)voile::engine::take(
