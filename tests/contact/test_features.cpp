@@ -250,6 +250,6 @@ TEST_CASE("own masses of any size are not thrown at the edges of a box")
                 for (const glm::vec4& v : harness.velocities(id))
                     fastest = std::max(fastest, std::isfinite(v.x) ? glm::length(glm::vec3(v)) : 3e38f);
             }
-            CHECK(fastest < 1000); // measured: at most 258; without the contacts of edges 10
+            CHECK(fastest < 1000); // measured: at most 258, with 200 substeps 1,285; without the contacts of edges 10
         }
 }
