@@ -171,8 +171,8 @@ enum class Sidedness
 // - This works below some 5 m/s. Vertices never pass a surface, however fast, but faster cloth may be left with edges
 //   through a collider. With 1 mm of thickness and 32 mm between vertices, up to 4 edges of a box of triangles and 10
 //   of a BoxCollider remained, and at 60 m/s a needle stays through the sheet.
-// - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, disabled ones too:
-//   another such cloth changes how it holds this one (by 5 mm beside a sphere). Cloths of other layers do not.
+// - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, enabled or not.
+//   Another such cloth changes how it holds this one (by 5 mm beside a sphere). Cloths of other layers do not.
 // - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 9 m/s without edges).
 // - Meshes that deform have no edges and corners. Only vertices collide with them, and spikes that turn through cloth
 //   can tear it along (551 m/s at tips of 23 m/s; 35 with edges and corners).
