@@ -12,12 +12,14 @@
 #include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
+#include "shared/pair_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(constant_id = k_constant_contact_method) const int METHOD = 1;
 layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 layout(constant_id = k_constant_colliders_convex) const uint COLLIDERS_CONVEX = 1;
 layout(constant_id = k_constant_near_lists) const uint NEAR_LISTS = 1;
+layout(constant_id = k_constant_pairs) const uint PAIRS = 1;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
@@ -48,6 +50,9 @@ layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
     Depenetration depenetrations[];
 };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(pair_guards)) readonly buffer PairGuards { PairGuard pair_guards[]; };
+layout(VOILE_BINDING(pair_sweeps)) readonly buffer PairSweeps { PairSweep pair_sweeps[]; };
+layout(VOILE_BINDING(pair_impulses)) readonly buffer PairImpulses { vec4 pair_impulses[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -61,6 +66,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "contact/contact_vertex.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
+#include "pairs/hold.glsl"
 
 // Inside a collider the velocity that forces give a vertex decays in this time, s,
 const float k_inside_time = 0.01;
@@ -334,6 +340,31 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
+// The impulses of pairs act in the first substep after their pass.
+void respond_to_pairs(uint i, Hold hold, inout Motion motion)
+{
+    if (push.after_pairs != 0)
+    {
+        const vec3 change = pair_impulses[i].xyz;
+        motion.v += change;
+        motion.displacement += push.step * change;
+    }
+    const vec3 along = along_planes(hold, motion.displacement);
+    if (push.step > 0)
+        motion.v += (along - motion.displacement) / push.step;
+    motion.displacement = along;
+}
+
+// Cuts the motion where the guards of pairs end.
+void hold_within_guards(Hold hold, inout Motion motion)
+{
+    const float part = held_part(hold, motion.displacement);
+    if (part == 1)
+        return;
+    motion.v *= part;
+    motion.displacement *= part;
+}
+
 void main()
 {
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
@@ -349,6 +380,14 @@ void main()
     bool changed = flags != 0;
     if (proposed.w > 0)
     {
+        const bool held = PAIRS != 0 && (cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) != 0;
+        Hold hold;
+        if (held)
+        {
+            hold = hold_of(i, motion.from);
+            respond_to_pairs(i, hold, motion);
+            changed = true;
+        }
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;
         contact.friction = Friction(cloths[cloth].static_friction, cloths[cloth].kinetic_friction);
@@ -366,6 +405,8 @@ void main()
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;
         }
+        if (held)
+            hold_within_guards(hold, motion);
     }
     if (changed)
         write_motion(i, motion, flags);

@@ -13,7 +13,9 @@
     VOILE_CONSTANT(3, colliders_move)                                                                                  \
     VOILE_CONSTANT(4, colliders_convex)                                                                                \
     VOILE_CONSTANT(5, near_lists)                                                                                      \
-    VOILE_CONSTANT(6, from_leaves)
+    VOILE_CONSTANT(6, from_leaves)                                                                                     \
+    VOILE_CONSTANT(7, pairs)                                                                                           \
+    VOILE_CONSTANT(8, pair_phase)
 
 #ifdef __cplusplus
 
@@ -28,7 +30,7 @@ enum Name : uint32_t
 #define VOILE_SOLVER_BUFFER(number, name, entry, meaning) name = (number),
 #include "buffers.h"
 };
-constexpr uint32_t k_numbers = 64; // the first number of a role
+constexpr uint32_t k_numbers = 128; // the first number of a role
 } // namespace voile::buffer
 
 // The bindings that a kernel can declare: a buffer by its own name, or a role.

@@ -28,6 +28,7 @@
 #define VOILE_CLOTH_VERLET 1u          // velocity Verlet; otherwise RK4
 #define VOILE_CLOTH_ISOMETRIC 2u       // isometric bending; a Fabric then has no bend springs
 #define VOILE_CLOTH_UNIFORM_SPRINGS 4u // a mesh whose springs all have their class's constants; weights do not count
+#define VOILE_CLOTH_SELF_COLLISION 8u  // it collides with itself, and with other cloths of its layers that do
 // Set in MeshSpring.neighbor: the spring joins the two vertices opposite to an edge.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
@@ -72,7 +73,8 @@ struct ClothRecord
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
     float strain_limit;       // largest l / L - 1; 0: no limit
     uint strain_spacing;      // of the widest level of the strain limit that moves the cloth, in grid lines
-    float padding[2];
+    float pair_thickness;     // m, from itself and other cloths
+    float pair_range;         // m, within which pairs are listed
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;

@@ -60,6 +60,7 @@ struct ContactPush
     uint in_place;      // 1: changes are written into the proposed state; 0: the whole state into the earlier one
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
+    uint after_pairs;   // 1: the impulses of pairs are new
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
 };
 
@@ -74,7 +75,7 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 72);
+static_assert(sizeof(ContactPush) == 76);
 #endif
 
 VOILE_SHARED_END

@@ -59,8 +59,11 @@ struct GridCloth
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.
     std::vector<float> inverse_masses{};
 
-    // Bits. The cloth collides with colliders that share one.
+    // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
     uint32_t layers = 1;
+
+    // The cloth collides with itself, and with other such cloths.
+    bool self_collision = false;
 };
 
 // A cloth of triangles. The mesh may be open or closed, in one piece or several. Vertices keep their order.
@@ -112,8 +115,11 @@ struct MeshCloth
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.
     std::vector<float> inverse_masses{};
 
-    // Bits. The cloth collides with colliders that share one.
+    // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
     uint32_t layers = 1;
+
+    // The cloth collides with itself, and with other such cloths.
+    bool self_collision = false;
 
     // Replaces positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest is
     // that of the transform at cooking. This transform may differ from that one by a rotation and a translation. With

@@ -44,4 +44,8 @@ constexpr uint32_t aligned_first_box(uint32_t first)
 // written.
 void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree);
 
+// The same for a tree whose boxes of the last level are there: records the levels above. `leaves`: of its slots, how
+// many are in use.
+void record_fold(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, uint32_t leaves);
+
 } // namespace voile

@@ -241,6 +241,20 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.strain_spacing = strain_spacing(record);
 }
 
+// m: cloth that is as thick as its edges are long could not fold.
+constexpr float k_thickest = 0.5f; // times the spacing of vertices
+// m: pairs are listed within this, times the smallest height of a triangle. A flat cloth has none.
+constexpr float k_pair_heights = 0.6f;
+constexpr float k_pair_thicknesses = 1.5f;
+
+void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
+{
+    const glm::vec2 d = cloth.mesh ? glm::vec2(static_cast<float>(std::sqrt(cloth.mesh->mean_area))) : cloth.spacing;
+    record.pair_thickness = std::min(record.thickness, k_thickest * std::min(d.x, d.y));
+    record.pair_range = std::max(k_pair_thicknesses * record.pair_thickness,
+                                 k_pair_heights * d.x * d.y / glm::length(d));
+}
+
 } // namespace
 
 double density(const ClothMaterial& material)
@@ -284,6 +298,9 @@ void apply_material(ClothModel& cloth)
     record.inverse_density = cloth.own_inverse_mass > 0 ? 1 : static_cast<float>(1 / density(cloth.material));
     if (bends_isometrically(cloth.material))
         record.flags |= VOILE_CLOTH_ISOMETRIC;
+    if (cloth.self_collision)
+        record.flags |= VOILE_CLOTH_SELF_COLLISION;
+    set_pair_distances(cloth, record);
     if (cloth.own_inverse_mass > 0)
     {
         // The lightest vertex against what the material gives it.

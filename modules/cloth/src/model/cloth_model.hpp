@@ -38,6 +38,7 @@ struct ClothModel
 {
     std::string name;
     bool enabled = true;
+    bool self_collision = false;
     bool uploaded = false; // its arrays are in the solver's buffers
     uint32_t level = 0;    // of its substeps (substep_plan.hpp)
     bool jumped = false;   // reset or teleported in the step that is recorded
@@ -59,6 +60,7 @@ struct ClothModel
     std::vector<glm::uvec2> residuals; // of the positions at the start (fine_position.glsl)
     std::vector<glm::vec4> positions;  // at the start; w: inverse mass, 0 if pinned. Empty once they are uploaded
     std::vector<glm::vec4> velocities; // at the start. Empty once they are uploaded
+    std::vector<uint32_t> pair_order;  // of a cloth that collides with itself: its vertices, near ones together
     Extent extent;                     // m, of the positions at the start
     float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
     uint64_t first_triangle = 0;       // in the index buffer, if there is one

@@ -69,6 +69,7 @@ Result<ClothId> Model::add(const GridCloth& grid)
     cloth.record.columns = grid.columns;
     cloth.record.rows = grid.rows;
     cloth.record.layers = grid.layers;
+    cloth.self_collision = grid.self_collision;
     return append(std::move(cloth), input, world);
 }
 

@@ -164,6 +164,7 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.mesh = std::move(shape.value().mesh);
     cloth.lists = uploaded_lists(cloth.mesh);
     cloth.record.layers = description.layers;
+    cloth.self_collision = description.self_collision;
     return append(std::move(cloth), input_of(description), shape.value().world);
 }
 

@@ -1,6 +1,8 @@
 // Model: adding and removing cloths, and validation for all kinds of cloth.
 #include "model/model.hpp"
 
+#include "model/pair_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +76,8 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
         cloth.first_triangle = triangles.allocate(count_triangles(cloth));
     apply_material(cloth);
     set_start(cloth, input, world_positions);
+    if (cloth.self_collision)
+        cloth.pair_order = make_pair_order(cloth.start);
     patches += count_patches(record, limits.workgroup_size);
     return cloths.add(std::move(cloth));
 }

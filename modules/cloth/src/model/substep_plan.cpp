@@ -86,7 +86,7 @@ SubstepPlan cheapest_plan(Needs needs, double fraction, uint32_t most, const Sub
     if (reduced(needs.front().substeps, fraction) > most_substeps / 2)
         return best; // no cloth fits a level above
     uint64_t least = cost_of(best, needs, limits);
-    for (uint32_t levels = 2; levels <= VOILE_SUBSTEP_LEVELS; ++levels)
+    for (uint32_t levels = 2; levels <= limits.levels; ++levels)
     {
         const uint32_t multiple = 1u << (levels - 1);
         const uint32_t first = (least_substeps + multiple - 1) / multiple * multiple;

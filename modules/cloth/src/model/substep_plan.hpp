@@ -27,6 +27,7 @@ struct SubstepLimits
     uint64_t vertex_substeps = 0; // sum of vertices times substeps, at most; 0: no limit
     uint64_t dispatch_vertices =
         0; // vertices whose substep takes as long as the dispatches of a substep without vertices
+    uint32_t levels = VOILE_SUBSTEP_LEVELS; // at most
 };
 
 struct SubstepPlan

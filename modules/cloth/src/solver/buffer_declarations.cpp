@@ -7,6 +7,7 @@
 #include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
+#include "shared/pair_layout.h"
 #include "shared/statistics_layout.h"
 #include "shared/strain_layout.h"
 

@@ -52,6 +52,11 @@ struct DescriptorSets
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet refit{};
+    std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
+    VkDescriptorSet pair_refit{};
+    std::array<VkDescriptorSet, 2> find_pairs{};
+    std::array<VkDescriptorSet, 2> pair_motions{};
+    std::array<VkDescriptorSet, 2> pair_responses{};
     VkDescriptorSet normals{};
     VkDescriptorSet statistics{};
     VkDescriptorSet statistics_reduce{};

@@ -5,6 +5,7 @@
 #include "model/range_allocator.hpp"
 
 #include "shared/collider_layout.h"
+#include "shared/pair_layout.h"
 #include "shared/step_layout.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ constexpr uint64_t BufferCounts::*k_counts[] = {
     &BufferCounts::tethers,
     &BufferCounts::previous_vertices,
     &BufferCounts::cloth_triangles,
+    &BufferCounts::pair_vertices,
 };
 static_assert(sizeof(BufferCounts) == std::size(k_counts) * sizeof(uint64_t));
 

@@ -55,6 +55,7 @@ struct BufferCounts
     uint64_t tethers = 0;
     uint64_t previous_vertices = 0; // 0 unless the host asks for previous positions
     uint64_t cloth_triangles = 0;   // 0 unless the host asks for indices
+    uint64_t pair_vertices = 0;     // 0 unless a cloth collides with itself
 
     // Entries of each buffer, by name.
     [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
@@ -71,6 +72,7 @@ struct DeviceState
     uint32_t collider_count = 0; // records that are written; no cloth collides with those of removed colliders
 
     uint32_t patch_count = 0; // in the buffer of patches
+    uint32_t pair_slots = 0;  // of the hierarchy of pairs, those of disabled and removed cloths included
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }
 };

@@ -43,7 +43,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);
     add(kernels.limit_guard, "cloth limit guard", shaders::k_limit_guard_comp, plain);
     add(kernels.edit, "cloth edit", shaders::k_edit_comp, plain);
-    const auto add_contact = [&](gpu::Kernel& kernel, uint32_t move, uint32_t convex, uint32_t near_lists)
+    const auto add_contact = [&](gpu::Kernel& kernel, uint32_t move, uint32_t convex, uint32_t near_lists, uint32_t pairs)
     {
         add(kernel, "cloth contact", shaders::k_contact_comp,
             {.workgroup_size = group,
@@ -51,12 +51,24 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
              .interleaved = interleaved,
              .colliders_move = move,
              .colliders_convex = convex,
-             .near_lists = near_lists});
+             .near_lists = near_lists,
+             .pairs = pairs});
     };
-    add_contact(kernels.contact, 0, 0, 0);
-    add_contact(kernels.contact_convex, 0, 1, 0);
-    add_contact(kernels.contact_moving, 1, 1, 0);
-    add_contact(kernels.contact_many, 1, 1, 1);
+    add_contact(kernels.contact, 0, 0, 0, 0);
+    add_contact(kernels.contact_convex, 0, 1, 0, 0);
+    add_contact(kernels.contact_moving, 1, 1, 0, 0);
+    add_contact(kernels.contact_many, 1, 1, 1, 0);
+    add_contact(kernels.contact_pairs, 1, 1, 0, 1);
+    add_contact(kernels.contact_pairs_many, 1, 1, 1, 1);
+    add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
+    add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
+    const auto add_response = [&](gpu::Kernel& kernel, const char* name, uint32_t phase)
+    {
+        add(kernel, name, shaders::k_respond_to_pairs_comp,
+            {.workgroup_size = group, .interleaved = interleaved, .pair_phase = phase});
+    };
+    add_response(kernels.pair_motions, "cloth pair motions", 0);
+    add_response(kernels.pair_responses, "cloth pair responses", 1);
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};

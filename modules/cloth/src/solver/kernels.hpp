@@ -26,6 +26,12 @@ struct Kernels
     gpu::Kernel contact_convex; // with spheres, capsules, boxes beside them
     gpu::Kernel contact_moving; // where colliders move or deform
     gpu::Kernel contact_many;   // where patches have lists of the colliders near them
+    gpu::Kernel contact_pairs;  // where cloths collide with themselves
+    gpu::Kernel contact_pairs_many;
+    gpu::Kernel pair_boxes;
+    gpu::Kernel find_pairs;
+    gpu::Kernel pair_motions;
+    gpu::Kernel pair_responses;
     gpu::Kernel near_colliders;
     gpu::Kernel near_features;
     gpu::Kernel near_features_moving;

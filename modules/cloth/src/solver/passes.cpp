@@ -58,7 +58,8 @@ SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& need
             needed.push_back({voile::stable_substeps(cloth.record, duration), cloth.record.vertices});
     return plan_substeps(needed, {.substeps = step.max_substeps,
                                   .vertex_substeps = step.max_vertex_substeps,
-                                  .dispatch_vertices = options.tuning.dispatch_vertices});
+                                  .dispatch_vertices = options.tuning.dispatch_vertices,
+                                  .levels = passes.pairs ? 1u : VOILE_SUBSTEP_LEVELS});
 }
 
 void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
@@ -91,10 +92,18 @@ void Solver::State::update_passes()
         }
     next.depenetration = next.depenetration && options.depenetration;
     for (const auto [index, cloth] : model.cloths)
-        if (is_active(cloth) && cloth.record.strain_limit > 0)
+    {
+        if (!is_active(cloth))
+            continue;
+        if (cloth.record.strain_limit > 0)
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
+        if (!cloth.self_collision)
+            continue;
+        next.pair_range = next.pairs ? std::min(next.pair_range, cloth.record.pair_range) : cloth.record.pair_range;
+        next.pairs = true;
+    }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
-    next.contact = next.colliders > 0 || attached || next.strain_spacing > 0;
+    next.contact = next.colliders > 0 || attached || next.strain_spacing > 0 || next.pairs;
     passes = next;
 }
 

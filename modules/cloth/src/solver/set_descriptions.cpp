@@ -46,6 +46,7 @@ private:
     void add_limit_guard();
     void add_contact();
     void add_depenetration();
+    void add_pairs();
 
     DescriptorSets& sets_;
     const Kernels& kernels_;
@@ -222,6 +223,24 @@ void Describer::add_depenetration()
             {{binding::next_votes, k_depenetration_votes[i]}, {binding::last_votes, k_depenetration_votes[1 - i]}});
 }
 
+void Describer::add_pairs()
+{
+    for (size_t parity = 0; parity < 2; ++parity)
+    {
+        const StateBuffers& now = k_proposals[parity].earlier;
+        add(sets_.pair_boxes[parity], kernels_.pair_boxes,
+            {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
+        for (const auto& [set, kernel] : {std::pair(&sets_.find_pairs, &kernels_.find_pairs),
+                                          std::pair(&sets_.pair_motions, &kernels_.pair_motions),
+                                          std::pair(&sets_.pair_responses, &kernels_.pair_responses)})
+            add((*set)[parity], *kernel,
+                {{binding::stage_positions, now.positions},
+                 {binding::stage_residuals, now.residuals},
+                 {binding::stage_velocities, now.velocities}});
+    }
+    add(sets_.pair_refit, kernels_.refit.levels, {{binding::padded_boxes, buffer::pair_boxes}});
+}
+
 std::vector<SetDescription> Describer::describe()
 {
     add_stages();
@@ -231,6 +250,7 @@ std::vector<SetDescription> Describer::describe()
     add_limit_guard();
     add_contact();
     add_depenetration();
+    add_pairs();
     add(sets_.deform, kernels_.deform);
     add(sets_.refit, kernels_.refit.leaves);
     add(sets_.normals, kernels_.normals);

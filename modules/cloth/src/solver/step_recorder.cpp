@@ -1,6 +1,8 @@
 // The passes of one step: those of all levels in the order of time, then the strain limit.
 #include "solver/substeps.hpp"
 
+#include "solver/pairs.hpp"
+
 #include <bit>
 
 namespace voile
@@ -45,10 +47,16 @@ void StepRecorder::record()
 {
     if (solver_.passes.strain_spacing > 0)
         keep_state(k_step_start);
+    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan.substeps);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
+    {
+        const bool after_pairs = solver_.passes.pairs && pairs.begins(substep);
+        if (after_pairs)
+            pairs.record(substep, levels_[0]->in_stage_b(substep));
         for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
             if (levels_[level] && substep % (1u << level) == 0)
-                levels_[level]->record_substep(substep >> level);
+                levels_[level]->record_substep(substep >> level, after_pairs);
+    }
     for_each_level([](LevelRecorder& level) { level.finish(); });
     if (solver_.passes.strain_spacing > 0)
         record_strain_limit();

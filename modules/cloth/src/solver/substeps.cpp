@@ -46,7 +46,7 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
 {
 }
 
-void LevelRecorder::record_substep(uint32_t substep)
+void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
 {
     if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
         record_near_colliders(substep);
@@ -58,7 +58,7 @@ void LevelRecorder::record_substep(uint32_t substep)
     if (solver_.passes.features)
         record_features(substep);
     if (has_contact_)
-        record_contact(substep);
+        record_contact(substep, after_pairs);
 }
 
 EntryRange LevelRecorder::verlet_patches() const
@@ -185,7 +185,7 @@ void LevelRecorder::record_features(uint32_t substep)
         device_[buffer::feature_dispatch].handle(), level_ * VOILE_DISPATCH_WORDS * sizeof(uint32_t), push);
 }
 
-void LevelRecorder::record_contact(uint32_t substep)
+void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
 {
     shared::ContactPush push{};
     push.step = h_;
@@ -203,6 +203,7 @@ void LevelRecorder::record_contact(uint32_t substep)
     push.near_stride = device_.near_stride;
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
+    push.after_pairs = after_pairs ? 1 : 0;
     push.limited_only = substep == substeps_ ? 1 : 0;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
@@ -210,6 +211,8 @@ void LevelRecorder::record_contact(uint32_t substep)
 
 const gpu::Kernel& LevelRecorder::contact_kernel() const
 {
+    if (solver_.passes.pairs)
+        return device_.near_stride > 0 ? kernels_.contact_pairs_many : kernels_.contact_pairs;
     if (device_.near_stride > 0)
         return kernels_.contact_many;
     if (solver_.passes.moving)

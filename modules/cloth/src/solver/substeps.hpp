@@ -28,7 +28,13 @@ public:
     // comes before all other passes of the step that read colliders.
     void record_near_colliders(uint32_t substep);
     // Integration, attachments, tethers and contact.
-    void record_substep(uint32_t substep);
+    void record_substep(uint32_t substep, bool after_pairs);
+    // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
+    // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
+    [[nodiscard]] bool in_stage_b(uint32_t substep) const
+    {
+        return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
+    }
     // Verlet's last half kick.
     void finish();
     // Attachments, tethers and contact after the strain limit, over no time.
@@ -46,7 +52,7 @@ private:
     void record_near_features(uint32_t substep);
     [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
-    void record_contact(uint32_t substep);
+    void record_contact(uint32_t substep, bool after_pairs = false);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     [[nodiscard]] EntryRange verlet_patches() const;
     template <typename Push>
@@ -55,13 +61,6 @@ private:
         push.first_patch = patches.first;
         recorder_.dispatch(kernel, set, patches.count * group_, group_, push);
     }
-    // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
-    // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
-    [[nodiscard]] bool in_stage_b(uint32_t substep) const
-    {
-        return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
-    }
-
     const StepContext& context_;
     gpu::Recorder& recorder_;
     const Solver::State& solver_;

@@ -83,6 +83,16 @@ void stage_features(Staging& staging, const ColliderModels& models, const Collid
     staging.add_copy(buffer::feature_sets, index, std::vector{set});
 }
 
+// The order of all cloths that collide with themselves, one after the other.
+std::vector<glm::uvec2> pair_order(const Model& model)
+{
+    std::vector<glm::uvec2> order;
+    for (const auto [index, cloth] : model.cloths)
+        for (const uint32_t vertex : cloth.pair_order)
+            order.emplace_back(cloth.record.first_vertex + vertex, index);
+    return order;
+}
+
 // Everything that is new since the last upload, and planes, whose origins follow the cloths.
 Staging stage_new(Solver::State& solver)
 {
@@ -91,6 +101,7 @@ Staging stage_new(Solver::State& solver)
     for (const auto [index, cloth] : solver.model.cloths)
         if (!cloth.uploaded)
             stage_cloth(staging, cloth, index, solver.options.output);
+    staging.add_copy(buffer::pair_order, 0, pair_order(solver.model));
     solver.model.lists.for_each_new([&](const auto& placement) { stage_lists(staging, placement); });
     for (auto [index, collider] : models.colliders)
     {
@@ -117,6 +128,14 @@ Staging stage_new(Solver::State& solver)
     return staging;
 }
 
+uint64_t count_pair_slots(const Model& model)
+{
+    uint64_t slots = 0;
+    for (const auto [index, cloth] : model.cloths)
+        slots += cloth.pair_order.size();
+    return slots;
+}
+
 // The entries that the buffers must have room for.
 BufferCounts count_entries(const Solver::State& solver)
 {
@@ -141,7 +160,8 @@ BufferCounts count_entries(const Solver::State& solver)
             .attachments = attached.attachments,
             .tethers = attached.tethers,
             .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
-            .cloth_triangles = model.triangles.end()};
+            .cloth_triangles = model.triangles.end(),
+            .pair_vertices = count_pair_slots(model) > 0 ? model.vertices.end() : 0};
 }
 
 std::vector<ColliderId> new_deforming(const ColliderModels& models)
@@ -245,6 +265,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
 {
     const std::vector<ColliderId> deforming = new_deforming(collider_models);
     mark_uploaded(*this);
+    device->pair_slots = static_cast<uint32_t>(count_pair_slots(model));
     update_patches();
     record_patches(recorder, *this);
     const Scope after = host_scopes(options).after;

@@ -1,0 +1,49 @@
+// Guards: what a vertex may do between two passes over the pairs.
+#ifndef VOILE_GUARD_GLSL
+#define VOILE_GUARD_GLSL
+
+#include "shared/fine_position.glsl"
+
+const float k_unbounded = 1e30;
+
+// m: with length(d) <= this, a displacement d that satisfies plane q satisfies plane p, too. Both have s >= 0.
+float implied_within(vec4 p, vec4 q)
+{
+    const float c = dot(p.xyz, q.xyz);
+    const float rest = p.w - c * q.w;
+    return c > 0 && rest > p.w * 1e-3 ? max(p.w, rest * inversesqrt(max(1 - c * c, 1e-8))) : p.w;
+}
+
+float implied_within(vec4 p, vec4 q, vec4 r) { return max(implied_within(p, q), implied_within(p, r)); }
+
+// Adds a plane. Of three, the one that the others imply within the largest ball becomes that ball.
+void add_plane(inout PairGuard guard, vec4 plane)
+{
+    const vec4 a = guard.planes[0];
+    const vec4 b = guard.planes[1];
+    const float without_a = implied_within(a, b, plane);
+    const float without_b = implied_within(b, a, plane);
+    const float without_new = implied_within(plane, a, b);
+    if (without_new >= without_a && without_new >= without_b)
+        guard.reach = min(guard.reach, without_new);
+    else if (without_a >= without_b)
+    {
+        guard.reach = min(guard.reach, without_a);
+        guard.planes[0] = plane;
+    }
+    else
+    {
+        guard.reach = min(guard.reach, without_b);
+        guard.planes[1] = plane;
+    }
+}
+
+PairGuard no_guard()
+{
+    PairGuard guard;
+    guard.planes[0] = guard.planes[1] = vec4(0, 0, 0, k_unbounded);
+    guard.reach = k_unbounded;
+    return guard;
+}
+
+#endif

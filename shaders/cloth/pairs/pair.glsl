@@ -1,0 +1,160 @@
+// A pair of primitives that share no vertex, packed into four words, and how near they are.
+#ifndef VOILE_PAIR_GLSL
+#define VOILE_PAIR_GLSL
+
+const uint k_pair_index_mask = (1u << VOILE_PAIR_INDEX_BITS) - 1;
+const uint k_pair_edges_bit = 1u << 31; // of the first word
+// The bits above an index contain five of the 15 bits of the thickness as a half, in the other three words.
+const uint k_pair_part_bits = 32 - VOILE_PAIR_INDEX_BITS;
+const uint k_pair_part_mask = (1u << k_pair_part_bits) - 1;
+
+// The vertices of two edges: each edge's in ascending order, first the edge with the lowest of all. Of a vertex and a
+// triangle: the vertex, then the triangle's in ascending order. Both sides of a pair pack the same words.
+struct Pair
+{
+    uvec4 vertices;
+    bool edges;
+    float thickness; // m, at which the primitives repel each other
+};
+
+uvec4 ordered_edges(uvec2 a, uvec2 b)
+{
+    a = uvec2(min(a.x, a.y), max(a.x, a.y));
+    b = uvec2(min(b.x, b.y), max(b.x, b.y));
+    return a.x < b.x ? uvec4(a, b) : uvec4(b, a); // they share no vertex
+}
+
+uvec4 ordered_triangle(uint vertex, uvec3 t)
+{
+    const uint low = min(t.x, min(t.y, t.z));
+    const uint high = max(t.x, max(t.y, t.z));
+    return uvec4(vertex, low, t.x ^ t.y ^ t.z ^ low ^ high, high);
+}
+
+uvec4 packed(Pair pair)
+{
+    const uint bits = packHalf2x16(vec2(pair.thickness, 0));
+    const uvec3 parts = (uvec3(bits) >> uvec3(0, k_pair_part_bits, 2 * k_pair_part_bits)) & k_pair_part_mask;
+    return pair.vertices | uvec4(pair.edges ? k_pair_edges_bit : 0, parts << VOILE_PAIR_INDEX_BITS);
+}
+
+Pair unpacked(uvec4 words)
+{
+    const uvec3 parts = (words.yzw >> VOILE_PAIR_INDEX_BITS) << uvec3(0, k_pair_part_bits, 2 * k_pair_part_bits);
+    return Pair(words & k_pair_index_mask, (words.x & k_pair_edges_bit) != 0,
+                unpackHalf2x16(parts.x | parts.y | parts.z).x);
+}
+
+// The number of vertices of the first side.
+uint first_side(Pair pair) { return pair.edges ? 2 : 1; }
+
+// The place of a vertex in a pair, 0 to 3; 4: it is not in it.
+uint place_in(Pair pair, uint vertex)
+{
+    const bvec4 equal = equal(pair.vertices, uvec4(vertex));
+    return equal.x ? 0 : equal.y ? 1 : equal.z ? 2 : equal.w ? 3 : 4;
+}
+
+// The owners of both sides.
+uvec2 owners_of(Pair pair) { return pair.edges ? pair.vertices.xz : pair.vertices.xy; }
+
+// The nearest points of both sides.
+struct Nearest
+{
+    vec4 weights; // of the vertices: they sum to 1 on the first side and to -1 on the second
+    vec3 apart;   // m, from the second side's point to the first side's
+};
+
+// Of segments (a, b) and (c, d): the parameter of each. Ericson 2004, Real-Time Collision Detection, 5.1.9.
+vec2 nearest_on_segments(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    const vec3 d1 = b - a;
+    const vec3 d2 = d - c;
+    const vec3 r = a - c;
+    const float aa = dot(d1, d1);
+    const float ee = dot(d2, d2);
+    const float f = dot(d2, r);
+    const float g = dot(d1, r);
+    const float m = dot(d1, d2);
+    const float determinant = aa * ee - m * m;
+    float s = 0.5; // of parallel edges
+    if (determinant > 1e-6 * aa * ee)
+        s = clamp((m * f - g * ee) / determinant, 0, 1);
+    float t = ee > 0 ? (m * s + f) / ee : 0;
+    if (t < 0 || t > 1)
+    {
+        t = clamp(t, 0, 1);
+        s = aa > 0 ? clamp((t * m - g) / aa, 0, 1) : 0;
+    }
+    return vec2(s, t);
+}
+
+// The barycentric coordinates of the point of triangle (a, b, c) nearest to the origin.
+vec3 nearest_weights(vec3 a, vec3 b, vec3 c)
+{
+    const vec3 ab = b - a;
+    const vec3 ac = c - a;
+    const float d1 = -dot(ab, a);
+    const float d2 = -dot(ac, a);
+    const float d3 = -dot(ab, b);
+    const float d4 = -dot(ac, b);
+    const float d5 = -dot(ab, c);
+    const float d6 = -dot(ac, c);
+    if (d1 <= 0 && d2 <= 0)
+        return vec3(1, 0, 0);
+    if (d3 >= 0 && d4 <= d3)
+        return vec3(0, 1, 0);
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return vec3(1 - d1 / (d1 - d3), d1 / (d1 - d3), 0);
+    if (d6 >= 0 && d5 <= d6)
+        return vec3(0, 0, 1);
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return vec3(1 - d2 / (d2 - d6), 0, d2 / (d2 - d6));
+    const float va = d3 * d6 - d5 * d4;
+    const float on_bc = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    if (va <= 0 && d4 >= d3 && d5 >= d6)
+        return vec3(0, 1 - on_bc, on_bc);
+    const float scale = 1 / (va + vb + vc);
+    return vec3(1 - (vb + vc) * scale, vb * scale, vc * scale);
+}
+
+// `x`: m, the vertices of a pair, relative to any point near them.
+Nearest nearest_points(bool edges, vec3 x[4])
+{
+    Nearest nearest;
+    if (edges)
+    {
+        const vec2 at = nearest_on_segments(x[0], x[1], x[2], x[3]);
+        nearest.weights = vec4(1 - at.x, at.x, at.y - 1, -at.y);
+    }
+    else
+        nearest.weights = vec4(1, -nearest_weights(x[1] - x[0], x[2] - x[0], x[3] - x[0]));
+    nearest.apart = nearest.weights.y * (x[1] - x[0]) + nearest.weights.z * (x[2] - x[0]) +
+                    nearest.weights.w * (x[3] - x[0]);
+    return nearest;
+}
+
+// A plane between both sides. Each side of a pair is on its side of two parallel planes with the normal `n`, whatever
+// rounding did to the nearest points.
+struct Separation
+{
+    vec3 n;    // unit, towards the first side
+    float gap; // m, between the planes; below 0: they do not separate
+    vec4 from_plane; // m, of each vertex, from the plane of its side, away from the other side
+};
+
+Separation separate(bool edges, vec3 x[4], vec3 n)
+{
+    Separation result;
+    result.n = n;
+    const vec4 heights = vec4(0, dot(n, x[1] - x[0]), dot(n, x[2] - x[0]), dot(n, x[3] - x[0]));
+    const float low = edges ? min(heights.x, heights.y) : heights.x;
+    const float high = edges ? max(heights.z, heights.w) : max(heights.y, max(heights.z, heights.w));
+    result.gap = low - high;
+    result.from_plane = vec4(heights.x - low, edges ? heights.y - low : high - heights.y, high - heights.zw);
+    return result;
+}
+
+#endif
