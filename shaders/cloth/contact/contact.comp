@@ -53,6 +53,7 @@ layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_
 layout(VOILE_BINDING(pair_guards)) readonly buffer PairGuards { PairGuard pair_guards[]; };
 layout(VOILE_BINDING(pair_sweeps)) readonly buffer PairSweeps { PairSweep pair_sweeps[]; };
 layout(VOILE_BINDING(pair_impulses)) readonly buffer PairImpulses { vec4 pair_impulses[]; };
+layout(VOILE_BINDING(pair_dispatches)) writeonly buffer PairDispatches { PairDispatch pair_dispatches[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -341,11 +342,11 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
 }
 
 // The impulses of pairs act in the first substep after their pass.
-void respond_to_pairs(uint i, Hold hold, inout Motion motion)
+void respond_to_pairs(Hold hold, inout Motion motion)
 {
     if (push.after_pairs != 0)
     {
-        const vec3 change = pair_impulses[i].xyz;
+        const vec3 change = hold.impulse.xyz;
         motion.v += change;
         motion.displacement += push.step * change;
     }
@@ -359,10 +360,14 @@ void respond_to_pairs(uint i, Hold hold, inout Motion motion)
 void hold_within_guards(Hold hold, inout Motion motion)
 {
     const float part = held_part(hold, motion.displacement);
-    if (part == 1)
-        return;
-    motion.v *= part;
-    motion.displacement *= part;
+    if (part < 1)
+    {
+        motion.v *= part;
+        motion.displacement *= part;
+    }
+    if (wants_lists(hold, motion.displacement))
+        for (uint k = 0; k < VOILE_PAIR_DISPATCHES; ++k)
+            pair_dispatches[k].wanted = 1;
 }
 
 void main()
@@ -385,7 +390,7 @@ void main()
         if (held)
         {
             hold = hold_of(i, motion.from);
-            respond_to_pairs(i, hold, motion);
+            respond_to_pairs(hold, motion);
             changed = true;
         }
         ClothContact contact;

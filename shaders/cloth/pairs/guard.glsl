@@ -43,6 +43,8 @@ PairGuard no_guard()
     PairGuard guard;
     guard.planes[0] = guard.planes[1] = vec4(0, 0, 0, k_unbounded);
     guard.reach = k_unbounded;
+    guard.from = vec3(0);
+    guard.residual = uvec2(0);
     return guard;
 }
 

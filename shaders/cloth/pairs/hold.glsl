@@ -5,13 +5,18 @@
 #define VOILE_HOLD_GLSL
 
 #include "contact/contact_vertex.glsl"
+#include "pairs/guard.glsl"
 
 // Rounding that guards leave room for, as a part of lengths.
 const float k_guard_rounding = 1e-5;
 
+// New lists are made when a vertex has used this part of its reach.
+const float k_used_reach = 0.6;
+
 // A vertex within its guards, and where they end.
 struct Hold
 {
+    vec4 impulse;
     PairGuard guard;
     vec3 at; // m, the start of the substep from the guard's
     PairSweep sweep;
@@ -21,7 +26,10 @@ struct Hold
 Hold hold_of(uint i, FinePosition from)
 {
     Hold hold;
-    hold.guard = pair_guards[i];
+    hold.guard = no_guard();
+    hold.impulse = pair_impulses[i];
+    if (hold.impulse.w != 0)
+        hold.guard = pair_guards[i];
     hold.at = displacement(FinePosition(hold.guard.from, unpack_residual(hold.guard.residual)), from);
     hold.sweep = pair_sweeps[i];
     hold.swept = displacement(FinePosition(hold.sweep.from, unpack_residual(hold.sweep.residual)), from);
@@ -44,6 +52,13 @@ float squared_distance_from_sweep(vec3 x, vec3 sweep)
 {
     const vec3 apart = x - clamp(dot(x, sweep) / max(dot(sweep, sweep), 1e-30), 0, 1) * sweep;
     return dot(apart, apart);
+}
+
+// Whether the vertex has used up much of what the lists leave it.
+bool wants_lists(Hold hold, vec3 motion)
+{
+    const float most = k_used_reach * hold.sweep.reach;
+    return squared_distance_from_sweep(hold.swept + motion, hold.sweep.sweep) >= most * most;
 }
 
 bool is_held(Hold hold, vec3 motion)

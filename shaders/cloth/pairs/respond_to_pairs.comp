@@ -32,6 +32,8 @@ layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memor
 layout(VOILE_BINDING(pair_motions)) buffer PairMotions { PairMotion pair_motions[]; };
 layout(VOILE_BINDING(pair_impulses)) writeonly buffer PairImpulses { vec4 pair_impulses[]; };
 
+layout(VOILE_BINDING(pair_dispatches)) writeonly buffer PairDispatches { PairDispatch pair_dispatches[]; };
+
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
@@ -73,8 +75,11 @@ struct Meeting
 vec3 predicted_velocity(uint i)
 {
     const vec3 v = velocities[i].xyz;
-    return positions[i].w > 0 ? v + 0.5 * (v - pair_memories[i].velocity) : v;
+    const bool known = positions[i].w > 0 && pair_memories[i].pass + 1 == push.pass;
+    return known ? v + 0.5 * (v - pair_memories[i].velocity) : v;
 }
+
+vec3 slip_of(uint i) { return pair_memories[i].pass + 1 == push.pass ? pair_memories[i].slip : vec3(0); }
 
 Meeting meeting_of(Pair pair)
 {
@@ -161,10 +166,11 @@ void guard_from(Pair pair, uint place, Meeting m, inout PairGuard guard)
 }
 
 // Calls for every listed pair with the vertex. `reach`: m, from the sweep, for what is not listed.
-void gather(PatchVertex self, inout float load, inout Gather sum, inout PairGuard guard, out float reach)
+void gather(PatchVertex self, inout float load, inout Gather sum, inout PairGuard guard, out float reach, out bool listed)
 {
     const Fan fan = fan_of(self.cloth, self.index);
     reach = k_unbounded;
+    listed = false;
     for (uint k = 0; k < owner_count(fan); ++k)
     {
         uint owner;
@@ -187,6 +193,7 @@ void gather(PatchVertex self, inout float load, inout Gather sum, inout PairGuar
                 reach = min(reach, at);
                 continue;
             }
+            listed = true;
             const Meeting m = meeting_of(pair);
             if (PHASE == 0)
                 load += m.wanted > 0 ? abs(m.weights[place]) : 0;
@@ -202,6 +209,8 @@ void gather(PatchVertex self, inout float load, inout Gather sum, inout PairGuar
 
 void main()
 {
+    if (PHASE == 1 && gl_GlobalInvocationID.x < VOILE_PAIR_DISPATCHES)
+        pair_dispatches[gl_GlobalInvocationID.x].wanted = 0;
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!self.exists || (cloths[self.cloth].flags & VOILE_CLOTH_SELF_COLLISION) == 0)
         return;
@@ -210,25 +219,31 @@ void main()
     Gather sum = Gather(vec3(0), vec3(0), 0, 0);
     PairGuard guard = no_guard();
     float reach;
-    gather(self, load, sum, guard, reach);
+    bool listed;
+    gather(self, load, sum, guard, reach, listed);
     if (PHASE == 0)
     {
+        if (!listed)
+            return;
         PairMotion motion;
         motion.velocity = predicted_velocity(i);
         motion.load = load;
-        motion.slip = pair_memories[i].slip;
+        motion.slip = slip_of(i);
         motion.friction = packHalf2x16(vec2(cloths[self.cloth].static_friction, cloths[self.cloth].kinetic_friction));
         pair_motions[i] = motion;
         return;
     }
     pair_sweeps[i].reach = max(reach, 0);
+    pair_impulses[i] = vec4(sum.change, listed ? 1 : 0);
+    if (!listed)
+        return;
     guard.from = positions[i].xyz;
     guard.residual = residuals[i];
     pair_guards[i] = guard;
-    pair_impulses[i] = vec4(sum.change, 0);
     PairMemory memory;
     memory.velocity = velocities[i].xyz + sum.change;
-    const vec3 slip = k_keep_slip * pair_memories[i].slip + sum.slip / max(sum.touching, 1e-30);
+    memory.pass = push.pass;
+    const vec3 slip = k_keep_slip * slip_of(i) + sum.slip / max(sum.touching, 1e-30);
     const float longest = k_longest_slip * cloths[self.cloth].pair_thickness;
     memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
     pair_memories[i] = memory;

@@ -125,7 +125,8 @@ VOILE_SCRATCH_BUFFER(62, pair_sweeps, PairSweep, pair_vertices, "where a vertex 
 VOILE_SCRATCH_BUFFER(63, pair_guards, PairGuard, pair_vertices, "where a vertex may be until the next pass over the pairs")
 VOILE_SCRATCH_BUFFER(64, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
 VOILE_SCRATCH_BUFFER(65, pair_motions, PairMotion, pair_vertices, "a vertex in a pass, as the pairs around it see it")
-VOILE_SCRATCH_BUFFER(66, pair_impulses, vec4, pair_vertices, "the change of velocity by the last pass over the pairs")
+VOILE_SCRATCH_BUFFER(66, pair_impulses, vec4, pair_vertices, "the change of velocity by the last pass over the pairs, and 1 if the vertex is in any")
+VOILE_SCRATCH_BUFFER(67, pair_dispatches, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_DISPATCHES, "the sizes of the indirect dispatches that make the lists again, if a vertex asks for it")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(128, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")

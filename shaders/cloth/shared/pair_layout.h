@@ -9,6 +9,9 @@
 // The bits of a vertex's index in a pair. The bits above contain the kind and the thickness (pair.glsl).
 #define VOILE_PAIR_INDEX_BITS 27
 
+// The most dispatches that make the lists: boxes of leaves, folds of levels, the search.
+#define VOILE_PAIR_DISPATCHES 8
+
 VOILE_SHARED_BEGIN(voile)
 
 // Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.
@@ -38,7 +41,7 @@ struct PairGuard
 struct PairMemory
 {
     vec3 velocity; // m/s, after the last pass
-    uint padding_0;
+    uint pass;     // its number; if it is not the last one, the rest is void
     vec3 slip;     // m, how far the pairs that stick have drifted
     uint padding_1;
 };
@@ -52,6 +55,15 @@ struct PairMotion
     uint friction; // static and kinetic coefficients of the cloth, as halfs
 };
 
+// The size of an indirect dispatch. Vertices that ask for new lists write `wanted`.
+struct PairDispatch
+{
+    uint groups;
+    uint wanted; // 1 or 0, along y
+    uint one;
+    uint padding;
+};
+
 struct PairPush
 {
     float interval;      // s, from this pass to the next
@@ -59,6 +71,7 @@ struct PairPush
     float longest_sweep; // m
     uint first_patch;
     uint slots; // of the hierarchy
+    uint pass;  // counted over all steps
 };
 
 #ifdef __cplusplus

@@ -37,39 +37,28 @@ Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t 
     return kernels;
 }
 
-namespace
+Fold next_fold(const RefitKernels& kernels, shared::RefitPush& push)
 {
-
-// Folds the boxes from level push.bottom on to the root. `first`: of the kernels, for the lowest levels.
-void record_levels(gpu::Recorder& recorder, const RefitKernels& kernels, const gpu::Kernel& first, VkDescriptorSet set,
-                   shared::RefitPush push)
-{
-    const gpu::Kernel* kernel = &first;
-    do
-    {
-        push.levels = std::min(push.bottom, kernels.levels_per_dispatch);
-        const uint32_t roots = 1u << (push.bottom - push.levels);
-        const uint32_t groups = (roots + kernels.run - 1) / kernels.run;
-        recorder.dispatch(*kernel, set, groups * kernels.group, kernels.group, push);
-        push.bottom -= push.levels;
-        kernel = &kernels.levels;
-    } while (push.bottom > 0);
+    push.levels = std::min(push.bottom, kernels.levels_per_dispatch);
+    const uint32_t roots = 1u << (push.bottom - push.levels);
+    const Fold fold{push, (roots + kernels.run - 1) / kernels.run};
+    push.bottom -= push.levels;
+    return fold;
 }
-
-} // namespace
 
 void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree)
 {
-    if (tree.triangles > 0)
-        record_levels(recorder, kernels, kernels.leaves, set,
-                      {tree.first_box, tree.first_leaf, tree.first_from, tree.first_to,
-                       padded_levels(tree.triangles), 0});
-}
-
-void record_fold(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, uint32_t leaves)
-{
-    if (leaves > 1)
-        record_levels(recorder, kernels, kernels.levels, set, {0, 0, 0, 0, padded_levels(leaves), 0});
+    if (tree.triangles == 0)
+        return;
+    shared::RefitPush push{tree.first_box, tree.first_leaf, tree.first_from, tree.first_to, 0, 0};
+    push.bottom = padded_levels(tree.triangles);
+    const gpu::Kernel* kernel = &kernels.leaves;
+    do
+    {
+        const Fold fold = next_fold(kernels, push);
+        recorder.dispatch(*kernel, set, fold.groups * kernels.group, kernels.group, fold.push);
+        kernel = &kernels.levels;
+    } while (push.bottom > 0);
 }
 
 } // namespace voile

@@ -44,8 +44,14 @@ constexpr uint32_t aligned_first_box(uint32_t first)
 // written.
 void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree);
 
-// The same for a tree whose boxes of the last level are there: records the levels above. `leaves`: of its slots, how
-// many are in use.
-void record_fold(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, uint32_t leaves);
+// One of the dispatches of a refit.
+struct Fold
+{
+    shared::RefitPush push;
+    uint32_t groups = 0;
+};
+
+// The next one, which folds the levels above push.bottom, and moves push.bottom up. Done when that is 0.
+Fold next_fold(const RefitKernels& kernels, shared::RefitPush& push);
 
 } // namespace voile

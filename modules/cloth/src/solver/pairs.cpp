@@ -2,9 +2,8 @@
 
 #include "geometry/padded_tree.hpp"
 
-#include "shared/pair_layout.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace voile
@@ -16,48 +15,90 @@ namespace
 // s: contact between cloths needs no more passes than this has in a step.
 constexpr float k_interval = 0.23e-3f;
 
+// s: lists that no vertex leaves last that long.
+constexpr float k_sweep_time = 3.7e-3f;
+
 // Lists expect vertices to move along their velocities by at most this part of the range of pairs: a sheet in motion
 // would list neighbors otherwise.
 constexpr float k_sweep_part = 0.6f;
+
+// The first and the last dispatch that make lists; those between them fold boxes.
+constexpr uint32_t k_boxes = 0;
+constexpr uint32_t k_search = VOILE_PAIR_DISPATCHES - 1;
 
 uint32_t substeps_per_pass(float substep)
 {
     return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
 }
 
+VkDeviceSize offset_of(uint32_t dispatch)
+{
+    return dispatch * sizeof(shared::PairDispatch);
+}
+
 } // namespace
 
+uint32_t count_pair_passes(const Step& step, uint32_t substeps)
+{
+    const uint32_t period = substeps_per_pass(step.duration / static_cast<float>(substeps));
+    return (substeps + period - 1) / period;
+}
+
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
-                           const Step& step, uint32_t substeps)
+                           const Step& step, uint32_t substeps, uint32_t first_pass)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
-      substeps_(substeps), period_(substeps_per_pass(step.duration / static_cast<float>(substeps))),
-      h_(step.duration / static_cast<float>(substeps))
+      substeps_(substeps), h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)),
+      first_pass_(first_pass)
 {
 }
 
 void PairRecorder::record(uint32_t substep, bool in_stage_b)
 {
+    if (substep == 0)
+        write_sizes();
+    else
+        publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
     const uint32_t group = solver_.options.tuning.workgroup_size;
     shared::PairPush push{};
     push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
-    push.sweep_time = push.interval;
+    push.sweep_time = k_sweep_time;
     push.longest_sweep = k_sweep_part * solver_.passes.pair_range;
     push.slots = solver_.device->pair_slots;
+    push.pass = first_pass_ + substep / period_;
     find(push, from);
     recorder_.dispatch(solver_.kernels.pair_motions, sets.pair_motions[from], threads_, group, push);
     recorder_.dispatch(solver_.kernels.pair_responses, sets.pair_responses[from], threads_, group, push);
 }
 
+// The first pass of a step wants new lists: the host may have moved anything.
+void PairRecorder::write_sizes()
+{
+    const RefitKernels& refit = solver_.kernels.refit;
+    const uint32_t group = solver_.options.tuning.workgroup_size;
+    std::array<shared::PairDispatch, VOILE_PAIR_DISPATCHES> sizes{};
+    shared::RefitPush fold{};
+    fold.bottom = padded_levels(solver_.device->pair_slots);
+    sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
+    for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
+        sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
+    sizes[k_search] = {threads_ / group, 1, 1, 0};
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_dispatches].handle(), 0,
+                     std::as_bytes(std::span(sizes)));
+}
+
 void PairRecorder::find(const shared::PairPush& push, size_t from)
 {
     const auto& sets = solver_.device->sets;
-    const uint32_t group = solver_.options.tuning.workgroup_size;
-    const uint32_t slots = 1u << padded_levels(push.slots);
-    recorder_.dispatch(solver_.kernels.pair_boxes, sets.pair_boxes[from], slots, group, push);
-    record_fold(recorder_, solver_.kernels.refit, sets.pair_refit, push.slots);
-    recorder_.dispatch(solver_.kernels.find_pairs, sets.find_pairs[from], threads_, group, push);
+    const VkBuffer sizes = (*solver_.device)[buffer::pair_dispatches].handle();
+    recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes[from], sizes, offset_of(k_boxes), push);
+    shared::RefitPush fold{};
+    fold.bottom = padded_levels(push.slots);
+    for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
+        recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
+                                    next_fold(solver_.kernels.refit, fold).push);
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs[from], sizes, offset_of(k_search), push);
 }
 
 } // namespace voile

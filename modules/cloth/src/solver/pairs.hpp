@@ -8,28 +8,34 @@
 namespace voile
 {
 
+// The number of passes in a step with so many substeps of level 0.
+uint32_t count_pair_passes(const Step& step, uint32_t substeps);
+
 // Records the passes at the beginning of those substeps that have one.
 class PairRecorder
 {
 public:
-    // `substeps`: of level 0, per step.
+    // `substeps`: of level 0, per step. `first_pass`: counted over all steps.
     PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, const Step& step,
-                 uint32_t substeps);
+                 uint32_t substeps, uint32_t first_pass);
 
     // Whether a substep begins with a pass. The first one of a step does.
     [[nodiscard]] bool begins(uint32_t substep) const { return substep % period_ == 0; }
-    // `in_stage_b`: where the substep begins.
+    // `in_stage_b`: where the substep begins. The first pass of a step makes new lists, others only if a vertex has
+    // asked for them.
     void record(uint32_t substep, bool in_stage_b);
 
 private:
+    void write_sizes();
     void find(const shared::PairPush& push, size_t from);
 
     gpu::Recorder& recorder_;
     const Solver::State& solver_;
     uint32_t threads_; // for all patches
     uint32_t substeps_;
-    uint32_t period_; // substeps from one pass to the next
     float h_;         // s
+    uint32_t period_; // substeps from one pass to the next
+    uint32_t first_pass_;
 };
 
 } // namespace voile

@@ -1,6 +1,7 @@
 // Records a step: the passes that ARCHITECTURE.md lists.
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
+#include "solver/pairs.hpp"
 #include "solver/substeps.hpp"
 
 #include "shared/statistics_layout.h"
@@ -77,6 +78,8 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
     passes.record();
+    if (solver.passes.pairs)
+        history.next_pair_pass += count_pair_passes(step, plan.substeps);
     record_normals(recorder, solver);
 }
 
@@ -110,18 +113,24 @@ void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
                      after.accesses | VK_ACCESS_2_TRANSFER_READ_BIT_KHR | k_storage);
 }
 
-void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
+void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
+                      VkBuffer counts)
 {
-    const VkDispatchIndirectCommand none{0, groups_each, 1};
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
-    recorder.update(size, word * sizeof(uint32_t), std::as_bytes(std::span(&none, 1)));
+    recorder.update(sizes, offset, bytes);
     if (counts != VK_NULL_HANDLE)
         recorder.fill(counts, 0);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
+}
+
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
+{
+    const VkDispatchIndirectCommand none{0, groups_each, 1};
+    write_dispatches(recorder, size, word * sizeof(uint32_t), std::as_bytes(std::span(&none, 1)), counts);
 }
 
 void publish_dispatch(gpu::Recorder& recorder)

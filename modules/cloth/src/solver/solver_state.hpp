@@ -78,6 +78,7 @@ struct StepHistory
     bool depenetration_due = false;  // vertices may be inside solids: after uploads, edits and snapshots
     uint32_t depenetration_step = 0; // counts the steps with depenetration
     uint32_t next_substep = 0;       // counted through all steps, below k_substeps_counted
+    uint32_t next_pair_pass = 2;     // counted through all steps
 };
 
 struct Solver::State
@@ -158,6 +159,10 @@ void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 // Computes the boxes of deforming meshes at rest, for statistics that are recorded before the next step.
 void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, std::span<const ColliderId> colliders);
+
+// Writes sizes of indirect dispatches, and clears another buffer, if any. Between barriers of its own.
+void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
+                      VkBuffer counts = VK_NULL_HANDLE);
 
 // Sets the size of an indirect dispatch, at a word of its buffer, to 0 times `groups_each` workgroups. `counts`:
 // another buffer to clear, if any. Between barriers of its own.

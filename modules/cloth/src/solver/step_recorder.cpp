@@ -47,7 +47,8 @@ void StepRecorder::record()
 {
     if (solver_.passes.strain_spacing > 0)
         keep_state(k_step_start);
-    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan.substeps);
+    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan.substeps,
+                       context_.history.next_pair_pass);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
         const bool after_pairs = solver_.passes.pairs && pairs.begins(substep);
