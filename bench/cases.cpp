@@ -90,6 +90,14 @@ Cloths add_verlet_sheet(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(grid))};
 }
 
+Cloths add_self_colliding_sheet(voile::Solver& solver)
+{
+    voile::GridCloth grid = drape_grid(128);
+    grid.integrator = voile::Integrator::verlet;
+    grid.self_collision = true;
+    return {voile::engine::take(solver.add_cloth(grid))};
+}
+
 // The sheet as a triangle mesh, with the diagonals of the solver's grids.
 voile::ClothId add_mesh_sheet(voile::Solver& solver, bool shuffled, voile::BendingModel bending)
 {
@@ -242,6 +250,8 @@ constexpr Case k_cases[] = {
     {"grid-1024", "1024 x 1024", add_drape_sheet<1024>},
     {"grid-128", "128 x 128; the next cases add one feature each", add_drape_sheet<128>},
     {"verlet-128", "velocity Verlet instead of RK4", add_verlet_sheet, k_nearest, 0, false, k_interleaved, 0, 0, true},
+    {"flat-self", "the same, which collides with itself", add_self_colliding_sheet, k_nearest, 0, false, k_interleaved,
+     0, 0, true},
     {"isometric-128", "isometric bending instead of springs", add_changed_sheet<bend_isometrically>},
     {"air-128", "air drag", add_changed_sheet<feel_air>},
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,

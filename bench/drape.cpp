@@ -23,8 +23,11 @@ constexpr float k_frame = 1.f / 60; // s
 constexpr auto k_rk4 = voile::Integrator::rk4;
 constexpr auto k_verlet = voile::Integrator::verlet;
 constexpr DrapeCase k_cases[] = {
-    {"drape-128-rk4", 128, k_rk4},       {"drape-128-verlet", 128, k_verlet}, {"drape-256-rk4", 256, k_rk4},
-    {"drape-256-verlet", 256, k_verlet}, {"drape-512-rk4", 512, k_rk4},       {"drape-512-verlet", 512, k_verlet},
+    {"drape-128-rk4", 128, k_rk4},           {"drape-128-verlet", 128, k_verlet},
+    {"drape-256-rk4", 256, k_rk4},           {"drape-256-verlet", 256, k_verlet},
+    {"drape-512-rk4", 512, k_rk4},           {"drape-512-verlet", 512, k_verlet},
+    {"drape-128-self", 128, k_verlet, true}, {"drape-256-self", 256, k_verlet, true},
+    {"drape-512-self", 512, k_verlet, true},
 };
 
 using Positions = std::vector<glm::vec4>;
@@ -84,6 +87,7 @@ Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshColl
     Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     voile::GridCloth grid = drape_grid(item.side);
     grid.integrator = item.integrator;
+    grid.self_collision = item.self_collision;
     scene.cloth = voile::engine::take(scene.solver.add_cloth(grid));
     (void)voile::engine::take(scene.solver.add_collider(heart));
     (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));

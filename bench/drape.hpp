@@ -17,6 +17,7 @@ struct DrapeCase
     const char* name = nullptr;
     uint32_t side = 0; // vertices along each side
     voile::Integrator integrator = voile::Integrator::rk4;
+    bool self_collision = false;
 };
 std::span<const DrapeCase> drape_cases();
 const DrapeCase* find_drape_case(std::string_view name); // null if there is none

@@ -75,6 +75,8 @@ struct ClothRecord
     uint strain_spacing;      // of the widest level of the strain limit that moves the cloth, in grid lines
     float pair_thickness;     // m, from itself and other cloths
     float pair_range;         // m, within which pairs are listed
+    float pair_sweep;         // m, the longest motion along which they are
+    float padding[3];
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;
@@ -136,9 +138,9 @@ struct Patch
 
 #ifdef __cplusplus
 static_assert(sizeof(SpringClass) == 16);
-static_assert(sizeof(ClothRecord) == 112 + 16 * VOILE_SPRING_CLASSES);
-static_assert(offsetof(ClothRecord, bending) == 96);
-static_assert(offsetof(ClothRecord, springs) == 112);
+static_assert(sizeof(ClothRecord) == 128 + 16 * VOILE_SPRING_CLASSES);
+static_assert(offsetof(ClothRecord, bending) == 112);
+static_assert(offsetof(ClothRecord, springs) == 128);
 static_assert(sizeof(MeshVertex) == 16);
 static_assert(sizeof(MeshSpring) == 16);
 static_assert(sizeof(MeshCorner) == 8);

@@ -245,14 +245,19 @@ void apply_surface(const M& m, shared::ClothRecord& record)
 constexpr float k_thickest = 0.5f; // times the spacing of vertices
 // m: pairs are listed within this, times the smallest height of a triangle. A flat cloth has none.
 constexpr float k_pair_heights = 0.6f;
-constexpr float k_pair_thicknesses = 1.5f;
+constexpr float k_pair_thicknesses = 1.25f;
+// Lists expect vertices to move by up to this part of the range, less where a flat cloth in motion would have pairs.
+constexpr float k_longest_sweep = 0.6f;
+constexpr float k_shortest_sweep = 0.2f;
 
 void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
 {
     const glm::vec2 d = cloth.mesh ? glm::vec2(static_cast<float>(std::sqrt(cloth.mesh->mean_area))) : cloth.spacing;
     record.pair_thickness = std::min(record.thickness, k_thickest * std::min(d.x, d.y));
-    record.pair_range = std::max(k_pair_thicknesses * record.pair_thickness,
-                                 k_pair_heights * d.x * d.y / glm::length(d));
+    const float height = d.x * d.y / glm::length(d);
+    const float range = std::max(k_pair_thicknesses * record.pair_thickness, k_pair_heights * height);
+    record.pair_range = range;
+    record.pair_sweep = std::clamp(0.95f * height - range, k_shortest_sweep * range, k_longest_sweep * range);
 }
 
 } // namespace

@@ -18,10 +18,6 @@ constexpr float k_interval = 0.23e-3f;
 // s: lists that no vertex leaves last that long.
 constexpr float k_sweep_time = 3.7e-3f;
 
-// Lists expect vertices to move along their velocities by at most this part of the range of pairs: a sheet in motion
-// would list neighbors otherwise.
-constexpr float k_sweep_part = 0.6f;
-
 // The first and the last dispatch that make lists; those between them fold boxes.
 constexpr uint32_t k_boxes = 0;
 constexpr uint32_t k_search = VOILE_PAIR_DISPATCHES - 1;
@@ -64,7 +60,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     shared::PairPush push{};
     push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
     push.sweep_time = k_sweep_time;
-    push.longest_sweep = k_sweep_part * solver_.passes.pair_range;
+    push.longest_sweep = solver_.passes.pair_sweep;
     push.slots = solver_.device->pair_slots;
     push.pass = first_pass_ + substep / period_;
     find(push, from);

@@ -99,7 +99,7 @@ void Solver::State::update_passes()
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
         if (!cloth.self_collision)
             continue;
-        next.pair_range = next.pairs ? std::min(next.pair_range, cloth.record.pair_range) : cloth.record.pair_range;
+        next.pair_sweep = next.pairs ? std::min(next.pair_sweep, cloth.record.pair_sweep) : cloth.record.pair_sweep;
         next.pairs = true;
     }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
