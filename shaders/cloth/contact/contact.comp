@@ -53,7 +53,7 @@ layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_
 layout(VOILE_BINDING(pair_guards)) readonly buffer PairGuards { PairGuard pair_guards[]; };
 layout(VOILE_BINDING(pair_sweeps)) readonly buffer PairSweeps { PairSweep pair_sweeps[]; };
 layout(VOILE_BINDING(pair_impulses)) readonly buffer PairImpulses { vec4 pair_impulses[]; };
-layout(VOILE_BINDING(pair_dispatches)) writeonly buffer PairDispatches { PairDispatch pair_dispatches[]; };
+layout(VOILE_BINDING(pair_searches)) writeonly buffer PairSearches { PairDispatch pair_searches[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -366,8 +366,8 @@ void hold_within_guards(Hold hold, inout Motion motion)
         motion.displacement *= part;
     }
     if (wants_lists(hold, motion.displacement))
-        for (uint k = 0; k < VOILE_PAIR_DISPATCHES; ++k)
-            pair_dispatches[k].wanted = 1;
+        for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
+            pair_searches[k].wanted = 1;
 }
 
 void main()

@@ -18,31 +18,34 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
-layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
-layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
-layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(pairs)) writeonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_distances)) buffer PairDistances { float pair_distances[]; };
 layout(VOILE_BINDING(pair_ranges)) writeonly buffer PairRanges { vec2 pair_ranges[]; };
-layout(VOILE_BINDING(pair_sweeps)) writeonly buffer PairSweeps { PairSweep pair_sweeps[]; };
+layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint pair_entries[]; };
+layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_searches)) writeonly buffer PairSearches { PairDispatch pair_searches[]; };
+layout(VOILE_BINDING(pair_patches)) writeonly buffer PairPatches { uint pair_patches[]; };
+layout(VOILE_BINDING(pair_marks)) buffer PairMarks { uint pair_marks[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
-#include "shared/fine_position.glsl"
+#include "shared/box.glsl"
+#include "contact/rounding.glsl"
 #include "pairs/fan.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_tree.glsl"
-#include "pairs/sweep.glsl"
 
 // The search of a vertex, and the list that it fills.
 struct Search
 {
     Fan fan;
     uint cloth;
-    FinePosition origin; // the vertex itself
+    vec3 origin; // m, the middle of the vertex's sweep
+    float rounding;
     Box box;
     float range;
     uint count;
@@ -53,17 +56,40 @@ struct Search
 bool enters_node(Search search, Box node) { return overlap(search.box, node); }
 
 // A vertex halfway along its sweep.
-struct Midpoint
+struct Node
 {
-    vec3 x; // m, from the search's origin
+    vec3 x;      // m, from the search's origin
     float reach; // m, half the sweep
+    uint vertex;
 };
 
-Midpoint midpoint_of(Search search, uint i)
+Node node_of(Search search, uint vertex)
 {
-    const FinePosition x = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
-    const vec3 sweep = sweep_of(i);
-    return Midpoint(displacement(search.origin, x) + 0.5 * sweep, 0.5 * length(sweep));
+    const vec4 midpoint = midpoints[vertex];
+    return Node(midpoint.xyz - search.origin, midpoint.w, vertex);
+}
+
+// A wedge with its vertices. A spoke that the grid does not have repeats the center.
+struct Piece
+{
+    Node a; // the center
+    Node b;
+    Node c;
+    Wedge wedge;
+    Box box;
+};
+
+Box around(Node node) { return Box(node.x - node.reach, node.x + node.reach); }
+
+Piece piece_of(Search search, Fan fan, uint k)
+{
+    Piece piece;
+    piece.wedge = wedge_of(fan, k);
+    piece.a = node_of(search, fan.center);
+    piece.b = piece.wedge.triangle || piece.wedge.edge_b ? node_of(search, piece.wedge.b) : piece.a;
+    piece.c = piece.wedge.triangle || piece.wedge.edge_c ? node_of(search, piece.wedge.c) : piece.a;
+    piece.box = joined(around(piece.a), joined(around(piece.b), around(piece.c)));
+    return piece;
 }
 
 // m: a pair that is nearer at rest repels from half of its distance there on.
@@ -77,7 +103,7 @@ float pair_thickness(Pair pair, float thickness, bool same_cloth)
     return min(thickness, 0.5 * length(nearest_points(pair.edges, x).apart));
 }
 
-void insert(inout Search search, Pair pair, float at)
+void insert(inout Search search, uint other, uvec4 vertices, bool edges, float at)
 {
     const uint first = search.fan.center * VOILE_PAIRS;
     uint place = search.count;
@@ -96,37 +122,42 @@ void insert(inout Search search, Pair pair, float at)
         if (place == VOILE_PAIRS)
             return;
     }
+    const float thickness = 0.5 * (cloths[search.cloth].pair_thickness + cloths[other].pair_thickness);
+    Pair pair = Pair(vertices, edges, thickness);
+    pair.thickness = pair_thickness(pair, thickness, search.cloth == other);
     pairs[first + place] = packed(pair);
     pair_distances[first + place] = at;
 }
 
-// Lists a pair if it is near enough. `other`: the cloth of the other side.
-void consider(inout Search search, uint other, uvec4 vertices, bool edges)
+// m: the distance of both sides, less what they may move along their sweeps. Both sides of a pair find the same bits,
+// because they compute it in the order of the pair.
+float distance_of(uvec4 vertices, bool edges)
 {
+    const vec4 first = midpoints[vertices.x];
     vec3 x[4];
     vec4 reach;
     for (uint k = 0; k < 4; ++k)
     {
-        const Midpoint m = midpoint_of(search, vertices[k]);
-        x[k] = m.x;
-        reach[k] = m.reach;
+        const vec4 midpoint = midpoints[vertices[k]];
+        x[k] = midpoint.xyz - first.xyz;
+        reach[k] = midpoint.w;
     }
-    // Of the farthest vertices on both sides.
-    const float sweeps = edges ? max(reach.x, reach.y) + max(reach.z, reach.w)
-                               : reach.x + max(reach.y, max(reach.z, reach.w));
-    const float at = length(nearest_points(edges, x).apart) - sweeps - 1e-6 * length(x[3]);
-    if (at > search.range)
-        return;
-    const float thickness = 0.5 * (cloths[search.cloth].pair_thickness + cloths[other].pair_thickness);
-    Pair pair = Pair(vertices, edges, thickness);
-    pair.thickness = pair_thickness(pair, thickness, search.cloth == other);
-    insert(search, pair, at);
+    const float far = max(reach.z, reach.w);
+    const float sweeps = edges ? max(reach.x, reach.y) + far : reach.x + max(reach.y, far);
+    return length(nearest_points(edges, x).apart) - sweeps - 2 * rounding(first.xyz);
 }
 
-void consider_triangle(inout Search search, uint other, uint vertex, uint center, Wedge wedge)
+void consider(inout Search search, uint other, uvec4 vertices, bool edges)
 {
-    if (wedge.triangle && vertex != center && vertex != wedge.b && vertex != wedge.c)
-        consider(search, other, ordered_triangle(vertex, uvec3(center, wedge.b, wedge.c)), false);
+    const float at = distance_of(vertices, edges);
+    if (at <= search.range)
+        insert(search, other, vertices, edges, at);
+}
+
+void consider_triangle(inout Search search, uint other, uint v, Piece piece)
+{
+    if (piece.wedge.triangle && v != piece.a.vertex && v != piece.b.vertex && v != piece.c.vertex)
+        consider(search, other, ordered_triangle(v, uvec3(piece.a.vertex, piece.b.vertex, piece.c.vertex)), false);
 }
 
 void consider_edges(inout Search search, uint other, uvec2 a, uvec2 b)
@@ -135,58 +166,103 @@ void consider_edges(inout Search search, uint other, uvec2 a, uvec2 b)
         consider(search, other, ordered_edges(a, b), true);
 }
 
-void consider_wedges(inout Search search, uint other, Wedge own, uint center, Wedge wedge)
+void consider_spokes(inout Search search, uint other, Piece own, Piece piece)
 {
     for (uint k = 0; k < 4; ++k)
     {
         const bool first = (k & 1u) == 0;
         const bool second = (k & 2u) == 0;
-        if ((first ? own.edge_b : own.edge_c) && (second ? wedge.edge_b : wedge.edge_c))
-            consider_edges(search, other, uvec2(search.fan.center, first ? own.b : own.c),
-                           uvec2(center, second ? wedge.b : wedge.c));
+        if ((first ? own.wedge.edge_b : own.wedge.edge_c) && (second ? piece.wedge.edge_b : piece.wedge.edge_c))
+            consider_edges(search, other, uvec2(own.a.vertex, first ? own.b.vertex : own.c.vertex),
+                           uvec2(piece.a.vertex, second ? piece.b.vertex : piece.c.vertex));
     }
 }
 
 void visit_leaf(inout Search search, uint slot, uint count)
 {
     const uvec2 entry = pair_order[place_of_slot(slot, push.slots)];
-    const uint vertex = entry.x;
     const uint other = entry.y;
-    if (vertex == search.fan.center || !meets(search.cloth, other))
+    if (entry.x == search.fan.center || !meets(search.cloth, other))
         return;
-    const Fan fan = fan_of(other, vertex);
+    const Fan fan = fan_of(other, entry.x);
     for (uint k = 0; k < fan.wedges; ++k)
     {
-        const Wedge wedge = wedge_of(fan, k);
-        consider_triangle(search, other, search.fan.center, vertex, wedge);
+        const Piece piece = piece_of(search, fan, k);
+        const Box near = grown(piece.box, search.range);
         for (uint j = 0; j < search.fan.wedges; ++j)
-            consider_wedges(search, other, wedge_of(search.fan, j), vertex, wedge);
+        {
+            const Piece own = piece_of(search, search.fan, j);
+            if (!overlap(near, own.box))
+                continue;
+            if (j == 0)
+                consider_triangle(search, other, own.a.vertex, piece);
+            if (k == 0)
+                consider_triangle(search, other, piece.a.vertex, own);
+            consider_spokes(search, other, own, piece);
+        }
     }
-    for (uint j = 0; j < search.fan.wedges; ++j)
-        consider_triangle(search, other, vertex, search.fan.center, wedge_of(search.fan, j));
 }
 
 #include "colliders/padded.glsl"
 
+void mark(uint patch_index)
+{
+    if (atomicExchange(pair_marks[patch_index], 1) == 0)
+        pair_patches[atomicAdd(pair_passes[VOILE_PAIR_RESPOND].groups, 1)] = patch_index;
+}
+
+// The patches of the vertices of all primitives that the vertex owns.
+void mark_patches(PatchVertex self, Fan fan)
+{
+    const uint own = push.first_patch + gl_WorkGroupID.x;
+    mark(own);
+    const Patch patch_of_self = patches[own];
+    for (uint k = 0; k < fan.wedges; ++k)
+    {
+        const Wedge wedge = wedge_of(fan, k);
+        if (wedge.triangle || wedge.edge_b)
+            mark(patch_of(own, patch_of_self, wedge.b - patch_of_self.first_vertex));
+        if (wedge.triangle || wedge.edge_c)
+            mark(patch_of(own, patch_of_self, wedge.c - patch_of_self.first_vertex));
+    }
+}
+
+void publish(PatchVertex self, Search search)
+{
+    if (search.count == 0)
+        return;
+    const uint first = atomicAdd(pair_passes[VOILE_PAIR_MEET].entries, search.count);
+    for (uint k = 0; k < search.count; ++k)
+        pair_entries[first + k] = self.index * VOILE_PAIRS + k;
+    const uint group = gl_WorkGroupSize.x;
+    atomicMax(pair_passes[VOILE_PAIR_MEET].groups, (first + search.count + group - 1) / group);
+    mark_patches(self, search.fan);
+}
+
 void main()
 {
+    if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
+        pair_searches[gl_GlobalInvocationID.x].wanted = 0;
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || (cloths[self.cloth].flags & VOILE_CLOTH_SELF_COLLISION) == 0)
+    if (!self.exists || !collides_with_itself(self.cloth))
         return;
     const uint i = self.index;
     Search search;
     search.fan = fan_of(self.cloth, i);
     search.cloth = self.cloth;
-    search.origin = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    search.origin = midpoints[i].xyz;
+    search.rounding = 2 * rounding(search.origin);
     search.range = cloths[self.cloth].pair_range;
     search.count = 0;
-    search.box = grown(fan_box(search.fan), search.range);
+    const uint width = 1u << findMSB(2 * push.slots - 1);
+    search.box = Box(vec3(0), vec3(0));
+    for (uint k = 0; k < search.fan.wedges; ++k)
+    {
+        const Box box = piece_of(search, search.fan, k).box;
+        search.box = k == 0 ? box : joined(search.box, box);
+    }
+    search.box = grown(shifted(search.box, search.origin), search.range + search.rounding);
     traverse_padded(search, 0, 0, push.slots);
     pair_ranges[i] = vec2(search.range, uintBitsToFloat(search.count));
-    PairSweep sweep;
-    sweep.from = search.origin.x;
-    sweep.reach = 0; // until the first pass over the lists
-    sweep.sweep = sweep_of(i);
-    sweep.residual = residuals[i];
-    pair_sweeps[i] = sweep;
+    publish(self, search);
 }

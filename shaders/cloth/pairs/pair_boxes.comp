@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The boxes of the leaves of the hierarchy of pairs (pair_tree.glsl): around the sweeps of all primitives that a vertex
-// owns. One thread per slot. refit.comp folds them.
+// Sweeps of vertices, and the boxes of the leaves of the hierarchy of pairs (pair_tree.glsl), around the sweeps of all
+// primitives that a vertex owns. One thread per slot. refit.comp folds the boxes.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -13,9 +13,17 @@ layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
+layout(VOILE_BINDING(pair_sweeps)) writeonly buffer PairSweeps { PairSweep pair_sweeps[]; };
+layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
+layout(VOILE_BINDING(pair_impulses)) writeonly buffer PairImpulses { vec4 pair_impulses[]; };
+layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
+layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_marks)) writeonly buffer PairMarks { uint pair_marks[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
@@ -24,15 +32,42 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
+// The part of the range that no vertex uses up: each of two sides has less than half of their distance.
+void start_sweep(uint i, uint cloth)
+{
+    const vec3 along = sweep_of(i);
+    PairSweep sweep;
+    sweep.from = positions[i].xyz;
+    sweep.reach = VOILE_PAIR_APPROACH * cloths[cloth].pair_range; // less where lists are full
+    sweep.sweep = along;
+    sweep.residual = residuals[i];
+    pair_sweeps[i] = sweep;
+    midpoints[i] = vec4(sweep.from + 0.5 * along, 0.5 * length(along));
+    pair_loads[i] = pair_loads[push.vertices + i] = 0;
+    pair_impulses[i] = vec4(0);
+    pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
+}
+
 void main()
 {
     const uint width = 1u << findMSB(2 * push.slots - 1); // of the level of leaves
     const uint slot = gl_GlobalInvocationID.x;
+    if (slot < push.patches)
+        pair_marks[slot] = 0;
+    if (slot == 0)
+    {
+        pair_passes[VOILE_PAIR_MEET] = PairDispatch(0, 1, 1, 0);
+        pair_passes[VOILE_PAIR_RESPOND] = PairDispatch(0, push.threads, 1, 0);
+    }
     if (slot >= width)
         return;
     const uvec2 entry = pair_order[place_of_slot(slot, push.slots)];
     Box box = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u))); // empty
     if (collides_with_itself(entry.y))
+    {
         box = fan_box(fan_of(entry.y, entry.x));
+        if (slot < push.slots) // others repeat a vertex
+            start_sweep(entry.x, entry.y);
+    }
     boxes[width - 1 + slot] = PaddedBox(box.min, 0, box.max, 0);
 }

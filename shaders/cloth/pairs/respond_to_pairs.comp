@@ -1,20 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass over the listed pairs, in two phases. One thread per vertex, which gathers all pairs that it is in from the
-// lists of the owners around it (fan.glsl).
+// Gathers what the pairs around a vertex do in a pass (meet_pairs.comp): its change of velocity, and the guard within
+// which no listed pair can meet until the next pass. A pair is in the lists of the owners around the vertex (fan.glsl).
 //
-// Phase 0 predicts velocities, and sums up how many pairs push a vertex. Phase 1 computes impulses, and the guards
-// within which no listed pair can meet until the next pass.
-//
-// Impulses are those of one Jacobi iteration with mass splitting (Tonge et al. 2012, "Mass splitting for jitter-free
-// parallel rigid body simulation"): a vertex divides its mass among the pairs that push it. All vertices of a pair
-// compute the same impulse, so momentum is kept to rounding.
+// A workgroup works on a part of a patch. Neighboring threads share the lists of a vertex, as many as the dispatch has
+// workgroups along y.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/pair_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
-layout(constant_id = k_constant_pair_phase) const uint PHASE = 1;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
@@ -26,225 +21,154 @@ layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 v
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
 layout(VOILE_BINDING(pair_ranges)) readonly buffer PairRanges { vec2 pair_ranges[]; };
+layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
+layout(VOILE_BINDING(pair_patches)) readonly buffer PairPatches { uint pair_patches[]; };
+layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_sweeps)) buffer PairSweeps { PairSweep pair_sweeps[]; };
 layout(VOILE_BINDING(pair_guards)) writeonly buffer PairGuards { PairGuard pair_guards[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
-layout(VOILE_BINDING(pair_motions)) buffer PairMotions { PairMotion pair_motions[]; };
 layout(VOILE_BINDING(pair_impulses)) writeonly buffer PairImpulses { vec4 pair_impulses[]; };
-
-layout(VOILE_BINDING(pair_dispatches)) writeonly buffer PairDispatches { PairDispatch pair_dispatches[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "shared/fine_position.glsl"
-#include "contact/friction_law.glsl"
+#include "pairs/direction.glsl"
 #include "pairs/fan.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/guard.glsl"
 
-// The part of a distance by which each side may approach, per pass or per list. Less than half: both sides do.
-const float k_approach = 0.45;
-// The part of the thickness that no pair comes closer than, unless it begins closer.
-const float k_floor = 0.1;
-// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
-const float k_part = 0.2;
-const float k_lift_speed = 0.25;
-// The part of the drift of pairs that stick that is undone in a pass, and the largest drift, as a part of the
-// thickness.
-const float k_undo_slip = 0.15;
+// m: the longest drift that is undone, as a part of the thickness.
 const float k_longest_slip = 0.02;
 const float k_keep_slip = 0.999;
 
-// A pair at the start of the pass.
-struct Meeting
-{
-    vec4 weights; // see Nearest
-    vec3 apart;
-    float distance;
-    vec3 n;       // unit, towards the first side
-    vec3 approach; // m/s, relative velocity of the first side's point
-    float wanted; // m/s, the change of relative velocity along n; not above 0: the pair is not pushed
-    float splitting; // 1/kg, the inverse mass of the pair, each vertex with the part of its mass that the pair gets
-    vec4 inverse_masses;
-    vec3 slip;
-    Separation separation;
-};
-
-// The velocity in the middle of the coming interval, if what acted since the last pass goes on.
-vec3 predicted_velocity(uint i)
-{
-    const vec3 v = velocities[i].xyz;
-    const bool known = positions[i].w > 0 && pair_memories[i].pass + 1 == push.pass;
-    return known ? v + 0.5 * (v - pair_memories[i].velocity) : v;
-}
-
-vec3 slip_of(uint i) { return pair_memories[i].pass + 1 == push.pass ? pair_memories[i].slip : vec3(0); }
-
-Meeting meeting_of(Pair pair)
-{
-    Meeting m;
-    const FinePosition origin =
-        FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
-    vec3 x[4];
-    vec3 v[4];
-    vec4 loads = vec4(0);
-    vec3 slips[4];
-    for (uint k = 0; k < 4; ++k)
-    {
-        const uint i = pair.vertices[k];
-        const vec4 position = positions[i];
-        x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
-        m.inverse_masses[k] = position.w;
-        if (PHASE == 0)
-            v[k] = predicted_velocity(i);
-        else
-        {
-            const PairMotion motion = pair_motions[i];
-            v[k] = motion.velocity;
-            loads[k] = motion.load;
-            slips[k] = motion.slip;
-        }
-    }
-    const Nearest nearest = nearest_points(pair.edges, x);
-    m.weights = nearest.weights;
-    m.apart = nearest.apart;
-    m.distance = length(nearest.apart);
-    m.n = nearest.apart / max(m.distance, 1e-20);
-    m.approach = m.weights.x * v[0] + m.weights.y * v[1] + m.weights.z * v[2] + m.weights.w * v[3];
-    const float missing = (pair.thickness - m.distance) / push.interval;
-    m.wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - dot(m.approach, m.n);
-    if (PHASE == 1)
-    {
-        m.splitting = dot(abs(m.weights) * m.inverse_masses, loads);
-        m.slip = m.weights.x * slips[0] + m.weights.y * slips[1] + m.weights.z * slips[2] + m.weights.w * slips[3];
-        m.separation = separate(pair.edges, x, m.n);
-    }
-    return m;
-}
-
-vec2 friction_of(uint i) { return unpackHalf2x16(pair_motions[i].friction); }
-
-// The sums of phase 1.
 struct Gather
 {
-    vec3 change; // m/s
-    vec3 slip; // m, and the weights of
-    float sticking;
-    float touching;
+    vec3 change;    // m/s
+    float touching; // the sum of the weights in pairs that push
+    vec3 drift;     // m, weighted
+    float reach;    // m, from the sweep, for what is not listed
+    PairGuard guard;
+    bool listed;
 };
 
-void push_apart(Pair pair, uint place, Meeting m, inout Gather sum)
+// Threads of a vertex.
+uint thread_count() { return gl_NumWorkGroups.y; }
+
+shared Gather gathers[gl_WorkGroupSize.x];
+
+Gather nothing()
 {
-    if (m.wanted <= 0 || m.splitting <= 0)
+    return Gather(vec3(0), 0, vec3(0), k_unbounded, no_guard(), false);
+}
+
+void add(inout Gather sum, Gather part)
+{
+    sum.change += part.change;
+    sum.touching += part.touching;
+    sum.drift += part.drift;
+    sum.reach = min(sum.reach, part.reach);
+    sum.guard.reach = min(sum.guard.reach, part.guard.reach);
+    add_plane(sum.guard, part.guard.planes[0]);
+    add_plane(sum.guard, part.guard.planes[1]);
+    sum.listed = sum.listed || part.listed;
+}
+
+// 1/kg: the inverse mass of the pair, each vertex with the part of its mass that the pair gets.
+float split_mobility(Pair pair, PairResponse response)
+{
+    const uint first = (push.pass & 1u) * push.vertices;
+    vec4 loads;
+    for (uint k = 0; k < 4; ++k)
+        loads[k] = float(pair_loads[first + pair.vertices[k]]);
+    return dot(abs(response.mobilities), loads) / VOILE_PAIR_UNIT_LOAD;
+}
+
+void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
+{
+    const Pair pair = unpacked(pairs[entry]);
+    const uint place = place_in(pair, vertex);
+    const uint sides = first_side(pair);
+    const bool own_is_first = owners_of(pair).x == entry / VOILE_PAIRS;
+    const bool first = place < sides;
+    if (place == 4 || first != own_is_first) // the other side's owner lists it, too
         return;
-    const float j = m.wanted / m.splitting;
-    const vec2 friction = sqrt(friction_of(pair.vertices.x) * friction_of(pair.vertices.w));
-    vec3 sliding = m.approach - dot(m.approach, m.n) * m.n;
-    const vec3 drift = sliding * push.interval;
-    const vec3 slip = m.slip - dot(m.slip, m.n) * m.n;
-    sliding += k_undo_slip / push.interval * slip;
-    const float speed = length(sliding);
-    vec3 impulse = j * m.n;
-    const bool sticks = speed <= friction.x * m.wanted;
-    const float left = sticks ? 0 : slip_speed(speed, m.wanted, friction.x, friction.y);
-    if (speed > 0)
-        impulse -= (speed - left) / (speed * m.splitting) * sliding;
-    const float weight = m.weights[place];
-    sum.change += weight * m.inverse_masses[place] * impulse;
+    const PairResponse response = pair_responses[entry];
+    if (response.normal == VOILE_PAIR_ONE_SIDED)
+    {
+        sum.reach = min(sum.reach, pair_distances[entry]);
+        return;
+    }
+    sum.listed = true;
+    const vec3 n = unpack_direction(response.normal);
+    const vec3 heights = vec3(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y).x);
+    add_plane(sum.guard, vec4(first ? n : -n, heights[first ? place : place - sides]));
+    const float mobility = split_mobility(pair, response);
+    if (response.impulse == vec3(0) || mobility <= 0 || inverse_mass <= 0)
+        return;
+    const float weight = response.mobilities[place] / inverse_mass;
+    sum.change += response.mobilities[place] / mobility * response.impulse;
     sum.touching += abs(weight);
-    if (sticks)
-        sum.slip += weight * drift;
+    sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
 }
 
-// A side of a pair does not cross the plane that its vertices have until the next pass.
-void guard_from(Pair pair, uint place, Meeting m, inout PairGuard guard)
+Gather gather(PatchVertex self, uint lane, float inverse_mass)
 {
-    const bool first = place < first_side(pair);
-    const float slack = max(k_approach * (m.separation.gap - k_floor * pair.thickness), 0);
-    add_plane(guard, vec4(first ? m.n : -m.n, m.separation.from_plane[place] + slack));
-}
-
-// Calls for every listed pair with the vertex. `reach`: m, from the sweep, for what is not listed.
-void gather(PatchVertex self, inout float load, inout Gather sum, inout PairGuard guard, out float reach, out bool listed)
-{
+    Gather sum = nothing();
     const Fan fan = fan_of(self.cloth, self.index);
-    reach = k_unbounded;
-    listed = false;
     for (uint k = 0; k < owner_count(fan); ++k)
     {
         uint owner;
         if (!owner_of(fan, k, owner))
             continue;
         const vec2 range = pair_ranges[owner];
-        reach = min(reach, range.x);
+        sum.reach = min(sum.reach, range.x);
         const uint count = floatBitsToUint(range.y);
-        for (uint e = 0; e < count; ++e)
-        {
-            const Pair pair = unpacked(pairs[owner * VOILE_PAIRS + e]);
-            const uint place = place_in(pair, self.index);
-            if (place == 4)
-                continue;
-            const uvec2 owners = owners_of(pair);
-            const float at = pair_distances[owner * VOILE_PAIRS + e];
-            const bool both = at <= pair_ranges[owners.x].x && at <= pair_ranges[owners.y].x;
-            if (!both)
-            {
-                reach = min(reach, at);
-                continue;
-            }
-            listed = true;
-            const Meeting m = meeting_of(pair);
-            if (PHASE == 0)
-                load += m.wanted > 0 ? abs(m.weights[place]) : 0;
-            else
-            {
-                push_apart(pair, place, m, sum);
-                guard_from(pair, place, m, guard);
-            }
-        }
+        for (uint e = lane; e < count; e += thread_count())
+            add_entry(owner * VOILE_PAIRS + e, self.index, inverse_mass, sum);
     }
-    reach *= k_approach;
+    return sum;
+}
+
+PairMemory remembered(PatchVertex self, Gather sum)
+{
+    const uint i = self.index;
+    const PairMemory before = pair_memories[i];
+    PairMemory memory;
+    memory.velocity = velocities[i].xyz + sum.change;
+    memory.pass = push.pass;
+    const vec3 kept = before.pass + 1 == push.pass ? k_keep_slip * before.slip : vec3(0);
+    const vec3 slip = kept + sum.drift / max(sum.touching, 1e-30);
+    const float longest = k_longest_slip * cloths[self.cloth].pair_thickness;
+    memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
+    memory.friction = before.friction;
+    return memory;
 }
 
 void main()
 {
-    if (PHASE == 1 && gl_GlobalInvocationID.x < VOILE_PAIR_DISPATCHES)
-        pair_dispatches[gl_GlobalInvocationID.x].wanted = 0;
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || (cloths[self.cloth].flags & VOILE_CLOTH_SELF_COLLISION) == 0)
-        return;
+    const uint thread = gl_LocalInvocationID.x;
+    const uint lane = thread % thread_count();
+    const uint place = (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / thread_count();
+    const PatchVertex self = patch_vertex(pair_patches[gl_WorkGroupID.x], place);
     const uint i = self.index;
-    float load = 0;
-    Gather sum = Gather(vec3(0), vec3(0), 0, 0);
-    PairGuard guard = no_guard();
-    float reach;
-    bool listed;
-    gather(self, load, sum, guard, reach, listed);
-    if (PHASE == 0)
-    {
-        if (!listed)
-            return;
-        PairMotion motion;
-        motion.velocity = predicted_velocity(i);
-        motion.load = load;
-        motion.slip = slip_of(i);
-        motion.friction = packHalf2x16(vec2(cloths[self.cloth].static_friction, cloths[self.cloth].kinetic_friction));
-        pair_motions[i] = motion;
+    const float inverse_mass = self.exists ? positions[i].w : 0;
+    Gather sum = nothing();
+    if (self.exists)
+        sum = gather(self, lane, inverse_mass);
+    gathers[thread] = sum;
+    barrier();
+    if (!self.exists || lane != 0)
         return;
-    }
-    pair_sweeps[i].reach = max(reach, 0);
-    pair_impulses[i] = vec4(sum.change, listed ? 1 : 0);
-    if (!listed)
+    for (uint k = 1; k < thread_count(); ++k)
+        add(sum, gathers[thread + k]);
+    pair_loads[(1 - (push.pass & 1u)) * push.vertices + i] = 0;
+    pair_sweeps[i].reach = max(VOILE_PAIR_APPROACH * sum.reach, 0);
+    pair_impulses[i] = vec4(sum.change, sum.listed ? 1 : 0);
+    pair_memories[i] = remembered(self, sum);
+    if (!sum.listed)
         return;
-    guard.from = positions[i].xyz;
-    guard.residual = residuals[i];
-    pair_guards[i] = guard;
-    PairMemory memory;
-    memory.velocity = velocities[i].xyz + sum.change;
-    memory.pass = push.pass;
-    const vec3 slip = k_keep_slip * slip_of(i) + sum.slip / max(sum.touching, 1e-30);
-    const float longest = k_longest_slip * cloths[self.cloth].pair_thickness;
-    memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
-    pair_memories[i] = memory;
+    sum.guard.from = positions[i].xyz;
+    sum.guard.residual = residuals[i];
+    pair_guards[i] = sum.guard;
 }

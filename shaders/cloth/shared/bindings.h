@@ -14,8 +14,7 @@
     VOILE_CONSTANT(4, colliders_convex)                                                                                \
     VOILE_CONSTANT(5, near_lists)                                                                                      \
     VOILE_CONSTANT(6, from_leaves)                                                                                     \
-    VOILE_CONSTANT(7, pairs)                                                                                           \
-    VOILE_CONSTANT(8, pair_phase)
+    VOILE_CONSTANT(7, pairs)
 
 #ifdef __cplusplus
 

@@ -124,9 +124,15 @@ VOILE_SCRATCH_BUFFER(61, pair_ranges, vec2, pair_vertices, "the distance up to w
 VOILE_SCRATCH_BUFFER(62, pair_sweeps, PairSweep, pair_vertices, "where a vertex may be until the lists are made again")
 VOILE_SCRATCH_BUFFER(63, pair_guards, PairGuard, pair_vertices, "where a vertex may be until the next pass over the pairs")
 VOILE_SCRATCH_BUFFER(64, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
-VOILE_SCRATCH_BUFFER(65, pair_motions, PairMotion, pair_vertices, "a vertex in a pass, as the pairs around it see it")
+VOILE_SCRATCH_BUFFER(65, pair_midpoints, vec4, pair_vertices, "the middle of a vertex's sweep, and half of its length")
 VOILE_SCRATCH_BUFFER(66, pair_impulses, vec4, pair_vertices, "the change of velocity by the last pass over the pairs, and 1 if the vertex is in any")
-VOILE_SCRATCH_BUFFER(67, pair_dispatches, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_DISPATCHES, "the sizes of the indirect dispatches that make the lists again, if a vertex asks for it")
+VOILE_SCRATCH_BUFFER(67, pair_searches, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_SEARCHES, "the sizes of the dispatches that make the lists, not 0 if a vertex asks for it")
+VOILE_SCRATCH_BUFFER(68, pair_entries, uint, pair_vertices * VOILE_PAIRS, "the places of all listed pairs, in no order")
+VOILE_SCRATCH_BUFFER(69, pair_responses, PairResponse, pair_vertices * VOILE_PAIRS, "what each listed pair does in a pass")
+VOILE_SCRATCH_BUFFER(70, pair_loads, uint, 2 * pair_vertices, "the sums of the weights of a vertex in the pairs that are pushed, of even and of odd passes")
+VOILE_SCRATCH_BUFFER(71, pair_patches, uint, pair_vertices == 0 ? 0 : patches, "the patches with vertices in pairs, in no order")
+VOILE_SCRATCH_BUFFER(73, pair_passes, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_PASSES, "the sizes of the dispatches of a pass")
+VOILE_SCRATCH_BUFFER(72, pair_marks, uint, pair_vertices == 0 ? 0 : patches, "1: the patch is listed")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(128, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")

@@ -9,8 +9,18 @@
 // The bits of a vertex's index in a pair. The bits above contain the kind and the thickness (pair.glsl).
 #define VOILE_PAIR_INDEX_BITS 27
 
-// The most dispatches that make the lists: boxes of leaves, folds of levels, the search.
-#define VOILE_PAIR_DISPATCHES 8
+// The most dispatches that make the lists: boxes of leaves, folds of levels, and last the search.
+#define VOILE_PAIR_SEARCHES 8
+// The dispatches of a pass: over the listed pairs, over the patches with vertices in any.
+#define VOILE_PAIR_MEET 0
+#define VOILE_PAIR_RESPOND 1
+#define VOILE_PAIR_PASSES 2
+// The part of a distance by which each side may approach the other. Less than half: both sides do.
+#define VOILE_PAIR_APPROACH 0.45f
+// The normal of a pair that only one side lists: no direction has these bits.
+#define VOILE_PAIR_ONE_SIDED 0x80008000u
+// Weights in sums of loads are integers, so that their order does not matter.
+#define VOILE_PAIR_UNIT_LOAD 65536.0f
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -41,18 +51,19 @@ struct PairGuard
 struct PairMemory
 {
     vec3 velocity; // m/s, after the last pass
-    uint pass;     // its number; if it is not the last one, the rest is void
+    uint pass;     // its number; if it is not the last one, velocity and slip are void
     vec3 slip;     // m, how far the pairs that stick have drifted
-    uint padding_1;
+    uint friction; // static and kinetic coefficients of the cloth, as halfs
 };
 
-// A vertex in a pass, as the pairs around it see it.
-struct PairMotion
+// What a listed pair does in a pass, as the owner of one side sees it. Both sides compute the same bits.
+struct PairResponse
 {
-    vec3 velocity; // m/s, predicted for the middle of the interval
-    float load;    // the sum of its weights in the pairs that are pushed apart
-    vec3 slip;     // m, as in PairMemory
-    uint friction; // static and kinetic coefficients of the cloth, as halfs
+    vec3 impulse;     // m/s, towards the first side, for a pair of inverse mass 1/kg; 0: the pair is not pushed
+    uint normal;      // towards the first side (packSnorm2x16 of its octahedral map)
+    vec4 mobilities;  // 1/kg, weight times inverse mass of each vertex
+    uvec2 heights;    // m, as halfs: how far the vertices of the own side may approach the other side
+    uvec2 drift;      // m, as halfs: how far a pair that sticks slides until the next pass; 0: it does not stick
 };
 
 // The size of an indirect dispatch. Vertices that ask for new lists write `wanted`.
@@ -61,7 +72,7 @@ struct PairDispatch
     uint groups;
     uint wanted; // 1 or 0, along y
     uint one;
-    uint padding;
+    uint entries; // of which the groups work on
 };
 
 struct PairPush
@@ -72,13 +83,16 @@ struct PairPush
     uint first_patch;
     uint slots; // of the hierarchy
     uint pass;  // counted over all steps
+    uint vertices; // of the solver
+    uint patches;  // of the solver; of self-colliding cloths are only some
+    uint threads;  // per vertex in respond_to_pairs.comp
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(PairSweep) == 48);
 static_assert(sizeof(PairGuard) == 64);
 static_assert(sizeof(PairMemory) == 32);
-static_assert(sizeof(PairMotion) == 32);
+static_assert(sizeof(PairResponse) == 48);
 #endif
 
 VOILE_SHARED_END

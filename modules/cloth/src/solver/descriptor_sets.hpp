@@ -54,9 +54,9 @@ struct DescriptorSets
     VkDescriptorSet refit{};
     std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
     VkDescriptorSet pair_refit{};
-    std::array<VkDescriptorSet, 2> find_pairs{};
-    std::array<VkDescriptorSet, 2> pair_motions{};
-    std::array<VkDescriptorSet, 2> pair_responses{};
+    VkDescriptorSet find_pairs{};
+    std::array<VkDescriptorSet, 2> meet_pairs{};
+    std::array<VkDescriptorSet, 2> respond_to_pairs{};
     VkDescriptorSet normals{};
     VkDescriptorSet statistics{};
     VkDescriptorSet statistics_reduce{};

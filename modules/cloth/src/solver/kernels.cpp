@@ -62,13 +62,9 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add_contact(kernels.contact_pairs_many, 1, 1, 1, 1);
     add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
     add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
-    const auto add_response = [&](gpu::Kernel& kernel, const char* name, uint32_t phase)
-    {
-        add(kernel, name, shaders::k_respond_to_pairs_comp,
-            {.workgroup_size = group, .interleaved = interleaved, .pair_phase = phase});
-    };
-    add_response(kernels.pair_motions, "cloth pair motions", 0);
-    add_response(kernels.pair_responses, "cloth pair responses", 1);
+    add(kernels.meet_pairs, "cloth meet pairs", shaders::k_meet_pairs_comp, plain);
+    add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp,
+        {.workgroup_size = group, .interleaved = interleaved});
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};

@@ -30,8 +30,8 @@ struct Kernels
     gpu::Kernel contact_pairs_many;
     gpu::Kernel pair_boxes;
     gpu::Kernel find_pairs;
-    gpu::Kernel pair_motions;
-    gpu::Kernel pair_responses;
+    gpu::Kernel meet_pairs;
+    gpu::Kernel respond_to_pairs;
     gpu::Kernel near_colliders;
     gpu::Kernel near_features;
     gpu::Kernel near_features_moving;

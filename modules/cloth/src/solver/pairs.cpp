@@ -18,9 +18,9 @@ constexpr float k_interval = 0.23e-3f;
 // s: lists that no vertex leaves last that long.
 constexpr float k_sweep_time = 3.7e-3f;
 
-// The first and the last dispatch that make lists; those between them fold boxes.
+// The first dispatch that makes lists. Those between it and the search fold boxes.
 constexpr uint32_t k_boxes = 0;
-constexpr uint32_t k_search = VOILE_PAIR_DISPATCHES - 1;
+constexpr uint32_t k_search = VOILE_PAIR_SEARCHES - 1;
 
 uint32_t substeps_per_pass(float substep)
 {
@@ -56,16 +56,22 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
         publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
-    const uint32_t group = solver_.options.tuning.workgroup_size;
     shared::PairPush push{};
     push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
     push.sweep_time = k_sweep_time;
     push.longest_sweep = solver_.passes.pair_sweep;
     push.slots = solver_.device->pair_slots;
     push.pass = first_pass_ + substep / period_;
+    push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
+    push.patches = solver_.device->patch_count;
+    push.threads = solver_.options.tuning.feature_threads;
     find(push, from);
-    recorder_.dispatch(solver_.kernels.pair_motions, sets.pair_motions[from], threads_, group, push);
-    recorder_.dispatch(solver_.kernels.pair_responses, sets.pair_responses[from], threads_, group, push);
+    publish_dispatch(recorder_);
+    const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
+    recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes,
+                                offset_of(VOILE_PAIR_MEET), push);
+    recorder_.dispatch_indirect(solver_.kernels.respond_to_pairs, sets.respond_to_pairs[from], sizes,
+                                offset_of(VOILE_PAIR_RESPOND), push);
 }
 
 // The first pass of a step wants new lists: the host may have moved anything.
@@ -73,28 +79,28 @@ void PairRecorder::write_sizes()
 {
     const RefitKernels& refit = solver_.kernels.refit;
     const uint32_t group = solver_.options.tuning.workgroup_size;
-    std::array<shared::PairDispatch, VOILE_PAIR_DISPATCHES> sizes{};
+    std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
     shared::RefitPush fold{};
     fold.bottom = padded_levels(solver_.device->pair_slots);
     sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     sizes[k_search] = {threads_ / group, 1, 1, 0};
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_dispatches].handle(), 0,
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_searches].handle(), 0,
                      std::as_bytes(std::span(sizes)));
 }
 
 void PairRecorder::find(const shared::PairPush& push, size_t from)
 {
     const auto& sets = solver_.device->sets;
-    const VkBuffer sizes = (*solver_.device)[buffer::pair_dispatches].handle();
+    const VkBuffer sizes = (*solver_.device)[buffer::pair_searches].handle();
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes[from], sizes, offset_of(k_boxes), push);
     shared::RefitPush fold{};
     fold.bottom = padded_levels(push.slots);
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
                                     next_fold(solver_.kernels.refit, fold).push);
-    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs[from], sizes, offset_of(k_search), push);
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, sizes, offset_of(k_search), push);
 }
 
 } // namespace voile

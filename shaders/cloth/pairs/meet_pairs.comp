@@ -1,0 +1,151 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What each listed pair does in a pass. One thread per entry of a list. Both sides list a pair, so two threads compute
+// the same bits, each for the vertices of its side.
+//
+// respond_to_pairs.comp gathers the results. Impulses are those of one Jacobi iteration with mass splitting (Tonge et
+// al. 2012, "Mass splitting for jitter-free parallel rigid body simulation"): a vertex divides its mass among the pairs
+// that push it, by its weights in them. Here the weights of a vertex are summed up.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/pair_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
+layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
+layout(VOILE_BINDING(pair_ranges)) readonly buffer PairRanges { vec2 pair_ranges[]; };
+layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint pair_entries[]; };
+layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
+layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
+layout(VOILE_BINDING(pair_responses)) writeonly buffer PairResponses { PairResponse pair_responses[]; };
+
+layout(push_constant, std430) uniform Push { PairPush push; };
+
+#include "shared/fine_position.glsl"
+#include "contact/friction_law.glsl"
+#include "pairs/direction.glsl"
+#include "pairs/pair.glsl"
+
+// The part of the thickness that no pair comes closer than, unless it begins closer.
+const float k_floor = 0.1;
+// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
+const float k_part = 0.2;
+const float k_lift_speed = 0.25;
+// The part of the drift of pairs that stick that is undone in a pass.
+const float k_undo_slip = 0.15;
+// Halfs are rounded by less than this part.
+const float k_half_rounding = 1e-3;
+
+// The vertices of a pair at the start of the pass.
+struct Vertices
+{
+    vec3 x[4]; // m, from the first
+    vec3 v[4]; // m/s, predicted for the middle of the coming interval
+    vec3 slip[4];
+    vec4 inverse_masses;
+};
+
+// What acted since the last pass is expected to go on.
+void read_vertex(uint i, uint k, FinePosition origin, inout Vertices vertices)
+{
+    const vec4 position = positions[i];
+    const PairMemory memory = pair_memories[i];
+    const bool known = memory.pass + 1 == push.pass;
+    const vec3 v = velocities[i].xyz;
+    vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
+    vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
+    vertices.slip[k] = known ? memory.slip : vec3(0);
+    vertices.inverse_masses[k] = position.w;
+}
+
+vec3 weighted(vec4 weights, vec3 a[4])
+{
+    return weights.x * a[0] + weights.y * a[1] + weights.z * a[2] + weights.w * a[3];
+}
+
+// Of both cloths: the geometric mean.
+vec2 friction_of(Pair pair)
+{
+    return sqrt(unpackHalf2x16(pair_memories[pair.vertices.x].friction) *
+                unpackHalf2x16(pair_memories[pair.vertices.w].friction));
+}
+
+// The velocity that the pair removes or adds, and whether it sticks, in `drift`.
+vec3 impulse_of(Pair pair, Vertices vertices, vec4 weights, vec3 n, float apart, out vec3 drift)
+{
+    drift = vec3(0);
+    const vec3 approach = weighted(weights, vertices.v);
+    const float missing = (pair.thickness - apart) / push.interval;
+    const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - dot(approach, n);
+    if (wanted <= 0)
+        return vec3(0);
+    const vec2 friction = friction_of(pair);
+    const vec3 sliding = approach - dot(approach, n) * n;
+    const vec3 slip = weighted(weights, vertices.slip);
+    const vec3 undone = sliding + k_undo_slip / push.interval * (slip - dot(slip, n) * n);
+    const float speed = length(undone);
+    if (speed <= friction.x * wanted)
+    {
+        drift = sliding * push.interval;
+        return wanted * n - undone;
+    }
+    const float left = slip_speed(speed, wanted, friction.x, friction.y);
+    return wanted * n - (1 - left / speed) * undone;
+}
+
+void add_load(uint vertex, float weight)
+{
+    atomicAdd(pair_loads[(push.pass & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= pair_passes[VOILE_PAIR_MEET].entries)
+        return;
+    const uint entry = pair_entries[gl_GlobalInvocationID.x];
+    const Pair pair = unpacked(pairs[entry]);
+    const uvec2 owners = owners_of(pair);
+    const bool first = owners.x == entry / VOILE_PAIRS;
+    PairResponse response = PairResponse(vec3(0), 0, vec4(0), uvec2(0xffffffffu), uvec2(0));
+    const float other_range = pair_ranges[first ? owners.y : owners.x].x;
+    if (pair_distances[entry] > other_range)
+    {
+        // The other side does not list the pair.
+        response.normal = VOILE_PAIR_ONE_SIDED;
+        pair_responses[entry] = response;
+        return;
+    }
+    const FinePosition origin =
+        FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
+    Vertices vertices;
+    for (uint k = 0; k < 4; ++k)
+        read_vertex(pair.vertices[k], k, origin, vertices);
+    const Nearest nearest = nearest_points(pair.edges, vertices.x);
+    const float apart = length(nearest.apart);
+    response.normal = pack_direction(nearest.apart / max(apart, 1e-20));
+    const vec3 n = unpack_direction(response.normal);
+    vec3 drift;
+    response.impulse = impulse_of(pair, vertices, nearest.weights, n, apart, drift);
+    response.mobilities = nearest.weights * vertices.inverse_masses;
+    response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
+
+    const Separation separation = separate(pair.edges, vertices.x, n);
+    const float slack = max(VOILE_PAIR_APPROACH * (separation.gap - k_floor * pair.thickness), 0);
+    const uint sides = first_side(pair);
+    const uint begin = first ? 0 : sides;
+    const uint end = first ? sides : 4;
+    vec3 heights = vec3(0);
+    for (uint k = begin; k < end; ++k)
+    {
+        heights[k - begin] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
+        if (response.impulse != vec3(0))
+            add_load(pair.vertices[k], nearest.weights[k]);
+    }
+    response.heights = uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, 0)));
+    pair_responses[entry] = response;
+}
