@@ -50,10 +50,12 @@ layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
     Depenetration depenetrations[];
 };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
-layout(VOILE_BINDING(pair_guards)) readonly buffer PairGuards { PairGuard pair_guards[]; };
-layout(VOILE_BINDING(pair_sweeps)) readonly buffer PairSweeps { PairSweep pair_sweeps[]; };
-layout(VOILE_BINDING(pair_impulses)) readonly buffer PairImpulses { vec4 pair_impulses[]; };
-layout(VOILE_BINDING(pair_searches)) writeonly buffer PairSearches { PairDispatch pair_searches[]; };
+
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
@@ -346,7 +348,7 @@ void respond_to_pairs(Hold hold, inout Motion motion)
 {
     if (push.after_pairs != 0)
     {
-        const vec3 change = hold.impulse.xyz;
+        const vec3 change = hold.bound.impulse;
         motion.v += change;
         motion.displacement += push.step * change;
     }

@@ -26,9 +26,14 @@ layout(VOILE_BINDING(pair_distances)) buffer PairDistances { float pair_distance
 layout(VOILE_BINDING(pair_ranges)) writeonly buffer PairRanges { vec2 pair_ranges[]; };
 layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint pair_entries[]; };
 layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
-layout(VOILE_BINDING(pair_searches)) writeonly buffer PairSearches { PairDispatch pair_searches[]; };
 layout(VOILE_BINDING(pair_patches)) writeonly buffer PairPatches { uint pair_patches[]; };
 layout(VOILE_BINDING(pair_marks)) buffer PairMarks { uint pair_marks[]; };
+
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 

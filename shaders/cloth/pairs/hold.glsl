@@ -1,6 +1,6 @@
 // Holds vertices within the guards of their pairs (pair_layout.h).
 //
-// The including kernel declares pair_sweeps[], pair_guards[] and pair_impulses[].
+// The including kernel declares pair_bounds[].
 #ifndef VOILE_HOLD_GLSL
 #define VOILE_HOLD_GLSL
 
@@ -16,23 +16,21 @@ const float k_used_reach = 0.6;
 // A vertex within its guards, and where they end.
 struct Hold
 {
-    vec4 impulse;
-    PairGuard guard;
+    PairBound bound;
     vec3 at; // m, the start of the substep from the guard's
-    PairSweep sweep;
     vec3 swept; // m, the start of the substep from the sweep's
 };
 
 Hold hold_of(uint i, FinePosition from)
 {
     Hold hold;
-    hold.guard = no_guard();
-    hold.impulse = pair_impulses[i];
-    if (hold.impulse.w != 0)
-        hold.guard = pair_guards[i];
-    hold.at = displacement(FinePosition(hold.guard.from, unpack_residual(hold.guard.residual)), from);
-    hold.sweep = pair_sweeps[i];
-    hold.swept = displacement(FinePosition(hold.sweep.from, unpack_residual(hold.sweep.residual)), from);
+    hold.bound = pair_bounds[i];
+    if (hold.bound.listed == 0)
+        hold.bound.guard = no_guard();
+    const PairGuard guard = hold.bound.guard;
+    const PairSweep sweep = hold.bound.sweep;
+    hold.at = displacement(FinePosition(guard.from, unpack_residual(guard.residual)), from);
+    hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
     return hold;
 }
 
@@ -41,7 +39,7 @@ vec3 along_planes(Hold hold, vec3 motion)
 {
     for (uint k = 0; k < 4; ++k)
     {
-        const vec4 plane = hold.guard.planes[k & 1u];
+        const vec4 plane = hold.bound.guard.planes[k & 1u];
         motion -= min(dot(plane.xyz, hold.at + motion) + plane.w * (1 - k_guard_rounding), 0) * plane.xyz;
     }
     return motion;
@@ -57,8 +55,8 @@ float squared_distance_from_sweep(vec3 x, vec3 sweep)
 // Whether the vertex has used up much of what the lists leave it.
 bool wants_lists(Hold hold, vec3 motion)
 {
-    const float most = k_used_reach * hold.sweep.reach;
-    return squared_distance_from_sweep(hold.swept + motion, hold.sweep.sweep) >= most * most;
+    const float most = k_used_reach * hold.bound.sweep.reach;
+    return squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep) >= most * most;
 }
 
 bool is_held(Hold hold, vec3 motion)
@@ -66,10 +64,10 @@ bool is_held(Hold hold, vec3 motion)
     const vec3 d = hold.at + motion;
     const vec3 x = hold.swept + motion;
     const float part = 1 - k_guard_rounding;
-    return dot(d, hold.guard.planes[0].xyz) + hold.guard.planes[0].w >= 0 &&
-           dot(d, hold.guard.planes[1].xyz) + hold.guard.planes[1].w >= 0 &&
-           length(d) <= part * hold.guard.reach &&
-           squared_distance_from_sweep(x, hold.sweep.sweep) <= part * hold.sweep.reach * part * hold.sweep.reach;
+    return dot(d, hold.bound.guard.planes[0].xyz) + hold.bound.guard.planes[0].w >= 0 &&
+           dot(d, hold.bound.guard.planes[1].xyz) + hold.bound.guard.planes[1].w >= 0 &&
+           length(d) <= part * hold.bound.guard.reach &&
+           squared_distance_from_sweep(x, hold.bound.sweep.sweep) <= part * hold.bound.sweep.reach * part * hold.bound.sweep.reach;
 }
 
 // The part of a motion after which the vertex is still within its guards. The guards are convex, and the start of the

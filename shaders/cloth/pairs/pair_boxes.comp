@@ -17,13 +17,17 @@ layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 re
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
-layout(VOILE_BINDING(pair_sweeps)) writeonly buffer PairSweeps { PairSweep pair_sweeps[]; };
 layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
-layout(VOILE_BINDING(pair_impulses)) writeonly buffer PairImpulses { vec4 pair_impulses[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_marks)) writeonly buffer PairMarks { uint pair_marks[]; };
+
+layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
@@ -41,10 +45,11 @@ void start_sweep(uint i, uint cloth)
     sweep.reach = VOILE_PAIR_APPROACH * cloths[cloth].pair_range; // less where lists are full
     sweep.sweep = along;
     sweep.residual = residuals[i];
-    pair_sweeps[i] = sweep;
+    pair_bounds[i].sweep = sweep;
     midpoints[i] = vec4(sweep.from + 0.5 * along, 0.5 * length(along));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;
-    pair_impulses[i] = vec4(0);
+    pair_bounds[i].listed = 0;
+    pair_bounds[i].impulse = vec3(0);
     pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
 }
 

@@ -24,10 +24,13 @@ layout(VOILE_BINDING(pair_ranges)) readonly buffer PairRanges { vec2 pair_ranges
 layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
 layout(VOILE_BINDING(pair_patches)) readonly buffer PairPatches { uint pair_patches[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
-layout(VOILE_BINDING(pair_sweeps)) buffer PairSweeps { PairSweep pair_sweeps[]; };
-layout(VOILE_BINDING(pair_guards)) writeonly buffer PairGuards { PairGuard pair_guards[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
-layout(VOILE_BINDING(pair_impulses)) writeonly buffer PairImpulses { vec4 pair_impulses[]; };
+
+layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
@@ -163,12 +166,13 @@ void main()
     for (uint k = 1; k < thread_count(); ++k)
         add(sum, gathers[thread + k]);
     pair_loads[(1 - (push.pass & 1u)) * push.vertices + i] = 0;
-    pair_sweeps[i].reach = max(VOILE_PAIR_APPROACH * sum.reach, 0);
-    pair_impulses[i] = vec4(sum.change, sum.listed ? 1 : 0);
+    pair_bounds[i].sweep.reach = max(VOILE_PAIR_APPROACH * sum.reach, 0);
+    pair_bounds[i].impulse = sum.change;
+    pair_bounds[i].listed = sum.listed ? 1 : 0;
     pair_memories[i] = remembered(self, sum);
     if (!sum.listed)
         return;
     sum.guard.from = positions[i].xyz;
     sum.guard.residual = residuals[i];
-    pair_guards[i] = sum.guard;
+    pair_bounds[i].guard = sum.guard;
 }

@@ -24,6 +24,15 @@
 
 VOILE_SHARED_BEGIN(voile)
 
+// The size of an indirect dispatch. Vertices that ask for new lists write `wanted`.
+struct PairDispatch
+{
+    uint groups;
+    uint wanted; // 1 or 0, along y
+    uint one;
+    uint entries; // of which the groups work on
+};
+
 // Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.
 // Then no two primitives that no list contains can meet.
 struct PairSweep
@@ -47,6 +56,15 @@ struct PairGuard
     uvec2 padding;
 };
 
+// What bounds the motion of a vertex that collides with other cloth.
+struct PairBound
+{
+    PairSweep sweep;
+    PairGuard guard; // void if the vertex is in no listed pair
+    vec3 impulse;    // m/s, the change of velocity by the last pass
+    uint listed;     // 1: the vertex is in a listed pair
+};
+
 // What a vertex keeps from pass to pass.
 struct PairMemory
 {
@@ -66,15 +84,6 @@ struct PairResponse
     uvec2 drift;      // m, as halfs: how far a pair that sticks slides until the next pass; 0: it does not stick
 };
 
-// The size of an indirect dispatch. Vertices that ask for new lists write `wanted`.
-struct PairDispatch
-{
-    uint groups;
-    uint wanted; // 1 or 0, along y
-    uint one;
-    uint entries; // of which the groups work on
-};
-
 struct PairPush
 {
     float interval;      // s, from this pass to the next
@@ -91,6 +100,7 @@ struct PairPush
 #ifdef __cplusplus
 static_assert(sizeof(PairSweep) == 48);
 static_assert(sizeof(PairGuard) == 64);
+static_assert(sizeof(PairBound) == VOILE_PAIR_SEARCHES * sizeof(PairDispatch));
 static_assert(sizeof(PairMemory) == 32);
 static_assert(sizeof(PairResponse) == 48);
 #endif

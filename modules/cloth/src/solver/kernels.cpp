@@ -43,7 +43,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);
     add(kernels.limit_guard, "cloth limit guard", shaders::k_limit_guard_comp, plain);
     add(kernels.edit, "cloth edit", shaders::k_edit_comp, plain);
-    const auto add_contact = [&](gpu::Kernel& kernel, uint32_t move, uint32_t convex, uint32_t near_lists, uint32_t pairs)
+    const auto add_contact =
+        [&](gpu::Kernel& kernel, uint32_t move, uint32_t convex, uint32_t near_lists, uint32_t pairs)
     {
         add(kernel, "cloth contact", shaders::k_contact_comp,
             {.workgroup_size = group,

@@ -68,8 +68,8 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
-    recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes,
-                                offset_of(VOILE_PAIR_MEET), push);
+    recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes, offset_of(VOILE_PAIR_MEET),
+                                push);
     recorder_.dispatch_indirect(solver_.kernels.respond_to_pairs, sets.respond_to_pairs[from], sizes,
                                 offset_of(VOILE_PAIR_RESPOND), push);
 }
@@ -86,14 +86,13 @@ void PairRecorder::write_sizes()
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     sizes[k_search] = {threads_ / group, 1, 1, 0};
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_searches].handle(), 0,
-                     std::as_bytes(std::span(sizes)));
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
 }
 
 void PairRecorder::find(const shared::PairPush& push, size_t from)
 {
     const auto& sets = solver_.device->sets;
-    const VkBuffer sizes = (*solver_.device)[buffer::pair_searches].handle();
+    const VkBuffer sizes = (*solver_.device)[buffer::pair_bounds].handle();
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes[from], sizes, offset_of(k_boxes), push);
     shared::RefitPush fold{};
     fold.bottom = padded_levels(push.slots);

@@ -1,7 +1,7 @@
 // Records a step: the passes that ARCHITECTURE.md lists.
 #include "model/stability.hpp"
-#include "solver/solver_state.hpp"
 #include "solver/pairs.hpp"
+#include "solver/solver_state.hpp"
 #include "solver/substeps.hpp"
 
 #include "shared/statistics_layout.h"
