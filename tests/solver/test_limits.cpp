@@ -97,7 +97,7 @@ TEST_CASE("each limit of a device has an error message")
               .ends_with("has a workgroup of 256, the device allows 1 to 128"));
     // 48 bytes per invocation.
     CHECK(refused([](auto& limits) { limits.maxComputeSharedMemorySize = 6143; }) ==
-          "kernel \"cloth feature contact\" takes 6144 bytes of shared memory with a workgroup of 128, the device has "
+          "kernel \"cloth respond to pairs\" takes 6144 bytes of shared memory with a workgroup of 128, the device has "
           "6143");
     const auto large = [](auto& limits)
     { limits.maxComputeWorkGroupInvocations = limits.maxComputeWorkGroupSize[0] = 1024; };

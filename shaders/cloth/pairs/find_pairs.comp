@@ -18,6 +18,9 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
@@ -38,11 +41,10 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
-#include "shared/box.glsl"
-#include "contact/rounding.glsl"
 #include "pairs/fan.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_tree.glsl"
+#include "pairs/sweep.glsl"
 
 // The search of a vertex, and the list that it fills.
 struct Search
@@ -244,6 +246,19 @@ void publish(PatchVertex self, Search search)
     mark_patches(self, search.fan);
 }
 
+// Until a pass finds the vertex in a pair, only its sweep bounds it.
+void bound(uint i, float range)
+{
+    PairSweep sweep;
+    sweep.from = positions[i].xyz;
+    sweep.reach = VOILE_PAIR_APPROACH * range;
+    sweep.sweep = sweep_of(i);
+    sweep.residual = residuals[i];
+    pair_bounds[i].sweep = sweep;
+    pair_bounds[i].impulse = vec3(0);
+    pair_bounds[i].listed = 0;
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
@@ -268,6 +283,7 @@ void main()
     }
     search.box = grown(shifted(search.box, search.origin), search.range + search.rounding);
     traverse_padded(search, 0, 0, push.slots);
+    bound(i, search.range);
     pair_ranges[i] = vec2(search.range, uintBitsToFloat(search.count));
     publish(self, search);
 }

@@ -13,7 +13,6 @@ layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
-layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
@@ -23,12 +22,6 @@ layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memor
 layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_marks)) writeonly buffer PairMarks { uint pair_marks[]; };
 
-layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
-{
-    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
-    PairBound pair_bounds[];
-};
-
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/grid.glsl"
@@ -36,20 +29,11 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
-// The part of the range that no vertex uses up: each of two sides has less than half of their distance.
-void start_sweep(uint i, uint cloth)
+void start_vertex(uint i, uint cloth)
 {
-    const vec3 along = sweep_of(i);
-    PairSweep sweep;
-    sweep.from = positions[i].xyz;
-    sweep.reach = VOILE_PAIR_APPROACH * cloths[cloth].pair_range; // less where lists are full
-    sweep.sweep = along;
-    sweep.residual = residuals[i];
-    pair_bounds[i].sweep = sweep;
-    midpoints[i] = vec4(sweep.from + 0.5 * along, 0.5 * length(along));
+    const vec3 sweep = sweep_of(i);
+    midpoints[i] = vec4(positions[i].xyz + 0.5 * sweep, 0.5 * length(sweep));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;
-    pair_bounds[i].listed = 0;
-    pair_bounds[i].impulse = vec3(0);
     pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
 }
 
@@ -72,7 +56,7 @@ void main()
     {
         box = fan_box(fan_of(entry.y, entry.x));
         if (slot < push.slots) // others repeat a vertex
-            start_sweep(entry.x, entry.y);
+            start_vertex(entry.x, entry.y);
     }
     boxes[width - 1 + slot] = PaddedBox(box.min, 0, box.max, 0);
 }

@@ -58,23 +58,65 @@ struct Gather
 // Threads of a vertex.
 uint thread_count() { return gl_NumWorkGroups.y; }
 
-shared Gather gathers[gl_WorkGroupSize.x];
+shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
 
 Gather nothing()
 {
     return Gather(vec3(0), 0, vec3(0), k_unbounded, no_guard(), false);
 }
 
-void add(inout Gather sum, Gather part)
+void store_sums(uint thread, Gather sum)
 {
-    sum.change += part.change;
-    sum.touching += part.touching;
-    sum.drift += part.drift;
-    sum.reach = min(sum.reach, part.reach);
-    sum.guard.reach = min(sum.guard.reach, part.guard.reach);
-    add_plane(sum.guard, part.guard.planes[0]);
-    add_plane(sum.guard, part.guard.planes[1]);
-    sum.listed = sum.listed || part.listed;
+    shared_parts[3 * thread] = vec4(sum.change, sum.touching);
+    shared_parts[3 * thread + 1] = vec4(sum.drift, sum.reach);
+    shared_parts[3 * thread + 2] = vec4(sum.listed ? 1 : 0);
+}
+
+void add_sums(uint thread, inout Gather sum)
+{
+    const vec4 change = shared_parts[3 * thread];
+    const vec4 drift = shared_parts[3 * thread + 1];
+    sum.change += change.xyz;
+    sum.touching += change.w;
+    sum.drift += drift.xyz;
+    sum.reach = min(sum.reach, drift.w);
+    sum.listed = sum.listed || shared_parts[3 * thread + 2].x > 0;
+}
+
+void store_guard(uint thread, PairGuard guard)
+{
+    shared_parts[3 * thread] = guard.planes[0];
+    shared_parts[3 * thread + 1] = guard.planes[1];
+    shared_parts[3 * thread + 2] = vec4(guard.reach);
+}
+
+void join_guard(uint thread, inout PairGuard guard)
+{
+    guard.reach = min(guard.reach, shared_parts[3 * thread + 2].x);
+    add_plane(guard, shared_parts[3 * thread]);
+    add_plane(guard, shared_parts[3 * thread + 1]);
+}
+
+// What all threads of a vertex have gathered, in the first of them. The order is that of the lists, so that the result
+// does not depend on timing. Sums and guards take the same memory in turn.
+void merge(uint thread, uint lane, inout Gather sum)
+{
+    for (uint width = thread_count() / 2; width > 0; width /= 2)
+    {
+        barrier();
+        store_sums(thread, sum);
+        barrier();
+        if (lane < width)
+            add_sums(thread + width, sum);
+    }
+    for (uint width = thread_count() / 2; width > 0; width /= 2)
+    {
+        barrier();
+        store_guard(thread, sum.guard);
+        barrier();
+        if (lane < width)
+            join_guard(thread + width, sum.guard);
+    }
 }
 
 // 1/kg: the inverse mass of the pair, each vertex with the part of its mass that the pair gets.
@@ -159,12 +201,9 @@ void main()
     Gather sum = nothing();
     if (self.exists)
         sum = gather(self, lane, inverse_mass);
-    gathers[thread] = sum;
-    barrier();
+    merge(thread, lane, sum);
     if (!self.exists || lane != 0)
         return;
-    for (uint k = 1; k < thread_count(); ++k)
-        add(sum, gathers[thread + k]);
     pair_loads[(1 - (push.pass & 1u)) * push.vertices + i] = 0;
     pair_bounds[i].sweep.reach = max(VOILE_PAIR_APPROACH * sum.reach, 0);
     pair_bounds[i].impulse = sum.change;

@@ -54,7 +54,7 @@ struct DescriptorSets
     VkDescriptorSet refit{};
     std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
     VkDescriptorSet pair_refit{};
-    VkDescriptorSet find_pairs{};
+    std::array<VkDescriptorSet, 2> find_pairs{};
     std::array<VkDescriptorSet, 2> meet_pairs{};
     std::array<VkDescriptorSet, 2> respond_to_pairs{};
     VkDescriptorSet normals{};

@@ -27,6 +27,13 @@ uint32_t substeps_per_pass(float substep)
     return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
 }
 
+// That share the lists of a vertex. On CPU devices one.
+uint32_t threads_per_vertex(const Tuning& tuning)
+{
+    constexpr uint32_t k_threads = 32;
+    return tuning.feature_threads == 1 ? 1 : std::min(k_threads, tuning.workgroup_size);
+}
+
 VkDeviceSize offset_of(uint32_t dispatch)
 {
     return dispatch * sizeof(shared::PairDispatch);
@@ -64,7 +71,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.pass = first_pass_ + substep / period_;
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.patches = solver_.device->patch_count;
-    push.threads = solver_.options.tuning.feature_threads;
+    push.threads = threads_per_vertex(solver_.options.tuning);
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
@@ -99,7 +106,7 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
                                     next_fold(solver_.kernels.refit, fold).push);
-    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, sizes, offset_of(k_search), push);
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs[from], sizes, offset_of(k_search), push);
 }
 
 } // namespace voile

@@ -228,15 +228,16 @@ void Describer::add_pairs()
     for (size_t parity = 0; parity < 2; ++parity)
     {
         const StateBuffers& now = k_proposals[parity].earlier;
-        for (const auto& [set, kernel] :
-             {std::pair(&sets_.pair_boxes, &kernels_.pair_boxes), std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
-              std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
+        add(sets_.pair_boxes[parity], kernels_.pair_boxes,
+            {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
+        for (const auto& [set, kernel] : {std::pair(&sets_.find_pairs, &kernels_.find_pairs),
+                                          std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
+                                          std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions},
                  {binding::stage_residuals, now.residuals},
                  {binding::stage_velocities, now.velocities}});
     }
-    add(sets_.find_pairs, kernels_.find_pairs);
     add(sets_.pair_refit, kernels_.refit.levels, {{binding::padded_boxes, buffer::pair_boxes}});
 }
 
