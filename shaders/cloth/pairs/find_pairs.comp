@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lists the pairs of near primitives of all cloths that collide with themselves and each other. One thread per vertex,
-// which searches for all primitives that the vertex owns (fan.glsl) at once.
+// Lists the pairs of near primitives of all cloths that collide with themselves and each other. A vertex searches for
+// all primitives that it owns (fan.glsl) at once. Neighboring threads share a search, as many as the dispatch has
+// workgroups along y: all traverse the hierarchy, each tests a part of the wedges and fills a part of the list.
 //
 // Vertices move along sweeps. A pair is listed if the distance of its sweeps is at most the range of the owner. A list
 // that is full keeps the nearest pairs, and the range shrinks to the nearest pair that it leaves out. The owner of the
@@ -52,10 +53,11 @@ struct Search
     Fan fan;
     uint cloth;
     vec3 origin; // m, the middle of the vertex's sweep
-    float rounding;
     Box box;
     float range;
     uint count;
+    uint lane;
+    uint lanes;
 };
 
 #define VOILE_QUERY Search
@@ -112,21 +114,22 @@ float pair_thickness(Pair pair, float thickness, bool same_cloth)
 
 void insert(inout Search search, uint other, uvec4 vertices, bool edges, float at)
 {
-    const uint first = search.fan.center * VOILE_PAIRS;
+    const uint part = VOILE_PAIRS / search.lanes;
+    const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;
     uint place = search.count;
-    if (search.count < VOILE_PAIRS)
+    if (search.count < part)
         ++search.count;
     else
     {
         float farthest = at;
-        for (uint k = 0; k < VOILE_PAIRS; ++k)
+        for (uint k = 0; k < part; ++k)
             if (pair_distances[first + k] > farthest)
             {
                 farthest = pair_distances[first + k];
                 place = k;
             }
         search.range = min(search.range, farthest);
-        if (place == VOILE_PAIRS)
+        if (place == part)
             return;
     }
     const float thickness = 0.5 * (cloths[search.cloth].pair_thickness + cloths[other].pair_thickness);
@@ -198,6 +201,8 @@ void visit_leaf(inout Search search, uint slot, uint count)
         const Box near = grown(piece.box, search.range);
         for (uint j = 0; j < search.fan.wedges; ++j)
         {
+            if ((k * search.fan.wedges + j) % search.lanes != search.lane)
+                continue;
             const Piece own = piece_of(search, search.fan, j);
             if (!overlap(near, own.box))
                 continue;
@@ -219,7 +224,7 @@ void mark(uint patch_index)
 }
 
 // The patches of the vertices of all primitives that the vertex owns.
-void mark_patches(PatchVertex self, Fan fan)
+void mark_patches(Fan fan)
 {
     const uint own = push.first_patch + gl_WorkGroupID.x;
     mark(own);
@@ -240,10 +245,10 @@ void publish(PatchVertex self, Search search)
         return;
     const uint first = atomicAdd(pair_passes[VOILE_PAIR_MEET].entries, search.count);
     for (uint k = 0; k < search.count; ++k)
-        pair_entries[first + k] = self.index * VOILE_PAIRS + k;
+        pair_entries[first + k] = self.index * VOILE_PAIRS + search.lane * (VOILE_PAIRS / search.lanes) + k;
     const uint group = gl_WorkGroupSize.x;
     atomicMax(pair_passes[VOILE_PAIR_MEET].groups, (first + search.count + group - 1) / group);
-    mark_patches(self, search.fan);
+    mark_patches(search.fan);
 }
 
 // Until a pass finds the vertex in a pair, only its sweep bounds it.
@@ -259,31 +264,69 @@ void bound(uint i, float range)
     pair_bounds[i].listed = 0;
 }
 
-void main()
+Search search_of(PatchVertex self, uint lane)
 {
-    if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
-        pair_searches[gl_GlobalInvocationID.x].wanted = 0;
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || !collides_with_itself(self.cloth))
-        return;
-    const uint i = self.index;
     Search search;
-    search.fan = fan_of(self.cloth, i);
+    search.fan = fan_of(self.cloth, self.index);
     search.cloth = self.cloth;
-    search.origin = midpoints[i].xyz;
-    search.rounding = 2 * rounding(search.origin);
+    search.origin = midpoints[self.index].xyz;
     search.range = cloths[self.cloth].pair_range;
     search.count = 0;
-    const uint width = 1u << findMSB(2 * push.slots - 1);
+    search.lane = lane;
+    search.lanes = gl_NumWorkGroups.y;
     search.box = Box(vec3(0), vec3(0));
     for (uint k = 0; k < search.fan.wedges; ++k)
     {
         const Box box = piece_of(search, search.fan, k).box;
         search.box = k == 0 ? box : joined(search.box, box);
     }
-    search.box = grown(shifted(search.box, search.origin), search.range + search.rounding);
-    traverse_padded(search, 0, 0, push.slots);
-    bound(i, search.range);
-    pair_ranges[i] = vec2(search.range, uintBitsToFloat(search.count));
-    publish(self, search);
+    search.box = grown(shifted(search.box, search.origin), search.range + 2 * rounding(search.origin));
+    return search;
+}
+
+const float k_unbounded_range = 1e30;
+
+shared vec2 shared_ranges[gl_WorkGroupSize.x];
+
+// What all threads of a search have found, in the first of them: the smallest range, and the lengths of their parts.
+vec2 merged_range(uint thread, Search search)
+{
+    shared_ranges[thread] = vec2(search.range, uintBitsToFloat(search.count));
+    barrier();
+    float range = search.range;
+    uint counts = search.count;
+    if (search.lane == 0)
+        for (uint k = 1; k < search.lanes; ++k)
+        {
+            range = min(range, shared_ranges[thread + k].x);
+            counts |= floatBitsToUint(shared_ranges[thread + k].y) << (k * VOILE_PAIR_COUNT_BITS);
+        }
+    return vec2(range, uintBitsToFloat(counts));
+}
+
+void main()
+{
+    if (gl_WorkGroupID.y == 0 && gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
+        pair_searches[gl_GlobalInvocationID.x].wanted = 0;
+    const uint thread = gl_LocalInvocationID.x;
+    const uint lanes = gl_NumWorkGroups.y;
+    const uint place = (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / lanes;
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x, place);
+    const bool searches = self.exists && collides_with_itself(self.cloth);
+    Search search;
+    search.lane = thread % lanes;
+    search.lanes = lanes;
+    search.range = k_unbounded_range;
+    search.count = 0;
+    if (searches)
+    {
+        search = search_of(self, thread % lanes);
+        traverse_padded(search, 0, 0, push.slots);
+        publish(self, search);
+    }
+    const vec2 range = merged_range(thread, search);
+    if (!searches || search.lane != 0)
+        return;
+    bound(self.index, range.x);
+    pair_ranges[self.index] = range;
 }

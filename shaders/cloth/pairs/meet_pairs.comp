@@ -112,10 +112,9 @@ void main()
     const uvec2 owners = owners_of(pair);
     const bool first = owners.x == entry / VOILE_PAIRS;
     PairResponse response = PairResponse(vec3(0), 0, vec4(0), uvec2(0xffffffffu), uvec2(0));
-    const float other_range = pair_ranges[first ? owners.y : owners.x].x;
-    if (pair_distances[entry] > other_range)
+    // A side does not list the pair, or another thread of its search has left out a nearer one.
+    if (pair_distances[entry] > min(pair_ranges[owners.x].x, pair_ranges[owners.y].x))
     {
-        // The other side does not list the pair.
         response.normal = VOILE_PAIR_ONE_SIDED;
         pair_responses[entry] = response;
         return;

@@ -45,6 +45,14 @@ Pair unpacked(uvec4 words)
                 unpackHalf2x16(parts.x | parts.y | parts.z).x);
 }
 
+// Whether a place of an owner's list is in use. `counts`: of the parts of the list.
+bool is_listed(uint place, uint counts, uint lanes)
+{
+    const uint part = VOILE_PAIRS / lanes;
+    const uint count = (counts >> (place / part * VOILE_PAIR_COUNT_BITS)) & ((1u << VOILE_PAIR_COUNT_BITS) - 1);
+    return place % part < count;
+}
+
 // The number of vertices of the first side.
 uint first_side(Pair pair) { return pair.edges ? 2 : 1; }
 

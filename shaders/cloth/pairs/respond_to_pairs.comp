@@ -168,9 +168,9 @@ Gather gather(PatchVertex self, uint lane, float inverse_mass)
             continue;
         const vec2 range = pair_ranges[owner];
         sum.reach = min(sum.reach, range.x);
-        const uint count = floatBitsToUint(range.y);
-        for (uint e = lane; e < count; e += thread_count())
-            add_entry(owner * VOILE_PAIRS + e, self.index, inverse_mass, sum);
+        for (uint e = lane; e < VOILE_PAIRS; e += thread_count())
+            if (is_listed(e, floatBitsToUint(range.y), push.lanes))
+                add_entry(owner * VOILE_PAIRS + e, self.index, inverse_mass, sum);
     }
     return sum;
 }

@@ -120,7 +120,7 @@ VOILE_BUFFER(57, pair_order, uvec2, pair_vertices, "vertices and their cloths, i
 VOILE_SCRATCH_BUFFER(58, pair_boxes, PaddedBox, pair_vertices == 0 ? 0 : 4 * pair_vertices, "boxes of the hierarchy of pairs")
 VOILE_SCRATCH_BUFFER(59, pairs, uvec4, pair_vertices * VOILE_PAIRS, "per vertex the pairs of the primitives that it owns")
 VOILE_SCRATCH_BUFFER(60, pair_distances, float, pair_vertices * VOILE_PAIRS, "the distances of these pairs, along their sweeps")
-VOILE_SCRATCH_BUFFER(61, pair_ranges, vec2, pair_vertices, "the distance up to which a vertex lists pairs, and their number")
+VOILE_SCRATCH_BUFFER(61, pair_ranges, vec2, pair_vertices, "the distance up to which a vertex lists pairs, and the lengths of the parts of its list")
 VOILE_SCRATCH_BUFFER(62, pair_bounds, PairBound, pair_vertices == 0 ? 0 : 1 + pair_vertices, "the sizes of the dispatches that make the lists, not 0 if a vertex asks for it; then per vertex what bounds its motion")
 VOILE_SCRATCH_BUFFER(63, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
 VOILE_SCRATCH_BUFFER(64, pair_midpoints, vec4, pair_vertices, "the middle of a vertex's sweep, and half of its length")

@@ -61,6 +61,7 @@ struct ContactPush
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
     uint after_pairs;   // 1: the impulses of pairs are new
+    uint pair_lanes;    // threads per vertex of the search for pairs
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
 };
 
@@ -75,7 +76,7 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 76);
+static_assert(sizeof(ContactPush) == 80);
 #endif
 
 VOILE_SHARED_END

@@ -4,8 +4,11 @@
 
 #include "../../shared_types.h"
 
-// The capacity of a vertex's list of pairs.
+// The capacity of a vertex's list of pairs. Each thread of a search fills a part of it.
 #define VOILE_PAIRS 32
+// The most threads of a search. The lengths of their parts have this many bits each.
+#define VOILE_PAIR_LANES 4
+#define VOILE_PAIR_COUNT_BITS 8
 // The bits of a vertex's index in a pair. The bits above contain the kind and the thickness (pair.glsl).
 #define VOILE_PAIR_INDEX_BITS 27
 
@@ -95,6 +98,7 @@ struct PairPush
     uint vertices; // of the solver
     uint patches;  // of the solver; of self-colliding cloths are only some
     uint threads;  // per vertex in respond_to_pairs.comp
+    uint lanes;    // per vertex in find_pairs.comp
 };
 
 #ifdef __cplusplus

@@ -41,6 +41,11 @@ VkDeviceSize offset_of(uint32_t dispatch)
 
 } // namespace
 
+uint32_t lanes_per_search(const Tuning& tuning)
+{
+    return tuning.feature_threads == 1 ? 1 : std::min<uint32_t>(VOILE_PAIR_LANES, tuning.workgroup_size);
+}
+
 uint32_t count_pair_passes(const Step& step, uint32_t substeps)
 {
     const uint32_t period = substeps_per_pass(step.duration / static_cast<float>(substeps));
@@ -72,6 +77,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.patches = solver_.device->patch_count;
     push.threads = threads_per_vertex(solver_.options.tuning);
+    push.lanes = lanes_per_search(solver_.options.tuning);
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
@@ -92,7 +98,7 @@ void PairRecorder::write_sizes()
     sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
-    sizes[k_search] = {threads_ / group, 1, 1, 0};
+    sizes[k_search] = {threads_ / group, lanes_per_search(solver_.options.tuning), 1, 0};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
 }
 

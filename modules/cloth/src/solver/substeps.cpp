@@ -1,6 +1,8 @@
 // The passes of the cloths of one level of substeps, as ARCHITECTURE.md lists them.
 #include "solver/substeps.hpp"
 
+#include "solver/pairs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -204,6 +206,7 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.after_pairs = after_pairs ? 1 : 0;
+    push.pair_lanes = lanes_per_search(solver_.options.tuning);
     push.limited_only = substep == substeps_ ? 1 : 0;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
