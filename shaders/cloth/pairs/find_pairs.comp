@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Lists the pairs of near primitives of all cloths that collide with themselves and each other. A vertex searches for
 // all primitives that it owns (fan.glsl) at once. Neighboring threads share a search, as many as the dispatch has
 // workgroups along y: all traverse the hierarchy, each tests a part of the wedges and fills a part of the list.
@@ -107,7 +108,7 @@ float pair_thickness(Pair pair, float thickness, bool same_cloth)
     if (!same_cloth)
         return thickness;
     vec3 x[4];
-    for (uint k = 0; k < 4; ++k)
+    [[unroll]] for (uint k = 0; k < 4; ++k)
         x[k] = start[pair.vertices[k]].xyz;
     return min(thickness, 0.5 * length(nearest_points(pair.edges, x).apart));
 }
@@ -146,7 +147,7 @@ float distance_of(uvec4 vertices, bool edges)
     const vec4 first = midpoints[vertices.x];
     vec3 x[4];
     vec4 reach;
-    for (uint k = 0; k < 4; ++k)
+    [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         const vec4 midpoint = midpoints[vertices[k]];
         x[k] = midpoint.xyz - first.xyz;
@@ -178,7 +179,7 @@ void consider_edges(inout Search search, uint other, uvec2 a, uvec2 b)
 
 void consider_spokes(inout Search search, uint other, Piece own, Piece piece)
 {
-    for (uint k = 0; k < 4; ++k)
+    [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         const bool first = (k & 1u) == 0;
         const bool second = (k & 2u) == 0;

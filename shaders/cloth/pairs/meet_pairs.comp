@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // What each listed pair does in a pass. One thread per entry of a list. Both sides list a pair, so two threads compute
 // the same bits, each for the vertices of its side.
 //
@@ -122,7 +123,7 @@ void main()
     const FinePosition origin =
         FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
     Vertices vertices;
-    for (uint k = 0; k < 4; ++k)
+    [[unroll]] for (uint k = 0; k < 4; ++k)
         read_vertex(pair.vertices[k], k, origin, vertices);
     const Nearest nearest = nearest_points(pair.edges, vertices.x);
     const float apart = length(nearest.apart);

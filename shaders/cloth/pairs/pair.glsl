@@ -63,6 +63,9 @@ uint place_in(Pair pair, uint vertex)
     return equal.x ? 0 : equal.y ? 1 : equal.z ? 2 : equal.w ? 3 : 4;
 }
 
+// An entry of a vector by a place that is not constant. An index would put the vector into memory.
+float entry_of(vec4 v, uint place) { return place == 0 ? v.x : place == 1 ? v.y : place == 2 ? v.z : v.w; }
+
 // The owners of both sides.
 uvec2 owners_of(Pair pair) { return pair.edges ? pair.vertices.xz : pair.vertices.xy; }
 

@@ -123,9 +123,8 @@ void merge(uint thread, uint lane, inout Gather sum)
 float split_mobility(Pair pair, PairResponse response)
 {
     const uint first = (push.pass & 1u) * push.vertices;
-    vec4 loads;
-    for (uint k = 0; k < 4; ++k)
-        loads[k] = float(pair_loads[first + pair.vertices[k]]);
+    const vec4 loads = vec4(pair_loads[first + pair.vertices.x], pair_loads[first + pair.vertices.y],
+                            pair_loads[first + pair.vertices.z], pair_loads[first + pair.vertices.w]);
     return dot(abs(response.mobilities), loads) / VOILE_PAIR_UNIT_LOAD;
 }
 
@@ -147,12 +146,13 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
     sum.listed = true;
     const vec3 n = unpack_direction(response.normal);
     const vec3 heights = vec3(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y).x);
-    add_plane(sum.guard, vec4(first ? n : -n, heights[first ? place : place - sides]));
+    add_plane(sum.guard, vec4(first ? n : -n, entry_of(vec4(heights, 0), first ? place : place - sides)));
     const float mobility = split_mobility(pair, response);
     if (response.impulse == vec3(0) || mobility <= 0 || inverse_mass <= 0)
         return;
-    const float weight = response.mobilities[place] / inverse_mass;
-    sum.change += response.mobilities[place] / mobility * response.impulse;
+    const float own = entry_of(response.mobilities, place);
+    const float weight = own / inverse_mass;
+    sum.change += own / mobility * response.impulse;
     sum.touching += abs(weight);
     sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
 }

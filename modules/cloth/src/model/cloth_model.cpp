@@ -241,23 +241,26 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.strain_spacing = strain_spacing(record);
 }
 
-// m: cloth that is as thick as its edges are long could not fold.
-constexpr float k_thickest = 0.5f; // times the spacing of vertices
-// m: pairs are listed within this, times the smallest height of a triangle. A flat cloth has none.
-constexpr float k_pair_heights = 0.6f;
-constexpr float k_pair_thicknesses = 1.25f;
-// Lists expect vertices to move by up to this part of the range, less where a flat cloth in motion would have pairs.
-constexpr float k_longest_sweep = 0.6f;
-constexpr float k_shortest_sweep = 0.2f;
+// The thickness of cloth from cloth is at most this part of the spacing of vertices, or neighbors in a flat cloth would
+// repel each other, and no fold could close.
+constexpr float k_thickest = 0.4f;
+// Pairs are listed within this part of the thickness, or of the smallest height of a triangle.
+constexpr float k_pair_thicknesses = 1.3f;
+constexpr float k_pair_heights = 0.35f;
+// Lists expect vertices to move. A flat cloth that moves has no pairs: this part of the smallest height of its
+// triangles is more than range and motion together.
+constexpr float k_flat = 0.95f;
+constexpr float k_shortest_sweep = 0.2f; // of the range
+constexpr float k_longest_sweep = 2;
 
 void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
 {
     const glm::vec2 d = cloth.mesh ? glm::vec2(static_cast<float>(std::sqrt(cloth.mesh->mean_area))) : cloth.spacing;
-    record.pair_thickness = std::min(record.thickness, k_thickest * std::min(d.x, d.y));
     const float height = d.x * d.y / glm::length(d);
+    record.pair_thickness = std::min(record.thickness, k_thickest * std::min(d.x, d.y));
     const float range = std::max(k_pair_thicknesses * record.pair_thickness, k_pair_heights * height);
     record.pair_range = range;
-    record.pair_sweep = std::clamp(0.95f * height - range, k_shortest_sweep * range, k_longest_sweep * range);
+    record.pair_sweep = std::clamp(k_flat * height - range, k_shortest_sweep * range, k_longest_sweep * range);
 }
 
 } // namespace
