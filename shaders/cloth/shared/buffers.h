@@ -108,12 +108,20 @@ VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "the fractions of the limit's
 
 // Statistics.
 VOILE_SCRATCH_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
-VOILE_SOLVER_BUFFER(53, statistics, StatisticsRecord, "statistics of all cloths, one record per slot; the host reads it")
+VOILE_SOLVER_BUFFER(53, statistics, StatisticsResult, "statistics of all cloths, one record per slot; the host reads it")
 
 // Output.
 VOILE_OUTPUT_BUFFER(54, previous_positions, vec4, previous_vertices, "the positions before the last step; the host reads it")
 VOILE_OUTPUT_BUFFER(55, indices, uint, 3 * cloth_triangles, "triangles of a cloth, relative to its first vertex; the host draws with it")
 VOILE_HOST_BUFFER(56, host_vertices, float, "a vertex buffer of the host's, which an output writes")
+
+// Intersections: hierarchies of cloths and what they count, only with SolverOptions::intersections.
+VOILE_BUFFER(57, cloth_trees, TreeRecord, cloth_trees, "the hierarchies of the active cloths, ordered by depth")
+VOILE_BUFFER(58, cloth_leaves, PaddedLeaf, cloth_leaves, "triangles of cloths; instances of a mesh, and grids of one size, share them")
+VOILE_SCRATCH_BUFFER(59, cloth_boxes, PaddedBox, cloth_boxes, "boxes of the hierarchies of cloths, level by level")
+VOILE_BUFFER(60, bvh_edges, uint, bvh_edges, "the edges that a triangle of a rigid mesh owns, one bit each")
+VOILE_SCRATCH_BUFFER(61, intersections, uint, intersecting_vertices, "per vertex what the triangles and edges around it intersect: cloths, colliders (VOILE_INTERSECTS_*); the host draws from it")
+VOILE_SCRATCH_BUFFER(62, intersection_counts, IntersectionCounters, cloth_trees == 0 ? 0 : 1, "the numbers of intersecting pairs")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(64, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")
@@ -154,6 +162,11 @@ VOILE_ROLE(93, after_positions, vec4, "the positions after the change that is me
 VOILE_ROLE(94, after_residuals, uvec2, "the residuals after the change that is measured")
 VOILE_ROLE(95, after_velocities, vec4, "the velocities after the change that is measured")
 VOILE_ROLE(96, works, LimitWork, "the measured energy and work")
+
+// Refit: the hierarchies of cloths, or one of a collider that deforms.
+VOILE_ROLE(97, refit_leaves, PaddedLeaf, "the triangles of the hierarchies that are refitted")
+VOILE_ROLE(98, refit_positions, vec4, "the vertices of the triangles")
+VOILE_ROLE(99, refit_boxes, PaddedBox, "the boxes that a refit writes")
 
 // clang-format on
 

@@ -74,6 +74,12 @@ struct VertexStreams
     VkDeviceSize index_offset = 0; // bytes, of the first index
     uint32_t index_count = 0;
 
+    // uint32, one per vertex: 1 if an edge or a triangle around it intersects one of a cloth, plus 2 if it intersects a
+    // collider, when record_statistics last counted intersections. 0 after an upload. Null without
+    // SolverOptions::intersections.
+    VkBuffer intersections{};
+    VkDeviceSize intersection_offset = 0; // bytes, of the first vertex
+
     StreamAddresses addresses;
 };
 

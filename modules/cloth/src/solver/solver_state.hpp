@@ -157,6 +157,9 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
 // Computes the boxes of deforming meshes at rest, for statistics that are recorded before the next step.
 void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, std::span<const ColliderId> colliders);
 
+// Clears the marks and numbers of intersections. Between barriers of its own.
+void clear_intersections(gpu::Recorder& recorder, const DeviceState& device);
+
 // Sets the size of an indirect dispatch, at a word of its buffer, to 0 times `groups_each` workgroups. `counts`:
 // another buffer to clear, if any. Between barriers of its own.
 void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, uint32_t groups_each = 1,

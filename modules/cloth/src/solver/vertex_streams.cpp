@@ -101,6 +101,11 @@ VertexStreams Solver::vertices(ClothId cloth) const
         streams.index_offset = model->first_triangle * sizeof(glm::uvec3);
         streams.index_count = static_cast<uint32_t>(3 * count_triangles(*model));
     }
+    if (state_->options.intersections)
+    {
+        streams.intersections = device[buffer::intersections].handle();
+        streams.intersection_offset = record.first_vertex * sizeof(uint32_t);
+    }
     if (!wants_addresses(state_->options.output))
         return streams;
     const auto address = [&](VkBuffer buffer, VkDeviceSize offset)
