@@ -191,7 +191,8 @@ TEST_CASE_FIXTURE(IntersectionHarness,
         voile::MeshCloth mesh;
         mesh.cooked = cooked;
         mesh.transform = transform;
-        voile::GridCloth grid = tests::flat_grid(5 + i % 3, 6, glm::vec3(transform[3]) + glm::vec3(0.1f, 0, 0.1f));
+        voile::GridCloth grid =
+            tests::flat_grid(5 + 9 * (i % 3), 6, glm::vec3(transform[3]) + glm::vec3(0.1f, 0, 0.1f));
         grid.transform[0].y = 0.2f;
         mesh.layers = grid.layers = 1u << i % 3 | (i % 4 == 0 ? 8u : 0u);
         cloths.push_back(i % 2 == 0 ? voile::engine::take(solver.add_cloth(mesh))

@@ -50,6 +50,7 @@ struct StreamAddresses
     VkDeviceAddress normals = 0;
     VkDeviceAddress previous_positions = 0;
     VkDeviceAddress indices = 0;
+    VkDeviceAddress intersections = 0;
 };
 
 // Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles, 0 vertices

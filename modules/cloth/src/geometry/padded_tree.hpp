@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,21 @@ struct PaddedTree
 
 // The levels below the root of a tree over that many triangles, at least 1.
 uint32_t padded_levels(uint32_t triangles);
+
+// The trees of a table, ordered by their levels below the root: how many there are of each depth.
+constexpr size_t k_tree_depths = 29;
+using TreeCounts = std::array<uint32_t, k_tree_depths>;
+
+// The first index from `first` on at which a tree's boxes can begin so that all of its levels but the top ones begin at
+// multiples of 256 bytes: runs of boxes then fill whole cache lines.
+constexpr uint32_t aligned_first_box(uint32_t first)
+{
+    constexpr uint32_t k_line = VOILE_REFIT_RUN;
+    return (first + k_line - 2) / k_line * k_line + 1;
+}
+
+// The entries that boxes may need before their first one, so that it is aligned.
+constexpr uint64_t k_box_alignment = VOILE_REFIT_RUN - 1;
 
 // The axis along which a range of triangles is halved.
 enum class PaddedSplit

@@ -1,7 +1,7 @@
 // ActiveLists: the patches, attachments and tethers that the dispatches of a step work on, ordered by level.
 #pragma once
 
-#include "colliders/refit.hpp"
+#include "geometry/padded_tree.hpp"
 #include "model/model.hpp"
 
 #include "shared/step_layout.h"

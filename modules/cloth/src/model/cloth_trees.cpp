@@ -1,7 +1,5 @@
 #include "model/cloth_trees.hpp"
 
-#include "colliders/refit.hpp"
-
 #include <algorithm>
 #include <vector>
 

@@ -110,9 +110,10 @@ VertexStreams Solver::vertices(ClothId cloth) const
         return streams;
     const auto address = [&](VkBuffer buffer, VkDeviceSize offset)
     { return buffer != VK_NULL_HANDLE ? gpu::device_address(state_->context, buffer) + offset : 0; };
-    streams.addresses = {address(streams.positions, streams.offset), address(streams.velocities, streams.offset),
-                         address(streams.normals, streams.offset), address(streams.previous_positions, streams.offset),
-                         address(streams.indices, streams.index_offset)};
+    streams.addresses = {
+        address(streams.positions, streams.offset),     address(streams.velocities, streams.offset),
+        address(streams.normals, streams.offset),       address(streams.previous_positions, streams.offset),
+        address(streams.indices, streams.index_offset), address(streams.intersections, streams.intersection_offset)};
     return streams;
 }
 
