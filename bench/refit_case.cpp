@@ -125,20 +125,25 @@ RefitMeasurement measure_refit(TimedQueue& queue, const RefitCase& item, uint32_
     const voile::PaddedTree tree = voile::build_padded_tree(start, sheet.triangles);
     const Clock::time_point end = Clock::now();
     const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context, item.workgroup_size));
-    const voile::RefitTree where{voile::aligned_first_box(0), 0, 0, vertices, tree.triangles};
+    voile::shared::TreeRecord where{};
+    where.first_box = voile::aligned_first_box(0);
+    where.first_to = vertices;
+    where.triangles = tree.triangles;
 
     voile::engine::UploadBatch batch(context);
+    const voile::gpu::Buffer trees = batch.buffer("trees", std::vector{where}, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const voile::gpu::Buffer leaves = batch.buffer("leaves", tree.leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const voile::gpu::Buffer positions = batch.buffer("positions", sheet.positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const voile::gpu::Buffer boxes = voile::engine::take(voile::gpu::create_buffer(
         context, "boxes", (where.first_box + tree.boxes()) * sizeof(voile::shared::PaddedBox),
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::Memory::device));
     queue.run([&](VkCommandBuffer cmd) { batch.record(cmd); });
-    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 3));
+    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context, 1, 4));
     const VkDescriptorSet set =
-        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves.handle()},
-                                                       {voile::binding::deforming_positions, positions.handle()},
-                                                       {voile::binding::padded_boxes, boxes.handle()}}));
+        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::cloth_trees, trees.handle()},
+                                                       {voile::binding::refit_leaves, leaves.handle()},
+                                                       {voile::binding::refit_positions, positions.handle()},
+                                                       {voile::binding::refit_boxes, boxes.handle()}}));
 
     const auto record = [&](VkCommandBuffer cmd)
     {

@@ -66,6 +66,20 @@ quick(test_hard_contacts
     "the depth of a strip through an open ground is its shorter end")
 quick(test_hazards)
 quick(test_hello_cloth)
+quick(test_intersections
+    "an edge and a triangle intersect where they touch, and are apart by one bit"
+    "triangles without an area and edges without a length are points and segments"
+    "the filter of the exact reference never contradicts whole numbers"
+    "whole numbers are exact beyond the range of doubles"
+    "a flat sheet does not intersect itself, a rolled one does"
+    "sheets intersect where they cross, overlap in a plane, or touch in one vertex"
+    "intersections are counted exactly far from the origin"
+    "coordinates too far apart in size for an exact sign are reported as uncertain"
+    "only cloths with a common layer intersect, and removed and disabled ones do not"
+    "a solver counts intersections only if its options say so"
+    "a deforming collider intersects cloth where its vertices are"
+    "a triangle that touches a solid to within rounding is uncertain, and counts"
+    "one vertex pushed a micrometer through a collider is seen, unless no layer is shared")
 quick(test_integration
     "a short trajectory follows the reference"
     "a spring pair swings with period 2 pi sqrt(m / 2 k)"

@@ -1,4 +1,4 @@
-// Boxes, contacts and normals as lines and dots.
+// Boxes, contacts, normals and intersections as lines and dots.
 #include "samples/viewer/debug_view.hpp"
 
 #include "samples/viewer/text.hpp"
@@ -12,9 +12,11 @@ namespace
 
 constexpr glm::vec3 k_box_color{0.02f, 0.25f, 0.9f}; // linear, as all of them
 constexpr glm::vec3 k_contact_color{1.f, 0.75f, 0.02f};
+constexpr glm::vec3 k_intersection_color{0.95f, 0.02f, 0.1f};
 constexpr glm::vec3 k_normal_color{0.1f, 0.8f, 0.25f};
 constexpr float k_normal_length = 0.02f; // of the cloth's longest side
 constexpr uint32_t k_touches = 1 | 4;    // in the w of a velocity, see voile::VertexStreams
+constexpr uint32_t k_intersects = 1 | 2; // cloths, colliders
 
 // The twelve edges of a box.
 void add_edges(const voile::BoundingBox& box, std::vector<glm::vec4>& from, std::vector<glm::vec4>& to)
@@ -110,6 +112,16 @@ void DebugView::record_draw(VkCommandBuffer cmd, voile::engine::View& view)
                                                .mask = k_touches,
                                                .color = k_contact_color,
                                                .label = "contacts"});
+        if (options_.intersections)
+            view.draw(cmd, voile::engine::Dots{.positions = streams.positions,
+                                               .flags = streams.intersections,
+                                               .flag_words = true,
+                                               .position_offset = streams.offset,
+                                               .flag_offset = streams.intersection_offset,
+                                               .count = streams.vertices,
+                                               .mask = k_intersects,
+                                               .color = k_intersection_color,
+                                               .label = "intersections"});
     }
 }
 

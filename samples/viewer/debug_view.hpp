@@ -7,8 +7,8 @@ namespace viewer
 {
 
 // Boxes of the hierarchies of mesh colliders, moving with them (of one that deforms a note that there are none);
-// vertices that touch a collider; vertex normals. The
-// latter two are drawn from the solver's own buffers. Lives as long as the stage's solver and motions.
+// vertices that touch a collider; vertex normals; vertices of edges and triangles that intersect. All but the boxes are
+// drawn from the solver's own buffers. Lives as long as the stage's solver and motions.
 class DebugView : public voile::engine::Component
 {
 public:

@@ -117,13 +117,26 @@ void export_state(const Options& options, const std::vector<FinalCloth>& state, 
         outcome.add({}, written_name(path));
 }
 
-void add_verification(const Verification& verification, Statistics& statistics)
+unsigned long long number(std::optional<uint64_t> count)
+{
+    return count.value_or(0);
+}
+
+void print_intersections(const PairCounts& pairs)
+{
+    if (pairs.cloth)
+        std::printf("intersections: %llu pairs of cloth, %llu of cloth and collider, %llu of them uncertain\n",
+                    number(pairs.cloth), number(pairs.collider), number(pairs.uncertain));
+}
+
+void add_verification(const Verification& verification, const PairCounts& pairs, Statistics& statistics)
 {
     StatisticsSummary& summary = statistics.summary;
     summary.verified = true;
     summary.penetrating_vertices = verification.penetrating_vertices;
     summary.deepest_penetration = verification.deepest_penetration;
     summary.self_intersections = verification.self_intersections;
+    summary.intersections = pairs;
     std::printf("verified: %llu penetrating vertices, deepest %.3g mm, %llu self-intersections\n",
                 static_cast<unsigned long long>(verification.penetrating_vertices),
                 1000 * verification.deepest_penetration,
@@ -169,7 +182,9 @@ int run_scene(const Options& options)
     export_state(options, state, outcome);
     Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
     if (options.verify)
-        add_verification(voile::engine::take(verify(stage, solids, state)), statistics);
+        add_verification(voile::engine::take(verify(stage, solids, state)),
+                         pair_counts(count_intersections(app.device(), stage)), statistics);
+    print_intersections(statistics.summary.intersections);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
     for (const std::string& line : outcome.written)

@@ -98,11 +98,12 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
         ->group(group);
     app.add_option("--debug", typed.debug,
                    "Draws over the picture the boxes of the meshes' hierarchies (level 4 where\n"
-                   "none is named), the vertices in contact, or the vertex normals; repeatable")
-        ->type_name("boxes[:LEVEL]|contacts|normals")
+                   "none is named), the vertices in contact, the vertex normals, or the vertices of\n"
+                   "intersecting edges and triangles, which it also counts each frame; repeatable")
+        ->type_name("boxes[:LEVEL]|contacts|normals|intersections")
         ->group(group);
     app.add_flag("--verify", options.verify,
-                 "Adds exact checks of the final state to the statistics:\npenetration and self-intersection")
+                 "Adds exact checks of the final state to the statistics:\npenetration and intersections")
         ->disable_flag_override()
         ->group(group);
 }
@@ -246,12 +247,15 @@ void convert_debug(Converter& convert, const std::vector<std::string>& values, D
             debug.contacts = true;
         else if (value == "normals")
             debug.normals = true;
+        else if (value == "intersections")
+            debug.intersections = true;
         else if (value == "boxes")
             debug.boxes = k_boxes_level;
         else if (value.starts_with(boxes))
             debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
         else
-            convert.fail("--debug", in_quotes(value) + " is not boxes, boxes:LEVEL, contacts or normals");
+            convert.fail("--debug",
+                         in_quotes(value) + " is not boxes, boxes:LEVEL, contacts, normals or intersections");
     }
 }
 

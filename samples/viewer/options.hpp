@@ -27,8 +27,9 @@ struct DebugOptions
     std::optional<uint32_t> boxes{}; // a level of the hierarchies of mesh colliders, 0..48
     bool contacts = false;
     bool normals = false;
+    bool intersections = false;
 
-    [[nodiscard]] bool any() const { return boxes || contacts || normals; }
+    [[nodiscard]] bool any() const { return boxes || contacts || normals || intersections; }
 };
 
 struct Options

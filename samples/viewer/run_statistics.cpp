@@ -18,14 +18,22 @@ std::vector<glm::vec3> download_vectors(const voile::engine::Device& device, VkB
     return {values.begin(), values.end()};
 }
 
-// A run without frames has uploaded nothing yet: its state is the start.
-void upload_start(const voile::engine::Device& device, voile::Solver& solver)
+// Records and waits.
+template <typename Record>
+void run(const voile::engine::Device& device, const Record& record)
 {
     voile::engine::FrameRing ring(device, 1);
     const voile::engine::FrameRing::Frame frame = ring.begin();
-    const voile::Upload upload = voile::engine::take(solver.record_upload(frame.cmd));
+    record(frame.cmd);
     ring.submit(frame);
     ring.wait_all();
+}
+
+// A run without frames has uploaded nothing yet: its state is the start.
+void upload_start(const voile::engine::Device& device, voile::Solver& solver)
+{
+    voile::Upload upload;
+    run(device, [&](VkCommandBuffer cmd) { upload = voile::engine::take(solver.record_upload(cmd)); });
 }
 
 uint64_t state_hash(const std::vector<FinalCloth>& state)
@@ -58,6 +66,19 @@ std::vector<FinalCloth> download_state(const voile::engine::Device& device, cons
     return result;
 }
 
+voile::IntersectionCounts count_intersections(const voile::engine::Device& device, const Stage& stage)
+{
+    voile::Solver& solver = stage.world->solver();
+    run(device, [&](VkCommandBuffer cmd)
+        { voile::engine::take(solver.record_statistics(cmd, 0, voile::Intersections::counted)); });
+    return solver.statistics(0).intersections.value_or(voile::IntersectionCounts{});
+}
+
+PairCounts pair_counts(const voile::IntersectionCounts& counts)
+{
+    return {counts.cloth_pairs, counts.collider_pairs, counts.uncertain_pairs};
+}
+
 void RunStatistics::add_pass(const voile::gpu::PassTime& pass)
 {
     auto series =
@@ -79,6 +100,8 @@ void RunStatistics::completed(const Stage& stage, const voile::engine::FrameInfo
     entry.kinetic_energy = static_cast<double>(measured.kinetic_energy);
     entry.penetrating_vertices = measured.penetrating_vertices;
     entry.deepest_penetration = static_cast<double>(measured.deepest_penetration);
+    if (measured.intersections)
+        entry.intersections = pair_counts(*measured.intersections);
     entry.nan_vertices = measured.nan_vertices;
     entry.contacts = measured.contacts;
     entry.candidates = measured.candidates;
@@ -134,6 +157,7 @@ Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, con
     summary.kinetic_energy = last.kinetic_energy;
     summary.penetrating_vertices = last.penetrating_vertices;
     summary.deepest_penetration = last.deepest_penetration;
+    summary.intersections = last.intersections;
     summary.nan_vertices = last.nan_vertices;
     summary.contacts = last.contacts;
     summary.candidates = last.candidates;

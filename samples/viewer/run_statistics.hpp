@@ -20,6 +20,11 @@ struct FinalCloth
 // Waits for the device.
 std::vector<FinalCloth> download_state(const voile::engine::Device& device, const Stage& stage);
 
+// The intersections of the state as it is. Waits for the device.
+voile::IntersectionCounts count_intersections(const voile::engine::Device& device, const Stage& stage);
+
+PairCounts pair_counts(const voile::IntersectionCounts& counts);
+
 class RunStatistics
 {
 public:

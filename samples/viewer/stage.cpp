@@ -175,7 +175,9 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
                                const Options& options)
 {
     Stage stage;
-    auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
+    voile::SolverOptions solver_options;
+    solver_options.intersections = options.debug.intersections || options.verify;
+    auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots(), solver_options);
     stage.world = &world;
     world.step.gravity = scene.gravity;
     world.step.wind = scene.wind.velocity;
@@ -186,6 +188,8 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
     if (const auto valid = voile::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
+    if (options.debug.intersections)
+        world.intersections = voile::Intersections::counted;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
     {

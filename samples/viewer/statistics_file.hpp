@@ -33,6 +33,14 @@ double median(std::span<const double> values);
 double p95(std::span<const double> values);
 Percentiles percentiles(std::span<const double> values);
 
+// As voile::IntersectionCounts; only --debug intersections and --verify count them.
+struct PairCounts
+{
+    std::optional<uint64_t> cloth;
+    std::optional<uint64_t> collider;
+    std::optional<uint64_t> uncertain;
+};
+
 struct StatisticsSummary
 {
     uint32_t substeps_per_frame = 0;
@@ -44,6 +52,7 @@ struct StatisticsSummary
     std::optional<uint64_t> penetrating_vertices;
     double deepest_penetration = k_not_measured; // m
     std::optional<uint64_t> self_intersections;  // pairs of triangles; only --verify counts them
+    PairCounts intersections;
     std::optional<uint64_t> nan_vertices;
     std::optional<uint64_t> contacts;          // vertices that touch a collider
     std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
@@ -65,6 +74,7 @@ struct FrameStatistics
     double kinetic_energy = k_not_measured; // J
     std::optional<uint64_t> penetrating_vertices;
     double deepest_penetration = k_not_measured; // m
+    PairCounts intersections;
     std::optional<uint64_t> nan_vertices;
     std::optional<uint64_t> contacts;          // vertices that touch a collider
     std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near

@@ -100,8 +100,12 @@ public:
 
     void upload(const voile::PaddedTree& tree, const std::vector<glm::vec4>& from, const std::vector<glm::vec4>& to)
     {
-        refit_tree_ = {voile::aligned_first_box(2), k_first_leaf, k_first_from,
-                       k_first_from + static_cast<uint32_t>(from.size()), tree.triangles};
+        refit_tree_ = {};
+        refit_tree_.first_box = voile::aligned_first_box(2);
+        refit_tree_.first_leaf = k_first_leaf;
+        refit_tree_.first_from = k_first_from;
+        refit_tree_.first_to = k_first_from + static_cast<uint32_t>(from.size());
+        refit_tree_.triangles = tree.triangles;
         std::vector<voile::shared::PaddedLeaf> leaves(k_first_leaf);
         leaves.insert(leaves.end(), tree.leaves.begin(), tree.leaves.end());
         std::vector<glm::vec4> positions(k_first_from, glm::vec4(1e9f));
@@ -110,6 +114,7 @@ public:
         const PaddedBox untouched{glm::vec3(7), 7, glm::vec3(7), 7};
         const std::vector<PaddedBox> boxes(refit_tree_.first_box + tree.boxes() + 1, untouched);
         voile::engine::UploadBatch batch(context());
+        trees_ = batch.buffer("trees", std::vector{refit_tree_}, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         leaves_ = batch.buffer("leaves", leaves, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         positions_ = batch.buffer("positions", positions, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         boxes_ = batch.buffer("boxes", boxes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
@@ -120,11 +125,12 @@ public:
     std::vector<PaddedBox> refit(const voile::PaddedTree& tree, uint32_t workgroup_size)
     {
         const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context(), workgroup_size));
-        voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));
+        voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 4));
         const VkDescriptorSet set =
-            voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves_.handle()},
-                                                           {voile::binding::deforming_positions, positions_.handle()},
-                                                           {voile::binding::padded_boxes, boxes_.handle()}}));
+            voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::cloth_trees, trees_.handle()},
+                                                           {voile::binding::refit_leaves, leaves_.handle()},
+                                                           {voile::binding::refit_positions, positions_.handle()},
+                                                           {voile::binding::refit_boxes, boxes_.handle()}}));
         run(
             [&](VkCommandBuffer cmd)
             {
@@ -180,7 +186,8 @@ public:
     }
 
 private:
-    voile::RefitTree refit_tree_;
+    voile::shared::TreeRecord refit_tree_;
+    voile::gpu::Buffer trees_;
     voile::gpu::Buffer leaves_;
     voile::gpu::Buffer positions_;
     voile::gpu::Buffer boxes_;
@@ -228,13 +235,13 @@ TEST_CASE("every triangle has exactly one slot of a padded BVH that is not a rep
         for (uint32_t slot = 0; slot < tree.leaves.size(); ++slot)
         {
             const voile::shared::PaddedLeaf& leaf = tree.leaves[slot];
-            const uint32_t triangle = leaf.triangle & ~VOILE_PADDED_REPEAT;
+            const uint32_t triangle = leaf.triangle & VOILE_PADDED_TRIANGLE_MASK;
             const bool repeat = (leaf.triangle & VOILE_PADDED_REPEAT) != 0;
             REQUIRE(triangle < count);
             REQUIRE(leaf.corners == soup.triangles[triangle]);
             REQUIRE(repeat == (slot >= count));
             if (repeat)
-                REQUIRE(tree.leaves[slot - tree.leaves.size() / 2].triangle == triangle);
+                REQUIRE((leaf.triangle ^ tree.leaves[slot - tree.leaves.size() / 2].triangle) == VOILE_PADDED_REPEAT);
             else
                 ++seen[triangle];
         }
@@ -249,7 +256,7 @@ TEST_CASE("identical triangles are split evenly, too")
     const voile::PaddedTree tree = voile::build_padded_tree(positions, triangles);
     std::vector<uint32_t> found;
     for (uint32_t slot = 0; slot < 100; ++slot)
-        found.push_back(tree.leaves.at(slot).triangle);
+        found.push_back(tree.leaves.at(slot).triangle & VOILE_PADDED_TRIANGLE_MASK);
     std::sort(found.begin(), found.end());
     for (uint32_t t = 0; t < 100; ++t)
         CHECK(found[t] == t);

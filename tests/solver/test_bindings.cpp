@@ -28,7 +28,7 @@ namespace buffer = voile::buffer;
 class Bindings : public tests::GpuFixture
 {
 public:
-    Bindings() : kernels(voile::engine::take(voile::create_kernels(context(), {}))) {}
+    Bindings() : kernels(voile::engine::take(voile::create_kernels(context(), {.intersections = true}))) {}
 
     voile::Kernels kernels;
 };

@@ -294,21 +294,26 @@ TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in it
     const auto buffer = [&](const char* name) {
         return voile::engine::take(voile::gpu::create_buffer(context(), name, k_bytes, k_usage, voile::Memory::device));
     };
+    const voile::gpu::Buffer trees = buffer("trees");
     const voile::gpu::Buffer leaves = buffer("leaves");
     const voile::gpu::Buffer positions = buffer("positions");
     const voile::gpu::Buffer boxes = buffer("boxes");
     for (const voile::gpu::Buffer* filled : {&leaves, &positions})
         run([&](VkCommandBuffer cmd) { context().fn.vkCmdFillBuffer(cmd, filled->handle(), 0, VK_WHOLE_SIZE, 0); });
-    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 3));
+    voile::gpu::BindingPool pool = voile::engine::take(voile::gpu::BindingPool::create(context(), 1, 4));
     const VkDescriptorSet set =
-        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::padded_leaves, leaves.handle()},
-                                                       {voile::binding::deforming_positions, positions.handle()},
-                                                       {voile::binding::padded_boxes, boxes.handle()}}));
+        voile::engine::take(pool.bind(kernels.leaves, {{voile::binding::cloth_trees, trees.handle()},
+                                                       {voile::binding::refit_leaves, leaves.handle()},
+                                                       {voile::binding::refit_positions, positions.handle()},
+                                                       {voile::binding::refit_boxes, boxes.handle()}}));
     OneDispatchEach buffers(tests::device());
     voile::gpu::Recorder recorder(context(), buffers.begin());
     recorder.split_with(OneDispatchEach::next, &buffers);
+    voile::shared::TreeRecord tree{};
+    tree.first_box = 1;
+    tree.triangles = k_triangles;
     for (int step = 0; step < 2; ++step)
-        voile::record_refit(recorder, kernels, set, {.first_box = 1, .triangles = k_triangles});
+        voile::record_refit(recorder, kernels, set, tree);
     buffers.submit();
     CHECK(buffers.count() == recorder.dispatches() + 1);
 }

@@ -89,7 +89,8 @@ TEST_CASE("without options the vertex streams cost no memory and no dispatch")
         CAPTURE(name);
         const bool staging = name == "cloth staging"; // has what is new of the two
         CHECK((request.bytes == on.requests.at(name).bytes) == !staging);
-        const bool stream = name == "cloth positions" || name == "cloth velocities" || name == "cloth normals";
+        const bool stream = name == "cloth positions" || name == "cloth velocities" || name == "cloth normals" ||
+                            name == "cloth intersections";
         CHECK(on.requests.at(name).usage == (request.usage | (stream ? k_texels : 0u)));
     }
     for (const char* name : {"cloth previous_positions", "cloth indices"})

@@ -189,17 +189,18 @@ TEST_CASE("help and version are printed, not errors")
 TEST_CASE("--debug accepts every mode")
 {
     CHECK_FALSE(parse({}).value().debug.any());
-    const auto all = parse_line("--debug boxes --debug contacts --debug=normals");
+    const auto all = parse_line("--debug boxes --debug contacts --debug=normals --debug intersections");
     REQUIRE(all);
     CHECK(all.value().debug.boxes == 4u);
     CHECK(all.value().debug.contacts);
     CHECK(all.value().debug.normals);
+    CHECK(all.value().debug.intersections);
     const auto level = parse_line("--debug boxes:0 drape");
     REQUIRE(level);
     CHECK(level.value().debug.boxes == 0u);
     CHECK_FALSE(level.value().debug.contacts);
     CHECK(level.value().scene == "drape");
-    CHECK(message({"--debug", "boxen"}) == "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts or normals");
+    CHECK(message({"--debug", "boxen"}) == "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections");
     CHECK(message({"--debug", "boxes:49"}) == "--debug boxes: \"49\" is not within 0 to 48");
     CHECK(message({"--debug", "boxes:"}) == "--debug boxes: the value is empty");
     CHECK(message({"--debug", "boxes:deep"}) == "--debug boxes: \"deep\" is not a whole number");

@@ -59,10 +59,26 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
 {
     const Json json = Json::parse(viewer::statistics_text(measured()));
     CHECK(keys(json) == Keys{"scene", "device", "driver", "frames", "summary", "per_frame"});
-    CHECK(keys(json["summary"]) == Keys{"substeps_per_frame", "vertices", "triangles", "max_stretch", "mean_stretch",
-                                        "kinetic_energy", "penetrating_vertices", "deepest_penetration",
-                                        "self_intersections", "nan_vertices", "contacts", "candidates",
-                                        "contact_overflows", "verified", "gpu_ms", "cpu_record_ms", "state_hash"});
+    CHECK(keys(json["summary"]) == Keys{"substeps_per_frame",
+                                        "vertices",
+                                        "triangles",
+                                        "max_stretch",
+                                        "mean_stretch",
+                                        "kinetic_energy",
+                                        "penetrating_vertices",
+                                        "deepest_penetration",
+                                        "self_intersections",
+                                        "intersecting_cloth_pairs",
+                                        "intersecting_collider_pairs",
+                                        "uncertain_pairs",
+                                        "nan_vertices",
+                                        "contacts",
+                                        "candidates",
+                                        "contact_overflows",
+                                        "verified",
+                                        "gpu_ms",
+                                        "cpu_record_ms",
+                                        "state_hash"});
     CHECK(keys(json["summary"]["gpu_ms"]) == Keys{"frame", "cloth", "passes"});
     CHECK(keys(json["summary"]["gpu_ms"]["frame"]) == Keys{"median", "p95"});
     CHECK(keys(json["summary"]["gpu_ms"]["cloth"]) == Keys{"median", "p95"});
@@ -70,9 +86,10 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
     CHECK(keys(json["summary"]["cpu_record_ms"]) == Keys{"median", "p95"});
     REQUIRE(json["per_frame"].size() == 2);
     CHECK(keys(json["per_frame"][0]) == Keys{"frame", "substeps", "max_stretch", "mean_stretch", "kinetic_energy",
-                                             "penetrating_vertices", "deepest_penetration", "nan_vertices", "contacts",
-                                             "candidates", "contact_overflows", "gpu_frame_ms", "gpu_cloth_ms",
-                                             "cpu_record_ms"});
+                                             "penetrating_vertices", "deepest_penetration", "intersecting_cloth_pairs",
+                                             "intersecting_collider_pairs", "uncertain_pairs", "nan_vertices",
+                                             "contacts", "candidates", "contact_overflows", "gpu_frame_ms",
+                                             "gpu_cloth_ms", "cpu_record_ms"});
 }
 
 TEST_CASE("values survive a round trip, and unmeasured ones are null")

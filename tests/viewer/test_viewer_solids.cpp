@@ -185,6 +185,40 @@ TEST_CASE("--debug shows boxes that move with their mesh, contacts where cloth t
     CHECK(find(runs.picture(text, 1, "--debug normals --validate"), normals).x > 30);
 }
 
+TEST_CASE("--debug intersections paints and counts the vertices around a mesh through the cloth, --verify counts them")
+{
+    SceneRuns runs;
+    voile::engine::take(
+        voile::engine::save_obj(runs.folder() / "ball.obj", voile::engine::make_sphere({0, 0.3f, 0}, 0.2f, 16)));
+    const std::string text = scene(R"({"mesh": "ball.obj"})", "", 0.3f);
+    const auto painted = [](const voile::engine::Picture& picture)
+    {
+        int count = 0;
+        for (size_t i = 0; i < picture.rgba.size(); i += 4)
+            count += std::abs(picture.rgba[i] - 249) + std::abs(picture.rgba[i + 1] - 38) +
+                                 std::abs(picture.rgba[i + 2] - 89) <
+                             60
+                         ? 1
+                         : 0;
+        return count;
+    };
+    CHECK(painted(runs.picture(text, 1)) == 0);
+    CHECK(painted(runs.picture(text, 1, "--debug intersections --validate")) > 20);
+
+    std::ofstream(runs.folder() / "through.json") << text;
+    const std::string base = (runs.folder() / "through.json").string() + " --headless --size 64x36 --frames 1 ";
+    for (const char* option : {"--debug intersections", "--verify --validate"})
+    {
+        const Run run = run_viewer(base + option);
+        CAPTURE(run.output);
+        CAPTURE(run.errors);
+        CHECK(run.exit_code == 0);
+        CHECK(run.output.find("intersections: 0 pairs of cloth, ") != std::string::npos);
+        CHECK(run.output.find(" 0 of cloth and collider") == std::string::npos);
+    }
+    CHECK(run_viewer(base).output.find("intersections") == std::string::npos);
+}
+
 TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay outside")
 {
     const Run run = run_viewer("moving --headless --size 64x36 --cloth-resolution 16 --frames 40 --validate --verify");

@@ -18,18 +18,19 @@ namespace
 
 constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-constexpr std::array<VertexStream, 2> k_mark_streams{
-    {{VK_FORMAT_R32G32B32A32_SFLOAT, 16, VK_VERTEX_INPUT_RATE_INSTANCE},
-     {VK_FORMAT_R32G32B32A32_SFLOAT, 16, VK_VERTEX_INPUT_RATE_INSTANCE}}};
+constexpr VertexStream k_vectors{VK_FORMAT_R32G32B32A32_SFLOAT, 16, VK_VERTEX_INPUT_RATE_INSTANCE};
+constexpr VertexStream k_words{VK_FORMAT_R32_UINT, 4, VK_VERTEX_INPUT_RATE_INSTANCE};
 
 } // namespace
 
-Owned<VkPipeline> MarkPipelines::create(const char* name, std::span<const uint32_t> vertex) const
+Owned<VkPipeline> MarkPipelines::create(const char* name, std::span<const uint32_t> vertex,
+                                        const VertexStream& second) const
 {
+    const std::array streams{k_vectors, second};
     return create_graphics_pipeline(context_, {.name = name,
                                                .vertex = vertex,
                                                .fragment = shaders::k_mark_frag,
-                                               .streams = k_mark_streams,
+                                               .streams = streams,
                                                .layout = layout_,
                                                .color_format = color_,
                                                .depth_format = depth_,
@@ -39,14 +40,20 @@ Owned<VkPipeline> MarkPipelines::create(const char* name, std::span<const uint32
 VkPipeline MarkPipelines::lines()
 {
     if (lines_.get() == VK_NULL_HANDLE)
-        lines_ = create("lines", shaders::k_line_vert);
+        lines_ = create("lines", shaders::k_line_vert, k_vectors);
     return lines_.get();
 }
 
-VkPipeline MarkPipelines::dots()
+VkPipeline MarkPipelines::dots(bool flag_words)
 {
+    if (flag_words)
+    {
+        if (flagged_dots_.get() == VK_NULL_HANDLE)
+            flagged_dots_ = create("flagged dots", shaders::k_flagged_dot_vert, k_words);
+        return flagged_dots_.get();
+    }
     if (dots_.get() == VK_NULL_HANDLE)
-        dots_ = create("dots", shaders::k_dot_vert);
+        dots_ = create("dots", shaders::k_dot_vert, k_vectors);
     return dots_.get();
 }
 
@@ -115,7 +122,7 @@ void PassView::draw(VkCommandBuffer cmd, const Dots& dots)
     if (pass_.marks == nullptr || dots.count == 0)
         return;
     const shared::MarkPush push{dots.model, dots.color, dots.size, {}, 0, dots.mask};
-    draw_marks(cmd, pass_.marks->dots(),
+    draw_marks(cmd, pass_.marks->dots(dots.flag_words),
                {push, {dots.positions, dots.flags}, {dots.position_offset, dots.flag_offset}, dots.count, dots.label});
 }
 

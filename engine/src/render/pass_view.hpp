@@ -9,6 +9,8 @@
 namespace voile::engine
 {
 
+struct VertexStream;
+
 // The pipelines of lines and dots. Created on first use, because a normal run draws none.
 class MarkPipelines
 {
@@ -20,10 +22,10 @@ public:
     }
 
     VkPipeline lines(); // StartupError when the driver refuses
-    VkPipeline dots();
+    VkPipeline dots(bool flag_words);
 
 private:
-    Owned<VkPipeline> create(const char* name, std::span<const uint32_t> vertex) const;
+    Owned<VkPipeline> create(const char* name, std::span<const uint32_t> vertex, const VertexStream& second) const;
 
     const gpu::Context& context_;
     VkPipelineLayout layout_;
@@ -32,6 +34,7 @@ private:
     VkSampleCountFlagBits samples_;
     Owned<VkPipeline> lines_;
     Owned<VkPipeline> dots_;
+    Owned<VkPipeline> flagged_dots_;
 };
 
 class PassView : public View

@@ -29,7 +29,7 @@ void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& fr
         engine::take(solver_.record(cmd, step, frame.timestamps));
     }
     if (collect_statistics)
-        engine::take(solver_.record_statistics(cmd, frame.slot, frame.timestamps));
+        engine::take(solver_.record_statistics(cmd, frame.slot, intersections, frame.timestamps));
 }
 
 Sheet::Sheet(ClothWorld& world, engine::UploadBatch& uploads, const GridCloth& grid, const engine::Surface& surface)

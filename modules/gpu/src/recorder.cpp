@@ -67,14 +67,20 @@ void Recorder::finish_dispatch()
 void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
                         std::span<const std::byte> push, Ordering ordering)
 {
-    if (threads == 0)
+    dispatch_grid(kernel, set, (threads + group_size - 1) / group_size, 1, push, ordering);
+}
+
+void Recorder::dispatch_grid(const Kernel& kernel, VkDescriptorSet set, uint32_t columns, uint32_t rows,
+                             std::span<const std::byte> push, Ordering ordering)
+{
+    if (columns == 0 || rows == 0)
         return;
     require_push(kernel, push);
     if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
-        context_.fn.vkCmdDispatch(cmd_, (threads + group_size - 1) / group_size, 1, 1);
+        context_.fn.vkCmdDispatch(cmd_, columns, rows, 1);
         if (ordering == Ordering::ordered)
             compute_barrier();
     }

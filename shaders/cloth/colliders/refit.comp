@@ -16,9 +16,10 @@
 layout(local_size_x_id = k_constant_workgroup_size) in; // a power of two, at least 2
 layout(constant_id = k_constant_from_leaves) const uint FROM_LEAVES = 1;
 
-layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf leaves[]; };
-layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 positions[]; };
-layout(VOILE_BINDING(padded_boxes)) buffer PaddedBoxes { vec4 box_halves[]; }; // PaddedBox: minimum, maximum, ...
+layout(VOILE_BINDING(cloth_trees)) readonly buffer ClothTrees { TreeRecord cloth_trees[]; };
+layout(VOILE_BINDING(refit_leaves)) readonly buffer RefitLeaves { PaddedLeaf leaves[]; };
+layout(VOILE_BINDING(refit_positions)) readonly buffer RefitPositions { vec4 positions[]; };
+layout(VOILE_BINDING(refit_boxes)) buffer RefitBoxes { vec4 box_halves[]; }; // PaddedBox: minimum, maximum, ...
 
 layout(push_constant, std430) uniform Push { RefitPush push; };
 
@@ -32,6 +33,7 @@ shared vec3 shared_halves[gl_WorkGroupSize.x];
 // The part of a subtree that a thread folds.
 struct Fold
 {
+    TreeRecord tree;
     bool upper; // whether it computes maxima
     uint root;  // of its subtree, on its level
     uint roots; // number of boxes of that level
@@ -46,7 +48,7 @@ vec3 neutral(bool upper) { return vec3(upper ? uintBitsToFloat(0xff800000u) : ui
 // The index of the subtree's k-th box on the level on which it has `width` boxes.
 uint half_index(Fold self, uint k, uint width)
 {
-    return 2 * (push.first_box + self.roots * (width + k) - 1 + self.root) + uint(self.upper);
+    return 2 * (self.tree.first_box + self.roots * (width + k) - 1 + self.root) + uint(self.upper);
 }
 
 void store(Fold self, uint k, uint width, vec3 value)
@@ -55,17 +57,25 @@ void store(Fold self, uint k, uint width, vec3 value)
         box_halves[half_index(self, k, width)] = vec4(value, 0);
 }
 
+bool is_finite(uvec3 corners)
+{
+    const vec3 sum = abs(positions[corners.x].xyz) + abs(positions[corners.y].xyz) + abs(positions[corners.z].xyz);
+    return !any(isnan(sum)) && !any(isinf(sum));
+}
+
 vec3 triangle_half(bool upper, uvec3 corners)
 {
     return fold(upper, fold(upper, positions[corners.x].xyz, positions[corners.y].xyz), positions[corners.z].xyz);
 }
 
-vec3 leaf_half(bool upper, uint slot)
+// A triangle with a corner that is not finite has an empty box, so that it does not spoil those above it.
+vec3 leaf_half(bool upper, TreeRecord tree, uint slot)
 {
-    const uvec3 corners = leaves[push.first_leaf + slot].corners;
-    const vec3 start = triangle_half(upper, push.first_from + corners);
-    const vec3 end = triangle_half(upper, push.first_to + corners);
-    return fold(upper, start, end);
+    const uvec3 corners = leaves[tree.first_leaf + slot].corners;
+    const vec3 start = triangle_half(upper, tree.first_from + corners);
+    const vec3 end = triangle_half(upper, tree.first_to + corners);
+    const vec3 value = fold(upper, start, end);
+    return is_finite(tree.first_from + corners) && is_finite(tree.first_to + corners) ? value : neutral(upper);
 }
 
 // The subtree's k-th box of the bottom level. A tree may have fewer levels than a dispatch can fold. Boxes that it lacks
@@ -77,7 +87,7 @@ vec3 bottom_half(Fold self, uint k)
         return neutral(self.upper);
     if (FROM_LEAVES == 0)
         return box_halves[half_index(self, k, width)].xyz;
-    const vec3 value = leaf_half(self.upper, self.root + k * self.roots);
+    const vec3 value = leaf_half(self.upper, self.tree, self.root + k * self.roots);
     store(self, k, width, value);
     return value;
 }
@@ -117,7 +127,10 @@ void fold_rows(Fold self, vec3 value)
 void main()
 {
     const uint lane = gl_LocalInvocationID.x % LANES;
-    const Fold self = Fold(lane % 2 == 1, gl_WorkGroupID.x * RUN + lane / 2, 1u << (push.bottom - push.levels),
-                           gl_LocalInvocationID.x / LANES);
+    TreeRecord tree = push.tree;
+    if (push.first_tree != VOILE_TREE_IN_PUSH)
+        tree = cloth_trees[push.first_tree + gl_WorkGroupID.y];
+    const Fold self = Fold(tree, lane % 2 == 1, gl_WorkGroupID.x * RUN + lane / 2,
+                           1u << (push.bottom - push.levels), gl_LocalInvocationID.x / LANES);
     fold_rows(self, fold_in_registers(self));
 }

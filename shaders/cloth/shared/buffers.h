@@ -108,7 +108,7 @@ VOILE_BUFFER(51, limit_scales, LimitScale, cloths, "the fractions of the limit's
 
 // Statistics.
 VOILE_SCRATCH_BUFFER(52, partials, StatisticsRecord, patches, "statistics of a patch")
-VOILE_SOLVER_BUFFER(53, statistics, StatisticsRecord, "statistics of all cloths, one record per slot; the host reads it")
+VOILE_SOLVER_BUFFER(53, statistics, StatisticsResult, "statistics of all cloths, one record per slot; the host reads it")
 
 // Output.
 VOILE_OUTPUT_BUFFER(54, previous_positions, vec4, previous_vertices, "the positions before the last step; the host reads it")
@@ -130,6 +130,14 @@ VOILE_SCRATCH_BUFFER(67, pair_responses, PairResponse, pair_vertices * VOILE_PAI
 VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the weights of a vertex in the pairs that are pushed, of even and of odd passes")
 VOILE_SCRATCH_BUFFER(69, pair_patches, uint, pair_vertices == 0 ? 0 : patches, "the patches with vertices in pairs, in no order")
 VOILE_SCRATCH_BUFFER(70, pair_marks, uint, pair_vertices == 0 ? 0 : patches, "1: the patch is listed")
+
+// Intersections: hierarchies of cloths and what they count, only with SolverOptions::intersections.
+VOILE_BUFFER(71, cloth_trees, TreeRecord, cloth_trees, "the hierarchies of the active cloths, ordered by depth")
+VOILE_BUFFER(72, cloth_leaves, PaddedLeaf, cloth_leaves, "triangles of cloths; instances of a mesh, and grids of one size, share them")
+VOILE_SCRATCH_BUFFER(73, cloth_boxes, PaddedBox, cloth_boxes, "boxes of the hierarchies of cloths, level by level")
+VOILE_BUFFER(74, bvh_edges, uint, bvh_edges, "the edges that a triangle of a rigid mesh owns, one bit each")
+VOILE_SCRATCH_BUFFER(75, intersections, uint, intersecting_vertices, "per vertex what the triangles and edges around it intersect: cloths, colliders (VOILE_INTERSECTS_*); the host draws from it")
+VOILE_SCRATCH_BUFFER(76, intersection_counts, IntersectionCounters, cloth_trees == 0 ? 0 : 1, "the numbers of intersecting pairs")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(128, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")
@@ -170,6 +178,11 @@ VOILE_ROLE(157, after_positions, vec4, "the positions after the change that is m
 VOILE_ROLE(158, after_residuals, uvec2, "the residuals after the change that is measured")
 VOILE_ROLE(159, after_velocities, vec4, "the velocities after the change that is measured")
 VOILE_ROLE(160, works, LimitWork, "the measured energy and work")
+
+// Refit: the hierarchies of cloths, or one of a collider that deforms.
+VOILE_ROLE(161, refit_leaves, PaddedLeaf, "the triangles of the hierarchies that are refitted")
+VOILE_ROLE(162, refit_positions, vec4, "the vertices of the triangles")
+VOILE_ROLE(163, refit_boxes, PaddedBox, "the boxes that a refit writes")
 
 // clang-format on
 

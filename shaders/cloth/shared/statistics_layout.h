@@ -4,6 +4,10 @@
 
 #include "../../shared_types.h"
 
+// Bits of a vertex in the buffer of intersections.
+#define VOILE_INTERSECTS_CLOTH 1u
+#define VOILE_INTERSECTS_COLLIDER 2u
+
 VOILE_SHARED_BEGIN(voile)
 
 // Push constants of the statistics passes.
@@ -13,10 +17,28 @@ struct StatisticsPush
     uint near_stride;
 };
 
+// Push constants of the passes that count intersections. Row y of the workgroups works on tree first_tree + y.
+struct IntersectionPush
+{
+    uint trees; // in the table
+    uint first_tree;
+    uint levels; // of the trees of the dispatch
+    uint colliders;
+};
+
 struct StatisticsReducePush
 {
     uint patches;
     uint slot; // of the result
+};
+
+// Pairs of an edge and a triangle, or of a triangle and a solid, that intersect.
+struct IntersectionCounters
+{
+    uint cloth_pairs;     // cloth and cloth
+    uint collider_pairs;  // cloth and collider
+    uint uncertain_pairs; // of both, those that may not intersect
+    uint counted;         // 0 in a result without them
 };
 
 // Sums and maxima over a patch, and, reduced, over all cloths.
@@ -36,8 +58,16 @@ struct StatisticsRecord
     uint padding_1;
 };
 
+// What the host reads.
+struct StatisticsResult
+{
+    StatisticsRecord cloths;
+    IntersectionCounters intersections;
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(StatisticsRecord) == 48);
+static_assert(sizeof(StatisticsResult) == 64);
 #endif
 
 VOILE_SHARED_END

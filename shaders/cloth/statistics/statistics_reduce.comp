@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Merges the statistics of all patches. One workgroup: each thread merges every group-size-th patch, then the workgroup
-// folds.
+// folds. Intersections are copied afterwards, if they were counted.
 #include "shared/bindings.h"
 #include "shared/statistics_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(partials)) readonly buffer Partials { StatisticsRecord partials[]; };
-layout(VOILE_BINDING(statistics)) writeonly buffer Statistics { StatisticsRecord result[]; };
+layout(VOILE_BINDING(statistics)) writeonly buffer Statistics { StatisticsResult result[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsReducePush push; };
 
@@ -20,6 +20,8 @@ void main()
     for (uint c = gl_LocalInvocationID.x; c < push.patches; c += gl_WorkGroupSize.x)
         record = merge(record, partials[c]);
     const StatisticsRecord merged = merge_workgroup(record);
-    if (gl_LocalInvocationID.x == 0)
-        result[push.slot] = merged;
+    if (gl_LocalInvocationID.x != 0)
+        return;
+    result[push.slot].cloths = merged;
+    result[push.slot].intersections = IntersectionCounters(0, 0, 0, 0);
 }

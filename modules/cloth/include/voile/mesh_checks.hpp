@@ -1,4 +1,4 @@
-// Exact checks of a state, on the host in double precision. For tests and tools; the simulation does not use them.
+// Checks of a state, on the host in double precision. For tests and tools; the simulation does not use them.
 #pragma once
 
 #include "voile/descriptions.hpp"
@@ -52,8 +52,10 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Number of pairs of triangles without a common corner that intersect: an edge of one passes through the other (Möller
-// and Trumbore 1997). Indices must be within `positions`; triangles with a corner that is not finite are left out.
+// Number of pairs of triangles without a common corner of which an edge of one passes through the other, in double
+// precision (Möller and Trumbore 1997). Triangles that overlap in a plane are not counted, and where they touch,
+// rounding decides. Solver::record_statistics counts without rounding (IntersectionCounts). Indices must be within
+// `positions`; triangles with a corner that is not finite are left out.
 VOILE_API uint64_t count_self_intersections(std::span<const Vec3> positions, std::span<const UVec3> triangles);
 
 } // namespace voile

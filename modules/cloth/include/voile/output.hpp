@@ -50,6 +50,7 @@ struct StreamAddresses
     VkDeviceAddress normals = 0;
     VkDeviceAddress previous_positions = 0;
     VkDeviceAddress indices = 0;
+    VkDeviceAddress intersections = 0;
 };
 
 // Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles, 0 vertices
@@ -73,6 +74,12 @@ struct VertexStreams
     VkBuffer indices{};
     VkDeviceSize index_offset = 0; // bytes, of the first index
     uint32_t index_count = 0;
+
+    // uint32, one per vertex: 1 if an edge or a triangle around it intersects one of a cloth, plus 2 if it intersects a
+    // collider, when record_statistics last counted intersections. 0 after an upload. Null without
+    // SolverOptions::intersections.
+    VkBuffer intersections{};
+    VkDeviceSize intersection_offset = 0; // bytes, of the first vertex
 
     StreamAddresses addresses;
 };

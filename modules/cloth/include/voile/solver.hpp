@@ -105,6 +105,11 @@ struct SolverOptions
     // that queue, or HostScopes{} for none. Semaphores order other queues.
     std::optional<HostScopes> host_scopes{};
 
+    // Keeps hierarchies of cloths, so that record_statistics can count intersections. Costs 80 to 160 bytes of device
+    // memory per triangle of a cloth, 4 per triangle of a rigid mesh, and time when a cloth is added; steps cost the
+    // same.
+    bool intersections = false;
+
     OutputOptions output{}; // what the vertex streams have on request
     // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
     // None: on if the module was compiled without NDEBUG.
@@ -333,6 +338,10 @@ public:
     // Records the computation of the statistics into `slot`. Read them once the submission has completed; uploads do
     // not disturb them. Nothing is recorded before the first record_upload. Errors: a slot that does not exist.
     Result<void> record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
+    // The same, and counts intersections (voile/statistics.hpp) and marks their vertices (VertexStreams::intersections)
+    // on request. That takes longer than a step. Errors: also if SolverOptions::intersections is off.
+    Result<void> record_statistics(VkCommandBuffer cmd, uint32_t slot, Intersections intersections,
+                                   gpu::Timestamps* timestamps = nullptr) const;
     // All 0 for a slot without statistics, or that does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 

@@ -2,9 +2,46 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace voile
 {
+
+// Intersecting pairs, counted exactly for the positions in the vertex streams, which are floats.
+//
+// A pair is an edge and a triangle that have a point in common: they cross, touch, or overlap in a plane. Each edge of
+// a mesh or a grid counts once, with its diagonals (Solver::triangles). Signs of orientation determinants are exact (a
+// filter in float, then integers), so the numbers depend on no tolerance, and two runs are equal. Triangles with a
+// corner that is not finite are left out.
+//
+// - Cloth: edges and triangles of one cloth, and of two cloths that share a layer. Pairs with a common vertex are left
+//   out: unless they lie in one plane, they meet in that vertex alone. Two neighboring triangles folded flat onto each
+//   other are thus counted only by edges without a common vertex.
+// - Meshes and boxes: edges of the cloth through triangles of the collider and edges of the collider through triangles
+//   of the cloth, for colliders that share a layer, at the end of the last step. Vertices of rigid meshes at one
+//   position are one; edges of deforming meshes are pairs of its vertices, so a seam counts on both sides. A face of a
+//   box is two triangles. Vertices of colliders are rounded to float in the world. What lies in a solid without
+//   crossing its surface is counted by penetrating_vertices alone.
+// - Spheres, capsules, half spaces: triangles of the cloth that have a point in common with the solid.
+//
+// Uncertain pairs are counted, too: those of a sphere, a capsule or a half space whose distance is 0 to within rounding
+// (some 1e-6 of the distance from the solid's center, or, if it was moved, 1e-5), and those whose coordinates along one
+// axis differ by more than a factor of 2^39 in size while the filter in float fails.
+//
+// Cost: a refit of the hierarchies of all cloths, and a traversal of those and of the colliders' per triangle.
+struct IntersectionCounts
+{
+    uint32_t cloth_pairs = 0;     // cloth and cloth
+    uint32_t collider_pairs = 0;  // cloth and collider
+    uint32_t uncertain_pairs = 0; // of both, those that may not intersect
+};
+
+// Whether Solver::record_statistics counts intersections.
+enum class Intersections
+{
+    not_counted,
+    counted,
+};
 
 // A vertex counts as inside a sphere, a capsule, a box or the half space below a plane, and inside a one-sided mesh
 // where the generalized winding number is above 1/2 (Jacobson et al. 2013). Closed meshes are one-sided by default. A
@@ -26,6 +63,7 @@ struct Statistics
     uint32_t candidates = 0;           // triangles in the lists of near triangles of all vertices
     uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
                                        // every substep, which is slower but misses nothing
+    std::optional<IntersectionCounts> intersections{}; // none: not counted
 };
 
 } // namespace voile

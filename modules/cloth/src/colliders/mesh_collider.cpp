@@ -71,9 +71,6 @@ Result<void> check_box(const MeshCollider& description, const ColliderModel& col
 
 } // namespace
 
-// The entries that boxes may need before their first one, so that it is aligned.
-constexpr uint64_t k_box_alignment = VOILE_REFIT_RUN - 1;
-
 ColliderId ColliderModels::append_deforming(shared::ColliderRecord record, const MeshInput& mesh,
                                             const glm::mat4& transform)
 {

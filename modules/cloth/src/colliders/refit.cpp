@@ -37,6 +37,66 @@ Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t 
     return kernels;
 }
 
+namespace
+{
+
+// The part of a refit that is one dispatch.
+struct Round
+{
+    uint32_t bottom = 0;
+    uint32_t levels = 0;
+    uint32_t columns = 0; // workgroups per tree
+
+    explicit operator bool() const { return columns > 0; }
+};
+
+// The rounds of a tree, from the leaves on: `index` counts them. No columns: there is none.
+Round round_of(const RefitKernels& kernels, uint32_t depth, uint32_t index)
+{
+    const uint32_t folded = index * kernels.levels_per_dispatch;
+    if (index > 0 && folded >= depth)
+        return {};
+    Round round{depth - folded, std::min(depth - folded, kernels.levels_per_dispatch), 0};
+    const uint32_t roots = 1u << (round.bottom - round.levels);
+    round.columns = (roots + kernels.run - 1) / kernels.run;
+    return round;
+}
+
+} // namespace
+
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set,
+                  const shared::TreeRecord& tree)
+{
+    if (tree.triangles == 0)
+        return;
+    const uint32_t depth = padded_levels(tree.triangles);
+    for (uint32_t i = 0; const Round round = round_of(kernels, depth, i); ++i)
+    {
+        const shared::RefitPush push{tree, VOILE_TREE_IN_PUSH, round.bottom, round.levels};
+        recorder.dispatch_grid(i == 0 ? kernels.leaves : kernels.levels, set, round.columns, 1, push);
+    }
+}
+
+// The trees of a round do not read each other's boxes: the last dispatch has the barrier of all.
+void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const TreeCounts& trees)
+{
+    const auto deepest = std::ranges::find_if(trees.rbegin(), trees.rend(), [](uint32_t count) { return count > 0; });
+    const auto last = static_cast<uint32_t>(trees.rend() - deepest);
+    for (uint32_t i = 0; last > 0 && round_of(kernels, last - 1, i); ++i)
+    {
+        uint32_t first = 0;
+        for (uint32_t depth = 0; depth < last; first += trees[depth++])
+        {
+            const Round round = round_of(kernels, depth, i);
+            if (!round || trees[depth] == 0)
+                continue;
+            const shared::RefitPush push{{}, first, round.bottom, round.levels};
+            recorder.dispatch_grid(i == 0 ? kernels.leaves : kernels.levels, set, round.columns, trees[depth], push,
+                                   depth + 1 == last ? gpu::Ordering::ordered : gpu::Ordering::unordered);
+        }
+    }
+}
+
 Fold next_fold(const RefitKernels& kernels, shared::RefitPush& push)
 {
     push.levels = std::min(push.bottom, kernels.levels_per_dispatch);
@@ -44,21 +104,6 @@ Fold next_fold(const RefitKernels& kernels, shared::RefitPush& push)
     const Fold fold{push, (roots + kernels.run - 1) / kernels.run};
     push.bottom -= push.levels;
     return fold;
-}
-
-void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescriptorSet set, const RefitTree& tree)
-{
-    if (tree.triangles == 0)
-        return;
-    shared::RefitPush push{tree.first_box, tree.first_leaf, tree.first_from, tree.first_to, 0, 0};
-    push.bottom = padded_levels(tree.triangles);
-    const gpu::Kernel* kernel = &kernels.leaves;
-    do
-    {
-        const Fold fold = next_fold(kernels, push);
-        recorder.dispatch(*kernel, set, fold.groups * kernels.group, kernels.group, fold.push);
-        kernel = &kernels.levels;
-    } while (push.bottom > 0);
 }
 
 } // namespace voile

@@ -2,6 +2,7 @@
 #include "geometry/padded_tree.hpp"
 
 #include "geometry/bvh_split.hpp"
+#include "geometry/owned_edges.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -61,10 +62,20 @@ void halve_well(Range range)
         halve(range, best);
 }
 
+void halve_widest(Range range)
+{
+    const Box box = bounds(range);
+    const glm::vec3 size = box.max - box.min;
+    halve(range, size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2));
+}
+
 class Builder
 {
 public:
-    Builder(std::span<const glm::uvec3> triangles, PaddedTree& tree) : triangles_(triangles), tree_(tree) {}
+    Builder(std::span<const glm::uvec3> triangles, PaddedSplit split, PaddedTree& tree)
+        : triangles_(triangles), edges_(owned_edges(triangles)), split_(split), tree_(tree)
+    {
+    }
 
     // Fills the slots under box `box` of a level.
     void fill(Range range, uint32_t level, uint32_t box, bool repeat)
@@ -72,7 +83,8 @@ public:
         if (level == tree_.levels)
         {
             const uint32_t triangle = range.front().triangle;
-            tree_.leaves[box] = {triangles_[triangle], triangle | (repeat ? VOILE_PADDED_REPEAT : 0)};
+            const uint32_t edges = uint32_t{edges_[triangle]} << VOILE_PADDED_EDGE_SHIFT;
+            tree_.leaves[box] = {triangles_[triangle], triangle | edges | (repeat ? VOILE_PADDED_REPEAT : 0)};
             return;
         }
         const uint32_t sibling = box + (1u << level);
@@ -83,13 +95,15 @@ public:
             return;
         }
         if (range.size() > 2) // of two, either order is right
-            halve_well(range);
+            split_ == PaddedSplit::widest ? halve_widest(range) : halve_well(range);
         fill(range.first(middle(range)), level + 1, box, false);
         fill(range.subspan(middle(range)), level + 1, sibling, false);
     }
 
 private:
     std::span<const glm::uvec3> triangles_;
+    std::vector<uint8_t> edges_;
+    PaddedSplit split_;
     PaddedTree& tree_;
 };
 
@@ -100,7 +114,8 @@ uint32_t padded_levels(uint32_t triangles)
     return static_cast<uint32_t>(std::bit_width(triangles - 1));
 }
 
-PaddedTree build_padded_tree(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
+PaddedTree build_padded_tree(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                             PaddedSplit split)
 {
     std::vector<Primitive> primitives(triangles.size());
     for (uint32_t t = 0; t < triangles.size(); ++t)
@@ -109,7 +124,7 @@ PaddedTree build_padded_tree(std::span<const glm::vec3> positions, std::span<con
     tree.triangles = static_cast<uint32_t>(triangles.size());
     tree.levels = padded_levels(tree.triangles);
     tree.leaves.resize(size_t{1} << tree.levels);
-    Builder(triangles, tree).fill(primitives, 0, 0, false);
+    Builder(triangles, split, tree).fill(primitives, 0, 0, false);
     return tree;
 }
 

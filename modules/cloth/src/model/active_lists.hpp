@@ -1,6 +1,7 @@
 // ActiveLists: the patches, attachments and tethers that the dispatches of a step work on, ordered by level.
 #pragma once
 
+#include "geometry/padded_tree.hpp"
 #include "model/model.hpp"
 
 #include "shared/step_layout.h"
@@ -37,6 +38,9 @@ struct ActiveLists
     EntryRange resting_pins; // the last ones, of cloths that are disabled
     std::vector<shared::TetherRecord> tethers;
 
+    std::vector<shared::TreeRecord> trees; // ordered by depth; none without SolverOptions::intersections
+    TreeCounts tree_counts{};
+
     [[nodiscard]] uint32_t patch_count() const { return static_cast<uint32_t>(patches.size()); }
 };
 
@@ -62,8 +66,9 @@ inline uint32_t assigned_level(const ClothModel& cloth)
     return cloth.level;
 }
 
-// Neither allocates if the lists have the capacity.
+// None allocates if the lists have the capacity.
 void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists);
+void list_trees(const Model& model, ActiveLists& lists);
 void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& lists);
 
 } // namespace voile

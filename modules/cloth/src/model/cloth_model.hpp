@@ -19,6 +19,8 @@
 namespace voile
 {
 
+struct PaddedTree; // geometry/padded_tree.hpp
+
 // An axis-aligned box around positions; empty at first.
 struct Extent
 {
@@ -64,6 +66,8 @@ struct ClothModel
     Extent extent;                     // m, of the positions at the start
     float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
     uint64_t first_triangle = 0;       // in the index buffer, if there is one
+    std::shared_ptr<const PaddedTree> tree; // none without SolverOptions::intersections; instances share it
+    uint64_t first_boxes = 0;               // the range of its boxes, with the room for their alignment
 };
 
 // The input that grids and meshes have in common: transform, velocity, material, pinned vertices, inverse masses.

@@ -64,6 +64,9 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
         return invalid("cloth", cloth.name, "more than 2 147 483 647 vertices in one solver");
     shared::ClothRecord& record = cloth.record;
     record.vertices = static_cast<uint32_t>(world_positions.size());
+    if (has_trees)
+        if (auto added = trees.add(cloth, world_positions, limits); !added)
+            return added.error();
     record.first_vertex = static_cast<uint32_t>(vertices.allocate(world_positions.size()));
     if (cloth.lists)
     {
@@ -87,6 +90,7 @@ void Model::remove(ClothId id)
     const ClothModel& cloth = *cloths.find(id);
     vertices.release(cloth.record.first_vertex, cloth.record.vertices);
     lists.release(cloth.lists.get());
+    trees.remove(cloth);
     if (indices)
         triangles.release(cloth.first_triangle, count_triangles(cloth));
     patches -= count_patches(cloth.record, limits.workgroup_size);

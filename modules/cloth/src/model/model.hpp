@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/cloth_model.hpp"
+#include "model/cloth_trees.hpp"
 #include "model/device_limits.hpp"
 #include "model/range_allocator.hpp"
 #include "model/shared_ranges.hpp"
@@ -41,8 +42,10 @@ struct Model
     SharedRanges<MeshLists, k_list_arrays> lists;
     RangeAllocator triangles; // of cloths, in the index buffer
     bool indices = false;     // there is one: OutputOptions::indices
-    uint64_t patches = 0;     // workgroups over all cloths, of workgroup_size vertices
-    bool interleaved = true;  // lists of meshes: SolverOptions::mesh_layout
+    ClothTrees trees;
+    bool has_trees = false;  // SolverOptions::intersections
+    uint64_t patches = 0;    // workgroups over all cloths, of workgroup_size vertices
+    bool interleaved = true; // lists of meshes: SolverOptions::mesh_layout
     DeviceLimits limits;
 
     Model() { anchors.add(Anchor{}); }

@@ -1,8 +1,9 @@
-// What each workgroup works on: tiles of grids, runs of a mesh's vertices.
+// What each workgroup works on: tiles of grids, runs of a mesh's vertices; and the trees of cloths.
 #include "model/active_lists.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace voile
 {
@@ -56,6 +57,21 @@ uint64_t count_patches(const shared::ClothRecord& cloth, uint32_t workgroup_size
 uint64_t count_mesh_patches(uint64_t vertices, uint32_t workgroup_size)
 {
     return (vertices + workgroup_size - 1) / workgroup_size;
+}
+
+void list_trees(const Model& model, ActiveLists& lists)
+{
+    lists.trees.clear();
+    lists.tree_counts = {};
+    for (const auto [index, cloth] : model.cloths)
+        if (is_active(cloth) && cloth.tree)
+        {
+            lists.trees.push_back(model.trees.record(cloth, index));
+            ++lists.tree_counts[cloth.tree->levels];
+        }
+    std::ranges::sort(lists.trees, {},
+                      [](const shared::TreeRecord& tree)
+                      { return std::pair(padded_levels(tree.triangles), tree.cloth); });
 }
 
 void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists)

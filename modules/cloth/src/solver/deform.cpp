@@ -39,9 +39,13 @@ void record_vertices(gpu::Recorder& recorder, const Solver::State& solver, const
 void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const ColliderModel& collider)
 {
     const shared::ColliderRecord& record = collider.record;
-    record_refit(recorder, solver.kernels.refit, solver.device->sets.refit,
-                 {record.first_node, record.first_triangle, collider.deforming->first_from(),
-                  collider.deforming->first_to(), record.triangles});
+    shared::TreeRecord tree{};
+    tree.first_box = record.first_node;
+    tree.first_leaf = record.first_triangle;
+    tree.first_from = collider.deforming->first_from();
+    tree.first_to = collider.deforming->first_to();
+    tree.triangles = record.triangles;
+    record_refit(recorder, solver.kernels.refit, solver.device->sets.refit, tree);
 }
 
 // The deforming mesh of a collider, or the reason why there is none.

@@ -51,12 +51,15 @@ struct DescriptorSets
     std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
-    VkDescriptorSet refit{};
     std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
     VkDescriptorSet pair_refit{};
     std::array<VkDescriptorSet, 2> find_pairs{};
     std::array<VkDescriptorSet, 2> meet_pairs{};
     std::array<VkDescriptorSet, 2> respond_to_pairs{};
+    VkDescriptorSet refit{}; // of a collider that deforms
+    VkDescriptorSet refit_cloths{};
+    VkDescriptorSet count_cloth_pairs{}; // with SolverOptions::intersections, as the next one
+    VkDescriptorSet count_collider_pairs{};
     VkDescriptorSet normals{};
     VkDescriptorSet statistics{};
     VkDescriptorSet statistics_reduce{};

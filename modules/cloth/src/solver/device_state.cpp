@@ -38,6 +38,11 @@ constexpr uint64_t BufferCounts::*k_counts[] = {
     &BufferCounts::previous_vertices,
     &BufferCounts::cloth_triangles,
     &BufferCounts::pair_vertices,
+    &BufferCounts::cloth_trees,
+    &BufferCounts::cloth_leaves,
+    &BufferCounts::cloth_boxes,
+    &BufferCounts::bvh_edges,
+    &BufferCounts::intersecting_vertices,
 };
 static_assert(sizeof(BufferCounts) == std::size(k_counts) * sizeof(uint64_t));
 
@@ -81,6 +86,7 @@ VkBufferUsageFlags usage_of(uint32_t number, VkBufferUsageFlags stream_usage)
     case buffer::velocities:
     case buffer::normals:
     case buffer::previous_positions:
+    case buffer::intersections:
         return stream_usage;
     default:
         return 0;

@@ -56,6 +56,11 @@ struct BufferCounts
     uint64_t previous_vertices = 0; // 0 unless the host asks for previous positions
     uint64_t cloth_triangles = 0;   // 0 unless the host asks for indices
     uint64_t pair_vertices = 0;     // 0 unless a cloth collides with itself
+    uint64_t cloth_trees = 0;       // 0 without SolverOptions::intersections, as all that follow
+    uint64_t cloth_leaves = 0;
+    uint64_t cloth_boxes = 0;
+    uint64_t bvh_edges = 0;
+    uint64_t intersecting_vertices = 0;
 
     // Entries of each buffer, by name.
     [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
@@ -73,6 +78,7 @@ struct DeviceState
 
     uint32_t patch_count = 0; // in the buffer of patches
     uint32_t pair_slots = 0;  // of the hierarchy of pairs, those of disabled and removed cloths included
+    TreeCounts tree_counts{}; // in the buffer of trees
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }
 };

@@ -222,6 +222,8 @@ void record_patches(gpu::Recorder& recorder, Solver::State& solver)
     DeviceState& device = *solver.device;
     recorder.update(device[buffer::patches].handle(), 0, bytes_of(solver.lists.patches));
     device.patch_count = static_cast<uint32_t>(solver.lists.patches.size());
+    recorder.update(device[buffer::cloth_trees].handle(), 0, bytes_of(solver.lists.trees));
+    device.tree_counts = solver.lists.tree_counts;
     solver.edits.patches = false;
 }
 

@@ -80,6 +80,11 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
     add(kernels.normals, "cloth normals", shaders::k_normals_comp, with_lists);
     add(kernels.output, "cloth output", shaders::k_output_comp, plain);
+    if (options.intersections)
+    {
+        add(kernels.count_cloth_pairs, "cloth count cloth pairs", shaders::k_count_cloth_pairs_comp, plain);
+        add(kernels.count_collider_pairs, "cloth count collider pairs", shaders::k_count_collider_pairs_comp, plain);
+    }
     add(kernels.statistics, "cloth statistics", shaders::k_statistics_comp, with_lists);
     add(kernels.statistics_reduce, "cloth statistics reduce", shaders::k_statistics_reduce_comp, plain);
     return requests;
@@ -91,7 +96,7 @@ uint32_t most_storage_buffers()
 {
     Kernels none;
     size_t most = 0;
-    for (const Request& request : requests_of(none, {}))
+    for (const Request& request : requests_of(none, {.intersections = true}))
         if (const auto shader = gpu::reflect(request.description))
             most = std::max(most, shader.value().bindings.size());
     return static_cast<uint32_t>(most);

@@ -43,6 +43,8 @@ struct Kernels
     RefitKernels refit;
     gpu::Kernel normals;
     gpu::Kernel output;
+    gpu::Kernel count_cloth_pairs;    // only with SolverOptions::intersections
+    gpu::Kernel count_collider_pairs; // the same
     gpu::Kernel statistics;
     gpu::Kernel statistics_reduce;
 };

@@ -93,7 +93,7 @@ void PairRecorder::write_sizes()
     const RefitKernels& refit = solver_.kernels.refit;
     const uint32_t group = solver_.options.tuning.workgroup_size;
     std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
-    shared::RefitPush fold{};
+    shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(solver_.device->pair_slots);
     sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
@@ -107,7 +107,7 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
     const auto& sets = solver_.device->sets;
     const VkBuffer sizes = (*solver_.device)[buffer::pair_bounds].handle();
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes[from], sizes, offset_of(k_boxes), push);
-    shared::RefitPush fold{};
+    shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(push.slots);
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),

@@ -33,6 +33,7 @@ void Solver::State::update_patches()
     if (!device)
         return;
     list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
+    list_trees(model, lists);
     needs.reserve(model.cloths.size());
     edits.patches = true;
     update_attachments();

@@ -4,8 +4,6 @@
 #include "solver/solver_state.hpp"
 #include "solver/substeps.hpp"
 
-#include "shared/statistics_layout.h"
-
 #include <bit>
 #include <utility>
 
@@ -178,29 +176,6 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     record_jumps(recorder, *state_);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
-    return {};
-}
-
-Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps) const
-{
-    if (slot >= state_->options.statistics_slots)
-        return Error{"statistics: slot " + std::to_string(slot) + " of " +
-                     std::to_string(state_->options.statistics_slots) + " does not exist"};
-    if (!state_->device)
-        return {};
-    const DeviceState& device = *state_->device;
-    const Kernels& kernels = state_->kernels;
-    const uint32_t group = state_->options.tuning.workgroup_size;
-    gpu::Recorder recorder(state_->context, cmd, timestamps);
-    state_->lifetime.begin(cmd);
-    begin_scope(recorder, state_->options);
-    recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
-                      shared::StatisticsPush{state_->passes.colliders, device.near_stride});
-    recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,
-                      shared::StatisticsReducePush{device.patch_count, slot});
-    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
-                     VK_ACCESS_2_HOST_READ_BIT_KHR);
-    state_->lifetime.end(cmd);
     return {};
 }
 

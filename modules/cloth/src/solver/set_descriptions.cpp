@@ -47,6 +47,8 @@ private:
     void add_contact();
     void add_depenetration();
     void add_pairs();
+    void add_refit();
+    void add_intersections();
 
     DescriptorSets& sets_;
     const Kernels& kernels_;
@@ -238,7 +240,29 @@ void Describer::add_pairs()
                  {binding::stage_residuals, now.residuals},
                  {binding::stage_velocities, now.velocities}});
     }
-    add(sets_.pair_refit, kernels_.refit.levels, {{binding::padded_boxes, buffer::pair_boxes}});
+    add(sets_.pair_refit, kernels_.refit.levels, {{binding::refit_leaves, buffer::padded_leaves},
+         {binding::refit_positions, buffer::positions},
+         {binding::refit_boxes, buffer::pair_boxes}});
+}
+
+void Describer::add_refit()
+{
+    add(sets_.refit, kernels_.refit.leaves,
+        {{binding::refit_leaves, buffer::padded_leaves},
+         {binding::refit_positions, buffer::deforming_positions},
+         {binding::refit_boxes, buffer::padded_boxes}});
+    add(sets_.refit_cloths, kernels_.refit.leaves,
+        {{binding::refit_leaves, buffer::cloth_leaves},
+         {binding::refit_positions, buffer::positions},
+         {binding::refit_boxes, buffer::cloth_boxes}});
+}
+
+void Describer::add_intersections()
+{
+    if (kernels_.count_cloth_pairs.pipeline() == VK_NULL_HANDLE)
+        return;
+    add(sets_.count_cloth_pairs, kernels_.count_cloth_pairs);
+    add(sets_.count_collider_pairs, kernels_.count_collider_pairs);
 }
 
 std::vector<SetDescription> Describer::describe()
@@ -252,7 +276,8 @@ std::vector<SetDescription> Describer::describe()
     add_depenetration();
     add_pairs();
     add(sets_.deform, kernels_.deform);
-    add(sets_.refit, kernels_.refit.leaves);
+    add_refit();
+    add_intersections();
     add(sets_.normals, kernels_.normals);
     add(sets_.statistics, kernels_.statistics);
     add(sets_.statistics_reduce, kernels_.statistics_reduce);

@@ -38,8 +38,9 @@ uint32_t dispatch_vertices(const gpu::Context& context, const SolverOptions& opt
 // One record per slot, all 0.
 Result<gpu::Buffer> create_statistics(const gpu::Context& context, uint32_t slots)
 {
-    auto buffer = gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsRecord),
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Memory::readback);
+    auto buffer =
+        gpu::create_buffer(context, "cloth statistics", slots * sizeof(shared::StatisticsResult),
+                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::readback);
     if (buffer)
     {
         std::ranges::fill(buffer.value().mapped(), std::byte{0});
@@ -118,6 +119,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
                            state->context.max_buffer_bytes};
     state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;
     state->model.indices = options.output.indices;
+    state->model.has_trees = options.intersections;
     state->collider_models.limits = state->model.limits;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
@@ -188,8 +190,9 @@ Statistics Solver::statistics(uint32_t slot) const
         return result;
     const gpu::Buffer& buffer = state_->statistics;
     buffer.invalidate();
-    shared::StatisticsRecord record{};
-    std::memcpy(&record, buffer.mapped().data() + slot * sizeof(record), sizeof(record));
+    shared::StatisticsResult read{};
+    std::memcpy(&read, buffer.mapped().data() + slot * sizeof(read), sizeof(read));
+    const shared::StatisticsRecord& record = read.cloths;
     result.max_stretch = record.max_stretch;
     result.mean_stretch = record.springs > 0 ? record.stretch_sum / static_cast<float>(record.springs) : 0;
     result.kinetic_energy = record.kinetic_energy;
@@ -199,6 +202,8 @@ Statistics Solver::statistics(uint32_t slot) const
     result.contacts = record.contacts;
     result.candidates = record.candidates;
     result.overflowing_vertices = record.overflowing_vertices;
+    if (const shared::IntersectionCounters& pairs = read.intersections; pairs.counted != 0)
+        result.intersections = {pairs.cloth_pairs, pairs.collider_pairs, pairs.uncertain_pairs};
     return result;
 }
 

@@ -163,6 +163,8 @@ void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, 
 // Writes sizes of indirect dispatches, and clears another buffer, if any. Between barriers of its own.
 void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
                       VkBuffer counts = VK_NULL_HANDLE);
+// Clears the marks and numbers of intersections. Between barriers of its own.
+void clear_intersections(gpu::Recorder& recorder, const DeviceState& device);
 
 // Sets the size of an indirect dispatch, at a word of its buffer, to 0 times `groups_each` workgroups. `counts`:
 // another buffer to clear, if any. Between barriers of its own.

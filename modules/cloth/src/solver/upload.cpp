@@ -1,4 +1,6 @@
 // Upload: copies new cloths and colliders into the solver's buffers, which grow if they are too small.
+#include "geometry/closedness.hpp"
+#include "geometry/owned_edges.hpp"
 #include "geometry/parallel.hpp"
 #include "solver/solver_state.hpp"
 #include "solver/staging.hpp"
@@ -69,6 +71,21 @@ void stage_collider(Staging& staging, const ColliderModel& collider, uint32_t in
     staging.add(buffer::padded_leaves, collider.record.first_triangle, collider.deforming->leaves);
 }
 
+// The edges that the triangles of a rigid mesh own. Vertices at the same position are one.
+std::vector<uint32_t> bvh_edges(const Bvh& bvh)
+{
+    std::vector<glm::vec3> corners;
+    corners.reserve(3 * bvh.triangles.size());
+    for (const shared::BvhTriangle& t : bvh.triangles)
+        corners.insert(corners.end(), {t.a, t.b, t.c});
+    const std::vector<uint32_t> welded = weld(corners);
+    std::vector<glm::uvec3> triangles(bvh.triangles.size());
+    for (size_t i = 0; i < triangles.size(); ++i)
+        triangles[i] = {welded[3 * i], welded[3 * i + 1], welded[3 * i + 2]};
+    const std::vector<uint8_t> owned = owned_edges(triangles);
+    return {owned.begin(), owned.end()};
+}
+
 // The features of one collider, its offsets those in the buffers of all.
 void stage_features(Staging& staging, const ColliderModels& models, const ColliderModel& collider, uint32_t index)
 {
@@ -118,7 +135,12 @@ Staging stage_new(Solver::State& solver)
         {
             staging.add(buffer::bvh_nodes, placement.first[k_hierarchy_nodes], placement.owner->nodes);
             staging.add(buffer::bvh_triangles, placement.first[k_hierarchy_triangles], placement.owner->triangles);
+            if (solver.options.intersections)
+                staging.add_copy(buffer::bvh_edges, placement.first[k_hierarchy_triangles],
+                                 bvh_edges(*placement.owner));
         });
+    solver.model.trees.for_each_new(
+        [&](const auto& placement) { staging.add(buffer::cloth_leaves, placement.first[0], placement.owner->leaves); });
     models.features.for_each_new(
         [&](const auto& placement)
         {
@@ -142,6 +164,7 @@ BufferCounts count_entries(const Solver::State& solver)
     const Model& model = solver.model;
     const ColliderModels& models = solver.collider_models;
     const AttachmentCounts attached = count_attachments(model);
+    const bool intersections = solver.options.intersections;
     return {.cloths = model.cloths.size(),
             .vertices = model.vertices.end(),
             .patches = model.patches,
@@ -161,7 +184,12 @@ BufferCounts count_entries(const Solver::State& solver)
             .tethers = attached.tethers,
             .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
             .cloth_triangles = model.triangles.end(),
-            .pair_vertices = count_pair_slots(model) > 0 ? model.vertices.end() : 0};
+            .pair_vertices = count_pair_slots(model) > 0 ? model.vertices.end() : 0,
+            .cloth_trees = intersections ? model.cloths.size() : 0,
+            .cloth_leaves = model.trees.leaves(),
+            .cloth_boxes = model.trees.boxes(),
+            .bvh_edges = intersections ? models.hierarchies.end(k_hierarchy_triangles) : 0,
+            .intersecting_vertices = intersections ? model.vertices.end() : 0};
 }
 
 std::vector<ColliderId> new_deforming(const ColliderModels& models)
@@ -190,6 +218,7 @@ void mark_uploaded(Solver::State& solver)
             collider.deforming->positions = {};
     }
     solver.model.lists.mark_uploaded();
+    solver.model.trees.mark_uploaded();
     solver.collider_models.hierarchies.mark_uploaded();
     solver.collider_models.features.mark_uploaded();
 }
@@ -276,6 +305,8 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     clear_dispatch(recorder, (*device)[buffer::feature_dispatch].handle());
     for (size_t i = 0; i < 2; ++i)
         clear_dispatch(recorder, (*device)[buffer::depenetrations].handle(), depenetration_word(i));
+    if (options.intersections)
+        clear_intersections(recorder, *device);
     record_boxes_at_rest(recorder, *this, deforming);
     history.normals_due = true;
     history.depenetration_due = true;

@@ -101,13 +101,19 @@ VertexStreams Solver::vertices(ClothId cloth) const
         streams.index_offset = model->first_triangle * sizeof(glm::uvec3);
         streams.index_count = static_cast<uint32_t>(3 * count_triangles(*model));
     }
+    if (state_->options.intersections)
+    {
+        streams.intersections = device[buffer::intersections].handle();
+        streams.intersection_offset = record.first_vertex * sizeof(uint32_t);
+    }
     if (!wants_addresses(state_->options.output))
         return streams;
     const auto address = [&](VkBuffer buffer, VkDeviceSize offset)
     { return buffer != VK_NULL_HANDLE ? gpu::device_address(state_->context, buffer) + offset : 0; };
-    streams.addresses = {address(streams.positions, streams.offset), address(streams.velocities, streams.offset),
-                         address(streams.normals, streams.offset), address(streams.previous_positions, streams.offset),
-                         address(streams.indices, streams.index_offset)};
+    streams.addresses = {
+        address(streams.positions, streams.offset),     address(streams.velocities, streams.offset),
+        address(streams.normals, streams.offset),       address(streams.previous_positions, streams.offset),
+        address(streams.indices, streams.index_offset), address(streams.intersections, streams.intersection_offset)};
     return streams;
 }
 

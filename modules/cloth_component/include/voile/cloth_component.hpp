@@ -27,6 +27,8 @@ public:
     // the solver refuses a step, the frame throws StartupError.
     Step step;
     bool collect_statistics = false; // reduce statistics each frame, into the frame's slot
+    // Counted with the statistics of each frame; needs SolverOptions::intersections.
+    Intersections intersections = Intersections::not_counted;
 
     // Adds a collider, or throws StartupError with the reason.
     template <typename Collider>

@@ -83,7 +83,8 @@ struct Lines
 struct Dots
 {
     VkBuffer positions = VK_NULL_HANDLE; // 16 bytes per dot: x y z (m) and an ignored float
-    VkBuffer flags = VK_NULL_HANDLE;     // 16 bytes per dot; the last float is a sum of bits
+    VkBuffer flags = VK_NULL_HANDLE;     // 16 bytes per dot, whose last float is a sum of bits; or a word per dot
+    bool flag_words = false;             // the latter
     VkDeviceSize position_offset = 0;    // bytes
     VkDeviceSize flag_offset = 0;        // bytes
     uint32_t count = 0;

@@ -67,6 +67,17 @@ public:
         dispatch(kernel, set, threads, group_size, std::as_bytes(std::span(&push, 1)), ordering);
     }
 
+    // Like dispatch, with `columns` times `rows` workgroups.
+    void dispatch_grid(const Kernel& kernel, VkDescriptorSet set, uint32_t columns, uint32_t rows,
+                       std::span<const std::byte> push, Ordering ordering = Ordering::ordered);
+
+    template <typename Push>
+    void dispatch_grid(const Kernel& kernel, VkDescriptorSet set, uint32_t columns, uint32_t rows, const Push& push,
+                       Ordering ordering = Ordering::ordered)
+    {
+        dispatch_grid(kernel, set, columns, rows, std::as_bytes(std::span(&push, 1)), ordering);
+    }
+
     // Like dispatch, with the workgroup counts that `sizes` holds at `offset` (bytes), three words. An earlier dispatch
     // may have written them, if a barrier has made them visible to indirect commands.
     void dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
