@@ -59,7 +59,8 @@ void store(Fold self, uint k, uint width, vec3 value)
 
 bool is_finite(uvec3 corners)
 {
-    const vec3 sum = abs(positions[corners.x].xyz) + abs(positions[corners.y].xyz) + abs(positions[corners.z].xyz);
+    const vec3 sum =
+        abs(positions[corners.x].xyz) + abs(positions[corners.y].xyz) + abs(positions[corners.z].xyz);
     return !any(isnan(sum)) && !any(isinf(sum));
 }
 

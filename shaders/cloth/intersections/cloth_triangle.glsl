@@ -21,7 +21,10 @@ struct ClothTriangle
 };
 
 bool is_finite(vec3 p) { return !any(isnan(p)) && !any(isinf(p)); }
-bool is_finite(ClothTriangle t) { return is_finite(t.corners[0]) && is_finite(t.corners[1]) && is_finite(t.corners[2]); }
+bool is_finite(ClothTriangle t)
+{
+    return is_finite(t.corners[0]) && is_finite(t.corners[1]) && is_finite(t.corners[2]);
+}
 
 uint owned_edges(PaddedLeaf leaf) { return (leaf.triangle >> VOILE_PADDED_EDGE_SHIFT) & 7u; }
 

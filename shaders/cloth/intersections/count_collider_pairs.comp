@@ -134,9 +134,9 @@ void visit_leaf(inout PairQuery query, uint first, uint count)
 #define VOILE_QUERY PairQuery
 #include "colliders/mesh_traversal.glsl"
 
-// Corner k of a box has its upper coordinate along axis i if bit i of k is set. Each face is cut between its two corners
-// with an even number of bits. So each triangle has one corner with an odd number, and two of its neighbors: it owns the
-// edge to the first one, and the cut if it has the smaller number of the two triangles of the face.
+// Corner k of a box has its upper coordinate along axis i if bit i of k is set. Each face is cut between its two
+// corners with an even number of bits. So each triangle has one corner with an odd number, and two of its neighbors. It
+// owns the edge to the first one, and the cut if its odd corner is the smaller one of the face.
 ColliderTriangle box_triangle(vec3 half_size, uint index)
 {
     const uvec4 odd_corners = uvec4(1, 2, 4, 7);

@@ -39,8 +39,8 @@ struct TreeRecord
     uint padding_1;
 };
 
-// Push constants of a dispatch that folds boxes `levels` levels up from level `bottom`. Row y of its workgroups works on
-// tree first_tree + y of the table. Without a table, it works on `tree`.
+// Push constants of a dispatch that folds boxes `levels` levels up from level `bottom`. Row y of its workgroups works
+// on tree first_tree + y of the table. Without a table, it works on `tree`.
 struct RefitPush
 {
     TreeRecord tree;

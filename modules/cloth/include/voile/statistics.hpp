@@ -25,10 +25,11 @@ namespace voile
 // - Spheres, capsules, half spaces: triangles of the cloth that have a point in common with the solid.
 //
 // Uncertain pairs are counted, too: those of a sphere, a capsule or a half space whose distance is 0 to within rounding
-// (some 1e-6 of the distance from the solid's center, or, if it was moved, 1e-5), and those whose coordinates along one
-// axis differ by more than a factor of 2^39 in size while the filter in float fails.
+// (2e-6 of the distance from the solid's origin; if it was moved, 1e-5), and those whose coordinates along one axis
+// differ by more than a factor of 2^39 in size while the filter in float fails.
 //
-// Cost: a refit of the hierarchies of all cloths, and a traversal of those and of the colliders' per triangle.
+// Cost: a refit of the hierarchies of all cloths, and per triangle of a cloth a traversal of those of all cloths and
+// colliders. 64 x 64 vertices at rest on a mesh of 22,200 triangles take 146 ms on lavapipe with two cores.
 struct IntersectionCounts
 {
     uint32_t cloth_pairs = 0;     // cloth and cloth
