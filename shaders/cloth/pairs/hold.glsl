@@ -10,8 +10,8 @@
 // Rounding that guards leave room for, as a part of lengths.
 const float k_guard_rounding = 1e-5;
 
-// New lists are made when a vertex has used this part of its reach.
-const float k_used_reach = 0.6;
+// New lists are made before a vertex has used this part of its reach.
+const float k_used_reach = 0.8;
 
 // A vertex within its guards, and where they end.
 struct Hold
@@ -52,11 +52,11 @@ float squared_distance_from_sweep(vec3 x, vec3 sweep)
     return dot(apart, apart);
 }
 
-// Whether the vertex has used up much of what the lists leave it.
+// Whether the vertex will leave what the lists leave it before they can be made again.
 bool wants_lists(Hold hold, vec3 motion)
 {
     const float most = k_used_reach * hold.bound.sweep.reach;
-    return squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep) >= most * most;
+    return squared_distance_from_sweep(hold.swept + (1 + push.pair_ahead) * motion, hold.bound.sweep.sweep) >= most * most;
 }
 
 bool is_held(Hold hold, vec3 motion)

@@ -22,11 +22,6 @@ constexpr float k_sweep_time = 3.7e-3f;
 constexpr uint32_t k_boxes = 0;
 constexpr uint32_t k_search = VOILE_PAIR_SEARCHES - 1;
 
-uint32_t substeps_per_pass(float substep)
-{
-    return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
-}
-
 // That share the lists of a vertex. On CPU devices one.
 uint32_t threads_per_vertex(const Tuning& tuning)
 {
@@ -40,6 +35,11 @@ VkDeviceSize offset_of(uint32_t dispatch)
 }
 
 } // namespace
+
+uint32_t substeps_per_pass(float substep)
+{
+    return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
+}
 
 uint32_t lanes_per_search(const Tuning& tuning)
 {

@@ -11,6 +11,9 @@ namespace voile
 // The number of threads that share the search of a vertex.
 uint32_t lanes_per_search(const Tuning& tuning);
 
+// The number of substeps of level 0, each of so many s, from one pass to the next.
+uint32_t substeps_per_pass(float substep);
+
 // The number of passes in a step with so many substeps of level 0.
 uint32_t count_pair_passes(const Step& step, uint32_t substeps);
 
