@@ -121,6 +121,7 @@ quick(test_physics
 quick(test_refit)
 quick(test_renderer)
 quick(test_scene_meshes)
+quick(test_self_collision)
 quick(test_stability
     "damping of springs folded into one line is as stable as in a plane"
     "two slivers in a small mesh are softened, many slivers are not")
