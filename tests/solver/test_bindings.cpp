@@ -90,7 +90,7 @@ namespace
 
 std::vector<voile::gpu::SpecializationConstant> contact_constants()
 {
-    return {{0, 128}, {1, 1}, {2, 1}, {3, 0}, {4, 0}, {5, 0}};
+    return {{0, 128}, {1, 1}, {2, 1}, {3, 0}, {4, 0}, {5, 0}, {7, 0}};
 }
 
 voile::gpu::KernelDescription contact()
@@ -117,7 +117,7 @@ TEST_CASE("a specialization constant without a value, or with a value and no con
     voile::gpu::KernelDescription description = contact();
     description.specialization.pop_back();
     CHECK(reason(voile::gpu::reflect(description)) ==
-          "kernel \"contact\": specialization constant 5 \"NEAR_LISTS\" has no value");
+          "kernel \"contact\": specialization constant 7 \"PAIRS\" has no value");
     description.specialization = contact_constants();
     description.specialization.push_back({6, 1});
     CHECK(reason(voile::gpu::reflect(description)) == "kernel \"contact\" has no specialization constant 6");
@@ -131,7 +131,7 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
     REQUIRE(stripped.size() < description.spirv.size());
     description.spirv = stripped;
     const auto nameless = voile::engine::take(voile::gpu::reflect(description));
-    CHECK(named.push_bytes == 72);
+    CHECK(named.push_bytes == 84);
     CHECK(nameless.push_bytes == named.push_bytes);
     CHECK(nameless.shared_bytes == named.shared_bytes);
     REQUIRE(nameless.bindings.size() == named.bindings.size());
@@ -144,7 +144,7 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
         CHECK(nameless.bindings[i].name.empty());
     }
     description.specialization.pop_back();
-    CHECK(reason(voile::gpu::reflect(description)) == "kernel \"contact\": specialization constant 5 has no value");
+    CHECK(reason(voile::gpu::reflect(description)) == "kernel \"contact\": specialization constant 7 has no value");
 }
 
 TEST_CASE_FIXTURE(Bindings, "the block of each binding has the binding's name")
