@@ -369,7 +369,7 @@ void hold_within_guards(Hold hold, inout Motion motion)
     }
     if (wants_lists(hold, motion.displacement))
         for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
-            pair_searches[k].wanted = k == VOILE_PAIR_SEARCHES - 1 ? push.pair_lanes : 1;
+            pair_searches[k].wanted = k == VOILE_PAIR_SEARCH ? push.pair_lanes : 1;
 }
 
 void main()

@@ -17,8 +17,7 @@ layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 pos
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
-layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
-layout(VOILE_BINDING(pair_ranges)) readonly buffer PairRanges { vec2 pair_ranges[]; };
+layout(VOILE_BINDING(pair_thicknesses)) readonly buffer PairThicknesses { float pair_thicknesses[]; };
 layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint pair_entries[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
@@ -77,11 +76,11 @@ vec2 friction_of(Pair pair)
 }
 
 // The velocity that the pair removes or adds, and whether it sticks, in `drift`.
-vec3 impulse_of(Pair pair, Vertices vertices, vec4 weights, vec3 n, float apart, out vec3 drift)
+vec3 impulse_of(Pair pair, float thickness, Vertices vertices, vec4 weights, vec3 n, float apart, out vec3 drift)
 {
     drift = vec3(0);
     const vec3 approach = weighted(weights, vertices.v);
-    const float missing = (pair.thickness - apart) / push.interval;
+    const float missing = (thickness - apart) / push.interval;
     const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - dot(approach, n);
     if (wanted <= 0)
         return vec3(0);
@@ -112,14 +111,8 @@ void main()
     const Pair pair = unpacked(pairs[entry]);
     const uvec2 owners = owners_of(pair);
     const bool first = owners.x == entry / VOILE_PAIRS;
-    PairResponse response = PairResponse(vec3(0), 0, vec4(0), uvec2(0xffffffffu), uvec2(0));
-    // A side does not list the pair, or another thread of its search has left out a nearer one.
-    if (pair_distances[entry] > min(pair_ranges[owners.x].x, pair_ranges[owners.y].x))
-    {
-        response.normal = VOILE_PAIR_ONE_SIDED;
-        pair_responses[entry] = response;
-        return;
-    }
+    const float thickness = pair_thicknesses[entry];
+    PairResponse response;
     const FinePosition origin =
         FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
     Vertices vertices;
@@ -130,12 +123,12 @@ void main()
     response.normal = pack_direction(nearest.apart / max(apart, 1e-20));
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
-    response.impulse = impulse_of(pair, vertices, nearest.weights, n, apart, drift);
+    response.impulse = impulse_of(pair, thickness, vertices, nearest.weights, n, apart, drift);
     response.mobilities = nearest.weights * vertices.inverse_masses;
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
-    const float slack = max(VOILE_PAIR_APPROACH * (separation.gap - k_floor * pair.thickness), 0);
+    const float slack = max(VOILE_PAIR_APPROACH * (separation.gap - k_floor * thickness), 0);
     const uint sides = first_side(pair);
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;

@@ -1,12 +1,8 @@
-// A pair of primitives that share no vertex, packed into four words, and how near they are.
+// A pair of primitives that share no vertex, in four words, and how near they are.
 #ifndef VOILE_PAIR_GLSL
 #define VOILE_PAIR_GLSL
 
-const uint k_pair_index_mask = (1u << VOILE_PAIR_INDEX_BITS) - 1;
 const uint k_pair_edges_bit = 1u << 31; // of the first word
-// The bits above an index contain five of the 15 bits of the thickness as a half, in the other three words.
-const uint k_pair_part_bits = 32 - VOILE_PAIR_INDEX_BITS;
-const uint k_pair_part_mask = (1u << k_pair_part_bits) - 1;
 
 // The vertices of two edges: each edge's in ascending order, first the edge with the lowest of all. Of a vertex and a
 // triangle: the vertex, then the triangle's in ascending order. Both sides of a pair pack the same words.
@@ -14,7 +10,6 @@ struct Pair
 {
     uvec4 vertices;
     bool edges;
-    float thickness; // m, at which the primitives repel each other
 };
 
 uvec4 ordered_edges(uvec2 a, uvec2 b)
@@ -31,25 +26,18 @@ uvec4 ordered_triangle(uint vertex, uvec3 t)
     return uvec4(vertex, low, t.x ^ t.y ^ t.z ^ low ^ high, high);
 }
 
-uvec4 packed(Pair pair)
-{
-    const uint bits = packHalf2x16(vec2(pair.thickness, 0));
-    const uvec3 parts = (uvec3(bits) >> uvec3(0, k_pair_part_bits, 2 * k_pair_part_bits)) & k_pair_part_mask;
-    return pair.vertices | uvec4(pair.edges ? k_pair_edges_bit : 0, parts << VOILE_PAIR_INDEX_BITS);
-}
+uvec4 packed(Pair pair) { return uvec4(pair.vertices.x | (pair.edges ? k_pair_edges_bit : 0), pair.vertices.yzw); }
 
 Pair unpacked(uvec4 words)
 {
-    const uvec3 parts = (words.yzw >> VOILE_PAIR_INDEX_BITS) << uvec3(0, k_pair_part_bits, 2 * k_pair_part_bits);
-    return Pair(words & k_pair_index_mask, (words.x & k_pair_edges_bit) != 0,
-                unpackHalf2x16(parts.x | parts.y | parts.z).x);
+    return Pair(uvec4(words.x & ~k_pair_edges_bit, words.yzw), (words.x & k_pair_edges_bit) != 0);
 }
 
-// Whether a place of an owner's list is in use. `counts`: of the parts of the list.
-bool is_listed(uint place, uint counts, uint lanes)
+// Whether a place of an owner's list is in use.
+bool is_listed(PairList list, uint place, uint lanes)
 {
     const uint part = VOILE_PAIRS / lanes;
-    const uint count = (counts >> (place / part * VOILE_PAIR_COUNT_BITS)) & ((1u << VOILE_PAIR_COUNT_BITS) - 1);
+    const uint count = (list.counts >> (place / part * VOILE_PAIR_COUNT_BITS)) & ((1u << VOILE_PAIR_COUNT_BITS) - 1);
     return place % part < count;
 }
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sweeps of vertices, and the boxes of the leaves of the hierarchy of pairs (pair_tree.glsl), around the sweeps of all
-// primitives that a vertex owns. One thread per slot. refit.comp folds the boxes.
+// primitives that a vertex owns. One thread per slot. The box of a leaf also contains the vertex and its cloth.
+// refit.comp folds the boxes.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -20,7 +21,6 @@ layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midp
 layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
-layout(VOILE_BINDING(pair_marks)) writeonly buffer PairMarks { uint pair_marks[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
@@ -41,12 +41,10 @@ void main()
 {
     const uint width = 1u << findMSB(2 * push.slots - 1); // of the level of leaves
     const uint slot = gl_GlobalInvocationID.x;
-    if (slot < push.patches)
-        pair_marks[slot] = 0;
     if (slot == 0)
     {
         pair_passes[VOILE_PAIR_MEET] = PairDispatch(0, 1, 1, 0);
-        pair_passes[VOILE_PAIR_RESPOND] = PairDispatch(0, push.threads, 1, 0);
+        pair_passes[VOILE_PAIR_RESPOND] = PairDispatch(0, 1, 1, 0);
     }
     if (slot >= width)
         return;
@@ -58,5 +56,5 @@ void main()
         if (slot < push.slots) // others repeat a vertex
             start_vertex(entry.x, entry.y);
     }
-    boxes[width - 1 + slot] = PaddedBox(box.min, 0, box.max, 0);
+    boxes[width - 1 + slot] = PaddedBox(box.min, entry.x, box.max, entry.y);
 }

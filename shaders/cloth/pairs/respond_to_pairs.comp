@@ -1,10 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Gathers what the pairs around a vertex do in a pass (meet_pairs.comp): its change of velocity, and the guard within
-// which no listed pair can meet until the next pass. A pair is in the lists of the owners around the vertex (fan.glsl).
-//
-// A workgroup works on a part of a patch. Neighboring threads share the lists of a vertex, as many as the dispatch has
-// workgroups along y.
+// which no listed pair can meet until the next pass. push.threads neighboring threads share the pairs of a vertex.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/pair_layout.h"
@@ -12,17 +9,16 @@
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
-layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
-layout(VOILE_BINDING(pair_ranges)) readonly buffer PairRanges { vec2 pair_ranges[]; };
+layout(VOILE_BINDING(pair_masks)) readonly buffer PairMasks { uint pair_masks[]; };
 layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
-layout(VOILE_BINDING(pair_patches)) readonly buffer PairPatches { uint pair_patches[]; };
+layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec2 paired_vertices[]; };
+layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 
@@ -34,11 +30,11 @@ layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
-#include "shared/patch.glsl"
+#include "shared/grid.glsl"
 #include "shared/fine_position.glsl"
 #include "pairs/direction.glsl"
-#include "pairs/fan.glsl"
 #include "pairs/pair.glsl"
+#include "pairs/pair_masks.glsl"
 #include "pairs/guard.glsl"
 
 // m: the longest drift that is undone, as a part of the thickness.
@@ -50,37 +46,28 @@ struct Gather
     vec3 change;    // m/s
     float touching; // the sum of the weights in pairs that push
     vec3 drift;     // m, weighted
-    float reach;    // m, from the sweep, for what is not listed
     PairGuard guard;
-    bool listed;
 };
-
-// Threads of a vertex.
-uint thread_count() { return gl_NumWorkGroups.y; }
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
 
 Gather nothing()
 {
-    return Gather(vec3(0), 0, vec3(0), k_unbounded, no_guard(), false);
+    return Gather(vec3(0), 0, vec3(0), no_guard());
 }
 
 void store_sums(uint thread, Gather sum)
 {
     shared_parts[3 * thread] = vec4(sum.change, sum.touching);
-    shared_parts[3 * thread + 1] = vec4(sum.drift, sum.reach);
-    shared_parts[3 * thread + 2] = vec4(sum.listed ? 1 : 0);
+    shared_parts[3 * thread + 1] = vec4(sum.drift, 0);
 }
 
 void add_sums(uint thread, inout Gather sum)
 {
     const vec4 change = shared_parts[3 * thread];
-    const vec4 drift = shared_parts[3 * thread + 1];
     sum.change += change.xyz;
     sum.touching += change.w;
-    sum.drift += drift.xyz;
-    sum.reach = min(sum.reach, drift.w);
-    sum.listed = sum.listed || shared_parts[3 * thread + 2].x > 0;
+    sum.drift += shared_parts[3 * thread + 1].xyz;
 }
 
 void store_guard(uint thread, PairGuard guard)
@@ -101,7 +88,7 @@ void join_guard(uint thread, inout PairGuard guard)
 // does not depend on timing. Sums and guards take the same memory in turn.
 void merge(uint thread, uint lane, inout Gather sum)
 {
-    for (uint width = thread_count() / 2; width > 0; width /= 2)
+    for (uint width = push.threads / 2; width > 0; width /= 2)
     {
         barrier();
         store_sums(thread, sum);
@@ -109,7 +96,7 @@ void merge(uint thread, uint lane, inout Gather sum)
         if (lane < width)
             add_sums(thread + width, sum);
     }
-    for (uint width = thread_count() / 2; width > 0; width /= 2)
+    for (uint width = push.threads / 2; width > 0; width /= 2)
     {
         barrier();
         store_guard(thread, sum.guard);
@@ -133,17 +120,8 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
     const Pair pair = unpacked(pairs[entry]);
     const uint place = place_in(pair, vertex);
     const uint sides = first_side(pair);
-    const bool own_is_first = owners_of(pair).x == entry / VOILE_PAIRS;
     const bool first = place < sides;
-    if (place == 4 || first != own_is_first) // the other side's owner lists it, too
-        return;
     const PairResponse response = pair_responses[entry];
-    if (response.normal == VOILE_PAIR_ONE_SIDED)
-    {
-        sum.reach = min(sum.reach, pair_distances[entry]);
-        return;
-    }
-    sum.listed = true;
     const vec3 n = unpack_direction(response.normal);
     const vec3 heights = vec3(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y).x);
     add_plane(sum.guard, vec4(first ? n : -n, entry_of(vec4(heights, 0), first ? place : place - sides)));
@@ -157,34 +135,32 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
     sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
 }
 
-Gather gather(PatchVertex self, uint lane, float inverse_mass)
+Gather gather(uvec2 self, uint lane, float inverse_mass)
 {
     Gather sum = nothing();
-    const Fan fan = fan_of(self.cloth, self.index);
+    const Fan fan = fan_of(self.y, self.x);
+    uint count = 0;
     for (uint k = 0; k < owner_count(fan); ++k)
     {
         uint owner;
         if (!owner_of(fan, k, owner))
             continue;
-        const vec2 range = pair_ranges[owner];
-        sum.reach = min(sum.reach, range.x);
-        for (uint e = lane; e < VOILE_PAIRS; e += thread_count())
-            if (is_listed(e, floatBitsToUint(range.y), push.lanes))
-                add_entry(owner * VOILE_PAIRS + e, self.index, inverse_mass, sum);
+        for (uint mask = pair_masks[mask_place(fan, k, push.vertices)]; mask != 0; mask &= mask - 1)
+            if (count++ % push.threads == lane)
+                add_entry(owner * VOILE_PAIRS + findLSB(mask), self.x, inverse_mass, sum);
     }
     return sum;
 }
 
-PairMemory remembered(PatchVertex self, Gather sum)
+PairMemory remembered(uint i, uint cloth, Gather sum)
 {
-    const uint i = self.index;
     const PairMemory before = pair_memories[i];
     PairMemory memory;
     memory.velocity = velocities[i].xyz + sum.change;
     memory.pass = push.pass;
     const vec3 kept = before.pass + 1 == push.pass ? k_keep_slip * before.slip : vec3(0);
     const vec3 slip = kept + sum.drift / max(sum.touching, 1e-30);
-    const float longest = k_longest_slip * cloths[self.cloth].pair_thickness;
+    const float longest = k_longest_slip * cloths[cloth].pair_thickness;
     memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
     memory.friction = before.friction;
     return memory;
@@ -193,24 +169,20 @@ PairMemory remembered(PatchVertex self, Gather sum)
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
-    const uint lane = thread % thread_count();
-    const uint place = (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / thread_count();
-    const PatchVertex self = patch_vertex(pair_patches[gl_WorkGroupID.x], place);
-    const uint i = self.index;
-    const float inverse_mass = self.exists ? positions[i].w : 0;
+    const uint lane = thread % push.threads;
+    const uint place = gl_GlobalInvocationID.x / push.threads;
+    const bool exists = place < pair_passes[VOILE_PAIR_RESPOND].entries;
+    const uvec2 self = exists ? paired_vertices[place] : uvec2(0);
+    const uint i = self.x;
     Gather sum = nothing();
-    if (self.exists)
-        sum = gather(self, lane, inverse_mass);
+    if (exists)
+        sum = gather(self, lane, positions[i].w);
     merge(thread, lane, sum);
-    if (!self.exists || lane != 0)
+    if (!exists || lane != 0)
         return;
     pair_loads[(1 - (push.pass & 1u)) * push.vertices + i] = 0;
-    pair_bounds[i].sweep.reach = max(VOILE_PAIR_APPROACH * sum.reach, 0);
     pair_bounds[i].impulse = sum.change;
-    pair_bounds[i].listed = sum.listed ? 1 : 0;
-    pair_memories[i] = remembered(self, sum);
-    if (!sum.listed)
-        return;
+    pair_memories[i] = remembered(i, self.y, sum);
     sum.guard.from = positions[i].xyz;
     sum.guard.residual = residuals[i];
     pair_bounds[i].guard = sum.guard;

@@ -9,19 +9,17 @@
 // The most threads of a search. The lengths of their parts have this many bits each.
 #define VOILE_PAIR_LANES 4
 #define VOILE_PAIR_COUNT_BITS 8
-// The bits of a vertex's index in a pair. The bits above contain the kind and the thickness (pair.glsl).
-#define VOILE_PAIR_INDEX_BITS 27
 
-// The most dispatches that make the lists: boxes of leaves, folds of levels, and last the search.
+// The most dispatches that make the lists: boxes of leaves, folds of levels, the search, and the index of the lists.
 #define VOILE_PAIR_SEARCHES 8
-// The dispatches of a pass: over the listed pairs, over the patches with vertices in any.
+#define VOILE_PAIR_SEARCH 6
+#define VOILE_PAIR_INDEX 7
+// The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
 #define VOILE_PAIR_RESPOND 1
 #define VOILE_PAIR_PASSES 2
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f
-// The normal of a pair that only one side lists: no direction has these bits.
-#define VOILE_PAIR_ONE_SIDED 0x80008000u
 // Weights in sums of loads are integers, so that their order does not matter.
 #define VOILE_PAIR_UNIT_LOAD 65536.0f
 
@@ -33,16 +31,25 @@ struct PairDispatch
     uint groups;
     uint wanted; // 1 or 0, along y
     uint one;
-    uint entries; // of which the groups work on
+    uint entries; // that the groups work on
+};
+
+// The list of the pairs of a vertex's primitives.
+struct PairList
+{
+    float range; // m, up to which it has all pairs
+    uint counts; // the lengths of its parts
+    uint cloth;
+    uint padding;
 };
 
 // Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.
 // Then no two primitives that no list contains can meet.
 struct PairSweep
 {
-    vec3 from;      // m
-    float reach;    // m
-    vec3 sweep;     // m
+    vec3 from;   // m
+    float reach; // m
+    vec3 sweep;  // m
     uint padding_0;
     uvec2 residual; // of `from` (fine_position.glsl)
     uvec2 padding_1;
@@ -80,11 +87,11 @@ struct PairMemory
 // What a listed pair does in a pass, as the owner of one side sees it. Both sides compute the same bits.
 struct PairResponse
 {
-    vec3 impulse;     // m/s, towards the first side, for a pair of inverse mass 1/kg; 0: the pair is not pushed
-    uint normal;      // towards the first side (packSnorm2x16 of its octahedral map)
-    vec4 mobilities;  // 1/kg, weight times inverse mass of each vertex
-    uvec2 heights;    // m, as halfs: how far the vertices of the own side may approach the other side
-    uvec2 drift;      // m, as halfs: how far a pair that sticks slides until the next pass; 0: it does not stick
+    vec3 impulse;    // m/s, towards the first side, for a pair of inverse mass 1/kg; 0: the pair is not pushed
+    uint normal;     // towards the first side (packSnorm2x16 of its octahedral map)
+    vec4 mobilities; // 1/kg, weight times inverse mass of each vertex
+    uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side
+    uvec2 drift;     // m, as halfs: how far a pair that sticks slides until the next pass; 0: it does not stick
 };
 
 struct PairPush
@@ -93,10 +100,9 @@ struct PairPush
     float sweep_time;    // s, for which the sweeps of the lists last
     float longest_sweep; // m
     uint first_patch;
-    uint slots; // of the hierarchy
-    uint pass;  // counted over all steps
+    uint slots;    // of the hierarchy
+    uint pass;     // counted over all steps
     uint vertices; // of the solver
-    uint patches;  // of the solver; of self-colliding cloths are only some
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
 };

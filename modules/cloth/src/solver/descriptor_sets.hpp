@@ -53,7 +53,8 @@ struct DescriptorSets
     VkDescriptorSet deform{};
     std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
     VkDescriptorSet pair_refit{};
-    std::array<VkDescriptorSet, 2> find_pairs{};
+    VkDescriptorSet find_pairs{};
+    std::array<VkDescriptorSet, 2> index_pairs{};
     std::array<VkDescriptorSet, 2> meet_pairs{};
     std::array<VkDescriptorSet, 2> respond_to_pairs{};
     VkDescriptorSet refit{}; // of a collider that deforms

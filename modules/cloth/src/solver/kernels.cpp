@@ -63,6 +63,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add_contact(kernels.contact_pairs_many, 1, 1, 1, 1);
     add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
     add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
+    add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, with_lists);
     add(kernels.meet_pairs, "cloth meet pairs", shaders::k_meet_pairs_comp, plain);
     add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp,
         {.workgroup_size = group, .interleaved = interleaved});

@@ -30,6 +30,7 @@ struct Kernels
     gpu::Kernel contact_pairs_many;
     gpu::Kernel pair_boxes;
     gpu::Kernel find_pairs;
+    gpu::Kernel index_pairs;
     gpu::Kernel meet_pairs;
     gpu::Kernel respond_to_pairs;
     gpu::Kernel near_colliders;

@@ -13,19 +13,21 @@ namespace
 {
 
 // s: contact between cloths needs no more passes than this has in a step.
-constexpr float k_interval = 0.23e-3f;
+constexpr float k_interval = 0.4e-3f;
+
+// New lists are made at most every so many passes.
+constexpr uint32_t k_passes_per_search = 2;
 
 // s: lists that no vertex leaves last that long.
 constexpr float k_sweep_time = 3.7e-3f;
 
 // The first dispatch that makes lists. Those between it and the search fold boxes.
 constexpr uint32_t k_boxes = 0;
-constexpr uint32_t k_search = VOILE_PAIR_SEARCHES - 1;
 
-// That share the lists of a vertex. On CPU devices one.
+// That share the pairs of a vertex. On CPU devices one.
 uint32_t threads_per_vertex(const Tuning& tuning)
 {
-    constexpr uint32_t k_threads = 32;
+    constexpr uint32_t k_threads = 8;
     return tuning.feature_threads == 1 ? 1 : std::min(k_threads, tuning.workgroup_size);
 }
 
@@ -39,6 +41,11 @@ VkDeviceSize offset_of(uint32_t dispatch)
 uint32_t substeps_per_pass(float substep)
 {
     return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
+}
+
+uint32_t substeps_per_search(float substep)
+{
+    return k_passes_per_search * substeps_per_pass(substep);
 }
 
 uint32_t lanes_per_search(const Tuning& tuning)
@@ -64,7 +71,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
 {
     if (substep == 0)
         write_sizes();
-    else
+    else if (substep % substeps_per_search(h_) == 0)
         publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
@@ -75,11 +82,13 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.slots = solver_.device->pair_slots;
     push.pass = first_pass_ + substep / period_;
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
-    push.patches = solver_.device->patch_count;
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
-    find(push, from);
-    publish_dispatch(recorder_);
+    if (substep % substeps_per_search(h_) == 0)
+    {
+        find(push, from);
+        publish_dispatch(recorder_);
+    }
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
     recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes, offset_of(VOILE_PAIR_MEET),
                                 push);
@@ -98,7 +107,8 @@ void PairRecorder::write_sizes()
     sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
-    sizes[k_search] = {threads_ / group, lanes_per_search(solver_.options.tuning), 1, 0};
+    sizes[VOILE_PAIR_SEARCH] = {threads_ / group, lanes_per_search(solver_.options.tuning), 1, 0};
+    sizes[VOILE_PAIR_INDEX] = {threads_ / group, 1, 1, 0};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
 }
 
@@ -112,7 +122,9 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
     for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
                                     next_fold(solver_.kernels.refit, fold).push);
-    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs[from], sizes, offset_of(k_search), push);
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, sizes, offset_of(VOILE_PAIR_SEARCH), push);
+    recorder_.dispatch_indirect(solver_.kernels.index_pairs, sets.index_pairs[from], sizes, offset_of(VOILE_PAIR_INDEX),
+                                push);
 }
 
 } // namespace voile

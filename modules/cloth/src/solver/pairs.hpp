@@ -14,6 +14,9 @@ uint32_t lanes_per_search(const Tuning& tuning);
 // The number of substeps of level 0, each of so many s, from one pass to the next.
 uint32_t substeps_per_pass(float substep);
 
+// The number of substeps of level 0 between those in which new lists can be made.
+uint32_t substeps_per_search(float substep);
+
 // The number of passes in a step with so many substeps of level 0.
 uint32_t count_pair_passes(const Step& step, uint32_t substeps);
 
@@ -27,8 +30,8 @@ public:
 
     // Whether a substep begins with a pass. The first one of a step does.
     [[nodiscard]] bool begins(uint32_t substep) const { return substep % period_ == 0; }
-    // `in_stage_b`: where the substep begins. The first pass of a step makes new lists, others only if a vertex has
-    // asked for them.
+    // `in_stage_b`: where the substep begins. The first pass of a step makes new lists, later ones only if a vertex
+    // has asked for them.
     void record(uint32_t substep, bool in_stage_b);
 
 private:

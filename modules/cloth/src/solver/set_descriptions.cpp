@@ -232,15 +232,17 @@ void Describer::add_pairs()
         const StateBuffers& now = k_proposals[parity].earlier;
         add(sets_.pair_boxes[parity], kernels_.pair_boxes,
             {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
-        for (const auto& [set, kernel] : {std::pair(&sets_.find_pairs, &kernels_.find_pairs),
-                                          std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
-                                          std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
+        for (const auto& [set, kernel] :
+             {std::pair(&sets_.index_pairs, &kernels_.index_pairs), std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
+              std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions},
                  {binding::stage_residuals, now.residuals},
                  {binding::stage_velocities, now.velocities}});
     }
-    add(sets_.pair_refit, kernels_.refit.levels, {{binding::refit_leaves, buffer::padded_leaves},
+    add(sets_.find_pairs, kernels_.find_pairs);
+    add(sets_.pair_refit, kernels_.refit.levels,
+        {{binding::refit_leaves, buffer::padded_leaves},
          {binding::refit_positions, buffer::positions},
          {binding::refit_boxes, buffer::pair_boxes}});
 }

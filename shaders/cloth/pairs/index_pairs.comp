@@ -1,0 +1,169 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+// Makes the lists of pairs (find_pairs.comp) ready for passes: which pairs each vertex is in, how far it may leave its
+// sweep before pairs that no list has could meet, the thickness of each pair, and the dispatches of a pass. One thread
+// per vertex.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/pair_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
+layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
+layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
+layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
+layout(VOILE_BINDING(pair_lists)) readonly buffer PairLists { PairList pair_lists[]; };
+layout(VOILE_BINDING(pair_thicknesses)) writeonly buffer PairThicknesses { float pair_thicknesses[]; };
+layout(VOILE_BINDING(pair_masks)) writeonly buffer PairMasks { uint pair_masks[]; };
+layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint pair_entries[]; };
+layout(VOILE_BINDING(paired_vertices)) writeonly buffer PairedVertices { uvec2 paired_vertices[]; };
+layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
+
+layout(push_constant, std430) uniform Push { PairPush push; };
+
+#include "shared/patch.glsl"
+#include "pairs/fan.glsl"
+#include "pairs/pair.glsl"
+#include "pairs/pair_masks.glsl"
+#include "pairs/pair_tree.glsl"
+#include "pairs/sweep.glsl"
+
+// What the list of an owner has for a vertex.
+struct Listed
+{
+    uint mask;   // the pairs that the vertex is in, on the owner's side
+    float reach; // m, the range of the owner, or the nearest pair that only one side lists
+};
+
+Listed listed_by(uint owner, uint vertex)
+{
+    const PairList list = pair_lists[owner];
+    Listed listed = Listed(0, list.range);
+    for (uint e = 0; e < VOILE_PAIRS; ++e)
+    {
+        if (!is_listed(list, e, push.lanes))
+            continue;
+        const uint entry = owner * VOILE_PAIRS + e;
+        const Pair pair = unpacked(pairs[entry]);
+        const uint place = place_in(pair, vertex);
+        const uvec2 owners = owners_of(pair);
+        const bool first = owners.x == owner;
+        if (place == 4 || (place < first_side(pair)) != first)
+            continue;
+        // A side does not list the pair, or another thread of its search has left out a nearer one.
+        const float at = pair_distances[entry];
+        if (at > min(list.range, pair_lists[first ? owners.y : owners.x].range))
+            listed.reach = min(listed.reach, at);
+        else
+            listed.mask |= 1u << e;
+    }
+    return listed;
+}
+
+// m, at which the primitives of a pair repel each other. Those of one cloth that are nearer at rest do from half of
+// their distance there on.
+float thickness_of(Pair pair)
+{
+    const uvec2 owners = owners_of(pair);
+    const uvec2 of = uvec2(pair_lists[owners.x].cloth, pair_lists[owners.y].cloth);
+    const float thickness = 0.5 * (cloths[of.x].pair_thickness + cloths[of.y].pair_thickness);
+    if (of.x != of.y)
+        return thickness;
+    vec3 x[4];
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+        x[k] = start[pair.vertices[k]].xyz;
+    return min(thickness, 0.5 * length(nearest_points(pair.edges, x).apart));
+}
+
+// What a workgroup adds to the dispatches of a pass, and where: its first pair and its first vertex.
+shared uint shared_pairs;
+shared uint shared_vertices;
+
+uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
+
+void reserve()
+{
+    const uint pairs_end = shared_pairs;
+    const uint vertices_end = shared_vertices;
+    shared_pairs = pairs_end == 0 ? 0 : atomicAdd(pair_passes[VOILE_PAIR_MEET].entries, pairs_end);
+    shared_vertices = vertices_end == 0 ? 0 : atomicAdd(pair_passes[VOILE_PAIR_RESPOND].entries, vertices_end);
+    atomicMax(pair_passes[VOILE_PAIR_MEET].groups, groups_of(shared_pairs + pairs_end));
+    atomicMax(pair_passes[VOILE_PAIR_RESPOND].groups, groups_of((shared_vertices + vertices_end) * push.threads));
+}
+
+void publish(uint vertex, uint mask, uint at)
+{
+    for (; mask != 0; mask &= mask - 1)
+    {
+        const uint entry = vertex * VOILE_PAIRS + findLSB(mask);
+        pair_thicknesses[entry] = thickness_of(unpacked(pairs[entry]));
+        pair_entries[at++] = entry;
+    }
+}
+
+// Until a pass finds the vertex in a pair, only its sweep bounds it.
+void bound(uint i, float reach, bool listed)
+{
+    PairSweep sweep;
+    sweep.from = positions[i].xyz;
+    sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
+    sweep.sweep = sweep_of(i);
+    sweep.residual = residuals[i];
+    pair_bounds[i].sweep = sweep;
+    pair_bounds[i].impulse = vec3(0);
+    pair_bounds[i].listed = listed ? 1 : 0;
+}
+
+// The pairs that the vertex is in, as masks. The first of them has all pairs of its own list.
+void main()
+{
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
+    const uint i = self.index;
+    if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
+        pair_searches[gl_GlobalInvocationID.x].wanted = 0;
+    if (gl_LocalInvocationID.x == 0)
+        shared_pairs = shared_vertices = 0;
+    uint own = 0;
+    uint all = 0;
+    if (self.exists && collides_with_itself(self.cloth))
+    {
+        const Fan fan = fan_of(self.cloth, i);
+        float reach = pair_lists[i].range;
+        for (uint k = 0; k < owner_count(fan); ++k)
+        {
+            uint owner;
+            Listed listed = Listed(0, reach);
+            if (owner_of(fan, k, owner))
+                listed = listed_by(owner, i);
+            pair_masks[mask_place(fan, k, push.vertices)] = listed.mask;
+            reach = min(reach, listed.reach);
+            own = k == 0 ? listed.mask : own;
+            all |= listed.mask;
+        }
+        bound(i, reach, all != 0);
+    }
+    barrier();
+    uint pair_place = atomicAdd(shared_pairs, bitCount(own));
+    uint vertex_place = atomicAdd(shared_vertices, all != 0 ? 1 : 0);
+    barrier();
+    if (gl_LocalInvocationID.x == 0)
+        reserve();
+    barrier();
+    publish(i, own, shared_pairs + pair_place);
+    if (all != 0)
+        paired_vertices[shared_vertices + vertex_place] = uvec2(i, self.cloth);
+}
