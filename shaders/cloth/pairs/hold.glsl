@@ -24,11 +24,16 @@ struct Hold
 Hold hold_of(uint i, FinePosition from)
 {
     Hold hold;
-    hold.bound = pair_bounds[i];
-    if (hold.bound.listed == 0)
-        hold.bound.guard = no_guard();
+    const PairSweep sweep = pair_bounds[i].sweep;
+    hold.bound.sweep = sweep;
+    hold.bound.guard = no_guard();
+    hold.bound.impulse = vec3(0);
+    if (sweep.listed != 0)
+    {
+        hold.bound.guard = pair_bounds[i].guard;
+        hold.bound.impulse = pair_bounds[i].impulse;
+    }
     const PairGuard guard = hold.bound.guard;
-    const PairSweep sweep = hold.bound.sweep;
     hold.at = displacement(FinePosition(guard.from, unpack_residual(guard.residual)), from);
     hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
     return hold;

@@ -122,10 +122,10 @@ void bound(uint i, float reach, bool listed)
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
     sweep.sweep = sweep_of(i);
+    sweep.listed = listed ? 1 : 0;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
-    pair_bounds[i].listed = listed ? 1 : 0;
 }
 
 // The pairs that the vertex is in, as masks. The first of them has all pairs of its own list.

@@ -47,10 +47,10 @@ struct PairList
 // Then no two primitives that no list contains can meet.
 struct PairSweep
 {
-    vec3 from;   // m
-    float reach; // m
-    vec3 sweep;  // m
-    uint padding_0;
+    vec3 from;      // m
+    float reach;    // m
+    vec3 sweep;     // m
+    uint listed;    // 1: the vertex is in a listed pair
     uvec2 residual; // of `from` (fine_position.glsl)
     uvec2 padding_1;
 };
@@ -70,9 +70,9 @@ struct PairGuard
 struct PairBound
 {
     PairSweep sweep;
-    PairGuard guard; // void if the vertex is in no listed pair
+    PairGuard guard; // void unless sweep.listed
     vec3 impulse;    // m/s, the change of velocity by the last pass
-    uint listed;     // 1: the vertex is in a listed pair
+    uint padding;
 };
 
 // What a vertex keeps from pass to pass.
