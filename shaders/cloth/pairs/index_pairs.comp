@@ -22,9 +22,10 @@ layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
 layout(VOILE_BINDING(pair_lists)) readonly buffer PairLists { PairList pair_lists[]; };
 layout(VOILE_BINDING(pair_thicknesses)) writeonly buffer PairThicknesses { float pair_thicknesses[]; };
-layout(VOILE_BINDING(pair_masks)) writeonly buffer PairMasks { uint pair_masks[]; };
+layout(VOILE_BINDING(pair_masks)) buffer PairMasks { uint pair_masks[]; };
 layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint pair_entries[]; };
-layout(VOILE_BINDING(paired_vertices)) writeonly buffer PairedVertices { uvec2 paired_vertices[]; };
+layout(VOILE_BINDING(paired_vertices)) writeonly buffer PairedVertices { uvec4 paired_vertices[]; };
+layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint pair_references[]; };
 layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
 
 layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
@@ -89,9 +90,10 @@ float thickness_of(Pair pair)
     return min(thickness, 0.5 * length(nearest_points(pair.edges, x).apart));
 }
 
-// What a workgroup adds to the dispatches of a pass, and where: its first pair and its first vertex.
+// What a workgroup adds to the dispatches of a pass, and where: its first pair, vertex and reference.
 shared uint shared_pairs;
 shared uint shared_vertices;
+shared uint shared_references;
 
 uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 
@@ -101,6 +103,8 @@ void reserve()
     const uint vertices_end = shared_vertices;
     shared_pairs = pairs_end == 0 ? 0 : atomicAdd(pair_passes[VOILE_PAIR_MEET].entries, pairs_end);
     shared_vertices = vertices_end == 0 ? 0 : atomicAdd(pair_passes[VOILE_PAIR_RESPOND].entries, vertices_end);
+    shared_references =
+        shared_references == 0 ? 0 : atomicAdd(pair_passes[VOILE_PAIR_REFERENCES].entries, shared_references);
     atomicMax(pair_passes[VOILE_PAIR_MEET].groups, groups_of(shared_pairs + pairs_end));
     atomicMax(pair_passes[VOILE_PAIR_RESPOND].groups, groups_of((shared_vertices + vertices_end) * push.threads));
 }
@@ -112,6 +116,18 @@ void publish(uint vertex, uint mask, uint at)
         const uint entry = vertex * VOILE_PAIRS + findLSB(mask);
         pair_thicknesses[entry] = thickness_of(unpacked(pairs[entry]));
         pair_entries[at++] = entry;
+    }
+}
+
+// The order is that of the lists, wherever they are.
+void refer(Fan fan, uint at)
+{
+    for (uint k = 0; k < owner_count(fan); ++k)
+    {
+        uint owner;
+        if (owner_of(fan, k, owner))
+            for (uint mask = pair_masks[mask_place(fan, k, push.vertices)]; mask != 0; mask &= mask - 1)
+                pair_references[at++] = owner * VOILE_PAIRS + findLSB(mask);
     }
 }
 
@@ -136,12 +152,13 @@ void main()
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
     if (gl_LocalInvocationID.x == 0)
-        shared_pairs = shared_vertices = 0;
+        shared_pairs = shared_vertices = shared_references = 0;
     uint own = 0;
-    uint all = 0;
+    uint references = 0;
+    Fan fan;
     if (self.exists && collides_with_itself(self.cloth))
     {
-        const Fan fan = fan_of(self.cloth, i);
+        fan = fan_of(self.cloth, i);
         float reach = pair_lists[i].range;
         for (uint k = 0; k < owner_count(fan); ++k)
         {
@@ -152,18 +169,21 @@ void main()
             pair_masks[mask_place(fan, k, push.vertices)] = listed.mask;
             reach = min(reach, listed.reach);
             own = k == 0 ? listed.mask : own;
-            all |= listed.mask;
+            references += bitCount(listed.mask);
         }
-        bound(i, reach, all != 0);
+        bound(i, reach, references != 0);
     }
     barrier();
     uint pair_place = atomicAdd(shared_pairs, bitCount(own));
-    uint vertex_place = atomicAdd(shared_vertices, all != 0 ? 1 : 0);
+    uint vertex_place = atomicAdd(shared_vertices, references != 0 ? 1 : 0);
+    const uint first = atomicAdd(shared_references, references);
     barrier();
     if (gl_LocalInvocationID.x == 0)
         reserve();
     barrier();
     publish(i, own, shared_pairs + pair_place);
-    if (all != 0)
-        paired_vertices[shared_vertices + vertex_place] = uvec2(i, self.cloth);
+    if (references == 0)
+        return;
+    refer(fan, shared_references + first);
+    paired_vertices[shared_vertices + vertex_place] = uvec4(i, self.cloth, shared_references + first, references);
 }

@@ -45,6 +45,7 @@ void main()
     {
         pair_passes[VOILE_PAIR_MEET] = PairDispatch(0, 1, 1, 0);
         pair_passes[VOILE_PAIR_RESPOND] = PairDispatch(0, 1, 1, 0);
+        pair_passes[VOILE_PAIR_REFERENCES] = PairDispatch(0, 1, 1, 0);
     }
     if (slot >= width)
         return;

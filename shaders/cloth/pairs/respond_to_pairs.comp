@@ -9,15 +9,13 @@
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
-layout(VOILE_BINDING(pair_masks)) readonly buffer PairMasks { uint pair_masks[]; };
+layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint pair_references[]; };
 layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
-layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec2 paired_vertices[]; };
+layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec4 paired_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
@@ -30,11 +28,9 @@ layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
-#include "shared/grid.glsl"
 #include "shared/fine_position.glsl"
 #include "pairs/direction.glsl"
 #include "pairs/pair.glsl"
-#include "pairs/pair_masks.glsl"
 #include "pairs/guard.glsl"
 
 // m: the longest drift that is undone, as a part of the thickness.
@@ -135,20 +131,12 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
     sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
 }
 
-Gather gather(uvec2 self, uint lane, float inverse_mass)
+// `self`: the vertex, its cloth, the first of its references, and their number.
+Gather gather(uvec4 self, uint lane, float inverse_mass)
 {
     Gather sum = nothing();
-    const Fan fan = fan_of(self.y, self.x);
-    uint count = 0;
-    for (uint k = 0; k < owner_count(fan); ++k)
-    {
-        uint owner;
-        if (!owner_of(fan, k, owner))
-            continue;
-        for (uint mask = pair_masks[mask_place(fan, k, push.vertices)]; mask != 0; mask &= mask - 1)
-            if (count++ % push.threads == lane)
-                add_entry(owner * VOILE_PAIRS + findLSB(mask), self.x, inverse_mass, sum);
-    }
+    for (uint k = lane; k < self.w; k += push.threads)
+        add_entry(pair_references[self.z + k], self.x, inverse_mass, sum);
     return sum;
 }
 
@@ -172,7 +160,7 @@ void main()
     const uint lane = thread % push.threads;
     const uint place = gl_GlobalInvocationID.x / push.threads;
     const bool exists = place < pair_passes[VOILE_PAIR_RESPOND].entries;
-    const uvec2 self = exists ? paired_vertices[place] : uvec2(0);
+    const uvec4 self = exists ? paired_vertices[place] : uvec4(0);
     const uint i = self.x;
     Gather sum = nothing();
     if (exists)

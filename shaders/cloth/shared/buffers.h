@@ -121,6 +121,7 @@ VOILE_SCRATCH_BUFFER(58, pair_boxes, PaddedBox, pair_vertices == 0 ? 0 : 4 * pai
 VOILE_SCRATCH_BUFFER(59, pairs, uvec4, pair_vertices * VOILE_PAIRS, "per vertex the pairs of the primitives that it owns")
 VOILE_SCRATCH_BUFFER(60, pair_distances, float, pair_vertices * VOILE_PAIRS, "the distances of these pairs, along their sweeps")
 VOILE_SCRATCH_BUFFER(77, pair_thicknesses, float, pair_vertices * VOILE_PAIRS, "m, at which these pairs repel each other")
+VOILE_SCRATCH_BUFFER(78, pair_references, uint, 2 * VOILE_PAIRS * pair_vertices, "for each vertex the places of the pairs that it is in, in the lists")
 VOILE_SCRATCH_BUFFER(61, pair_lists, PairList, pair_vertices, "the distance up to which a vertex lists pairs, and the lengths of the parts of its list")
 VOILE_SCRATCH_BUFFER(62, pair_bounds, PairBound, pair_vertices == 0 ? 0 : 1 + pair_vertices, "the sizes of the dispatches that make the lists, not 0 if a vertex asks for it; then per vertex what bounds its motion")
 VOILE_SCRATCH_BUFFER(63, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
@@ -129,7 +130,7 @@ VOILE_SCRATCH_BUFFER(65, pair_passes, PairDispatch, pair_vertices == 0 ? 0 : VOI
 VOILE_SCRATCH_BUFFER(66, pair_entries, uint, pair_vertices * VOILE_PAIRS, "the places of the pairs that both sides list, in no order")
 VOILE_SCRATCH_BUFFER(67, pair_responses, PairResponse, pair_vertices * VOILE_PAIRS, "what each listed pair does in a pass")
 VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the weights of a vertex in the pairs that are pushed, of even and of odd passes")
-VOILE_SCRATCH_BUFFER(69, paired_vertices, uvec2, pair_vertices, "the vertices in pairs, and their cloths, in no order")
+VOILE_SCRATCH_BUFFER(69, paired_vertices, uvec4, pair_vertices, "the vertices in pairs: vertex, cloth, first reference, number of references; in no order")
 VOILE_SCRATCH_BUFFER(70, pair_masks, uint, pair_vertices == 0 ? 0 : 4 * pair_vertices + 2 * corners, "the pairs that each vertex is in, in the lists of the owners around it")
 
 // Intersections: hierarchies of cloths and what they count, only with SolverOptions::intersections.

@@ -17,7 +17,9 @@
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
 #define VOILE_PAIR_RESPOND 1
-#define VOILE_PAIR_PASSES 2
+// No dispatch: counts the references to pairs.
+#define VOILE_PAIR_REFERENCES 2
+#define VOILE_PAIR_PASSES 3
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f
 // Weights in sums of loads are integers, so that their order does not matter.

@@ -65,8 +65,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
     add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, with_lists);
     add(kernels.meet_pairs, "cloth meet pairs", shaders::k_meet_pairs_comp, plain);
-    add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp,
-        {.workgroup_size = group, .interleaved = interleaved});
+    add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp, plain);
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};
