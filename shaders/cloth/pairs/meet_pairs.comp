@@ -75,27 +75,35 @@ vec2 friction_of(Pair pair)
                 unpackHalf2x16(pair_memories[pair.vertices.w].friction));
 }
 
-// The velocity that the pair removes or adds, and whether it sticks, in `drift`.
-vec3 impulse_of(Pair pair, float thickness, Vertices vertices, vec4 weights, vec3 n, float apart, out vec3 drift)
+// How both sides of a pair move relative to each other, at their nearest points.
+struct Approach
+{
+    vec3 velocity; // m/s, of the first side
+    vec3 slip;     // m, along the sides, that has not been undone
+    vec3 n;        // unit, towards the first side
+    float missing; // m, of the thickness; below 0: so far apart
+};
+
+// The velocity that the pair removes or adds, and how far it slides if it sticks, in `drift`.
+vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
 {
     drift = vec3(0);
-    const vec3 approach = weighted(weights, vertices.v);
-    const float missing = (thickness - apart) / push.interval;
-    const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - dot(approach, n);
+    const float missing = approach.missing / push.interval;
+    const float along = dot(approach.velocity, approach.n);
+    const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - along;
     if (wanted <= 0)
         return vec3(0);
-    const vec2 friction = friction_of(pair);
-    const vec3 sliding = approach - dot(approach, n) * n;
-    const vec3 slip = weighted(weights, vertices.slip);
-    const vec3 undone = sliding + k_undo_slip / push.interval * (slip - dot(slip, n) * n);
+    const vec3 sliding = approach.velocity - along * approach.n;
+    const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
+    const vec3 undone = sliding + k_undo_slip / push.interval * slip;
     const float speed = length(undone);
     if (speed <= friction.x * wanted)
     {
         drift = sliding * push.interval;
-        return wanted * n - undone;
+        return wanted * approach.n - undone;
     }
     const float left = slip_speed(speed, wanted, friction.x, friction.y);
-    return wanted * n - (1 - left / speed) * undone;
+    return wanted * approach.n - (1 - left / speed) * undone;
 }
 
 void add_load(uint vertex, float weight)
@@ -123,7 +131,9 @@ void main()
     response.normal = pack_direction(nearest.apart / max(apart, 1e-20));
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
-    response.impulse = impulse_of(pair, thickness, vertices, nearest.weights, n, apart, drift);
+    const Approach approach =
+        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart);
+    response.impulse = impulse_of(approach, friction_of(pair), drift);
     response.mobilities = nearest.weights * vertices.inverse_masses;
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
