@@ -65,7 +65,6 @@ quick(test_hard_contacts
     "the depth of a sheet in a box is exact"
     "the depth of a strip through an open ground is its shorter end")
 quick(test_hazards)
-quick(test_hello_cloth)
 quick(test_intersections
     "an edge and a triangle intersect where they touch, and are apart by one bit"
     "triangles without an area and edges without a length are points and segments"
@@ -120,6 +119,9 @@ quick(test_physics
     "a falling plate reaches its terminal speed all over")
 quick(test_refit)
 quick(test_renderer)
+quick(test_samples
+    "hello_cloth draws a cloth on a sphere"
+    "the shooting method gives the known drops of a heavy elastica")
 quick(test_scene_meshes)
 quick(test_self_collision)
 quick(test_stability

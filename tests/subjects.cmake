@@ -1,5 +1,5 @@
-voile_add_test(test_hello_cloth SOURCES viewer/test_hello_cloth.cpp LIBRARIES voile::engine)
-add_dependencies(test_hello_cloth hello_cloth)
+voile_add_test(test_samples SOURCES viewer/test_hello_cloth.cpp viewer/test_samples.cpp LIBRARIES voile::cloth voile::engine)
+add_dependencies(test_samples batch hello_cloth own_component skinned)
 voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_save_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
