@@ -162,7 +162,7 @@ int run_scene(const Options& options)
     check_targets(options);
     std::optional<voile::engine::Capture> capture; // before the instance
     if (options.capture)
-        capture.emplace((options.out.value_or(".") / "voile").string());
+        capture.emplace((options.out.value_or(".") / ("voile_frame" + std::to_string(*options.capture))).string());
 
     voile::engine::App app(app_options(options, scene));
     if (!app.has_window() && !options.headless)

@@ -32,6 +32,7 @@ def capture_frame(viewer, scene, folder):
     expect(run.returncode == 0, f"the viewer failed: {run.stderr}")
     files = sorted(pathlib.Path(folder).glob("*.rdc"))
     expect(len(files) == 1, f"expected one capture, got {[f.name for f in files]}")
+    expect("_frame1" in files[0].name, f"{files[0].name} does not name the frame")
     return files[0]
 
 
@@ -74,6 +75,10 @@ def check_order(frame):
     expect(all(labels[0] == "frame" for labels, _ in frame.steps), "a step is outside the label \"frame\"")
     dispatches = [labels[-1] for labels, action in frame.steps if action.flags & rd.ActionFlags.Dispatch]
     cloth = [labels[-1] for labels, _ in frame.steps if labels[1] == "cloth"]
+    groups = [labels[2] for labels, _ in frame.steps if labels[1] == "cloth" and len(labels) == 4]
+    count = len(set(groups))
+    expect(count > 1 and list(dict.fromkeys(groups)) == [f"substep {k + 1}/{count}" for k in range(count)],
+           f"groups of substeps: {groups}")
     expect(cloth[0] == "cloth depenetrate", f"the first pass of the cloth is {cloth[0]}")
     expect(cloth[1] == "cloth near features", f"the second pass of the cloth is {cloth[1]}")
     substeps = cloth[2:-1]
@@ -113,6 +118,16 @@ def check_buffers(frame):
         expect(names[drawn] == "cloth positions", f"{labels[-2]}: draws from \"{names[drawn]}\"")
 
 
+def check_names(frame):
+    named = [resource.type for resource in frame.controller.GetResources() if resource.name == "cloth contact"]
+    kinds = {"shader": rd.ResourceType.Shader, "pipeline": rd.ResourceType.PipelineState}
+    for kind, value in kinds.items():
+        expect(value in named, f"no {kind} is named as the kernel of contact")
+    # The layouts of the pipeline and of its sets, and both sets.
+    bindings = named.count(rd.ResourceType.ShaderBinding)
+    expect(bindings == 4, f"{bindings} layouts and descriptor sets are named as the kernel of contact")
+
+
 def check(path):
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
     file = rd.OpenCaptureFile()
@@ -122,6 +137,7 @@ def check(path):
     frame = Frame(controller)
     check_order(frame)
     check_buffers(frame)
+    check_names(frame)
     print(f"{len(frame.steps)} dispatches and draws in one command buffer, in order")
     controller.Shutdown()
     file.Shutdown()

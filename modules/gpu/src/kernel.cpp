@@ -58,6 +58,7 @@ VkResult create_pipeline(const Context& context, const KernelDescription& descri
     VkResult status = context.fn.vkCreateShaderModule(context.device(), &module_info, nullptr, &module);
     if (status != VK_SUCCESS)
         return status;
+    set_name(context, VK_OBJECT_TYPE_SHADER_MODULE, module, description.name);
 
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < description.specialization.size(); ++i)
@@ -187,6 +188,8 @@ Result<Kernel> Kernel::create(const Context& context, const KernelDescription& d
     if (status != VK_SUCCESS)
         return failed(description, "pipeline", status);
     set_name(context, VK_OBJECT_TYPE_PIPELINE, kernel.pipeline_, description.name);
+    set_name(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, kernel.layout_, description.name);
+    set_name(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, kernel.set_layout_, description.name);
     return kernel;
 }
 
@@ -263,6 +266,7 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
     const VkResult status = context_.fn.vkAllocateDescriptorSets(context_.device(), &info, &set);
     if (status != VK_SUCCESS)
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": " + to_string(status)};
+    set_name(context_, VK_OBJECT_TYPE_DESCRIPTOR_SET, set, kernel.name());
     --sets_left_;
     buffers_left_ -= static_cast<uint32_t>(buffers.size());
 

@@ -2,21 +2,38 @@
 #include "voile/gpu/recorder.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 
 namespace voile::gpu
 {
 
+namespace
+{
+
+void begin_label(const Context& context, VkCommandBuffer cmd, const char* name)
+{
+    if (context.begin_label == nullptr)
+        return;
+    VkDebugUtilsLabelEXT label{};
+    label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+    label.pLabelName = name;
+    context.begin_label(cmd, &label);
+}
+
+void end_label(const Context& context, VkCommandBuffer cmd)
+{
+    if (context.end_label != nullptr)
+        context.end_label(cmd);
+}
+
+} // namespace
+
 LabelScope::LabelScope(const Context& context, VkCommandBuffer cmd, const char* name, Timestamps* timestamps)
     : context_(context), cmd_(cmd), timestamps_(timestamps)
 {
-    if (context_.begin_label != nullptr)
-    {
-        VkDebugUtilsLabelEXT label{};
-        label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
-        label.pLabelName = name;
-        context_.begin_label(cmd_, &label);
-    }
+    begin_label(context_, cmd_, name);
     if (timestamps_ != nullptr)
         pass_ = timestamps_->begin(cmd_, name);
 }
@@ -25,8 +42,7 @@ LabelScope::~LabelScope()
 {
     if (timestamps_ != nullptr)
         timestamps_->end(cmd_, pass_);
-    if (context_.end_label != nullptr)
-        context_.end_label(cmd_);
+    end_label(context_, cmd_);
 }
 
 namespace
@@ -99,6 +115,21 @@ void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBu
         compute_barrier();
     }
     finish_dispatch();
+}
+
+void Recorder::begin_group(const char* name, uint32_t number, uint32_t count)
+{
+    if (!groups())
+        return;
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%s %u/%u", name, number, count);
+    begin_label(context_, cmd_, text.data());
+}
+
+void Recorder::end_group()
+{
+    if (groups())
+        end_label(context_, cmd_);
 }
 
 void Recorder::update(VkBuffer buffer, VkDeviceSize offset, std::span<const std::byte> bytes)

@@ -4,6 +4,7 @@
 #include "solver/pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,10 @@ static_assert(VOILE_NEAR_PERIOD % 2 == 0 && VOILE_FEATURE_PERIOD % 2 == 0);
 
 namespace
 {
+
+// Of the labels around substeps.
+constexpr std::array<const char*, VOILE_SUBSTEP_LEVELS> k_group_names = {
+    "substep", "level 1, substep", "level 2, substep", "level 3, substep", "level 4, substep"};
 
 // The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence")
 // and changes as it goes, a short wave faster than a long one.
@@ -50,6 +55,7 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
 
 void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
 {
+    const gpu::GroupScope group(recorder_, k_group_names[level_], substep + 1, substeps_);
     if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
         record_near_colliders(substep);
     if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)

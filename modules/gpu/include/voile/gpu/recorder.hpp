@@ -100,6 +100,11 @@ public:
     void barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
                  VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access);
 
+    // A label around the dispatches until end_group: "name number/count". Groups may be nested. Not timed. None if
+    // command buffers are split: a label ends in the command buffer in which it begins.
+    void begin_group(const char* name, uint32_t number, uint32_t count);
+    void end_group();
+
     [[nodiscard]] bool is_dry() const { return dry_; }
     [[nodiscard]] VkCommandBuffer cmd() const { return cmd_; } // null if dry
     [[nodiscard]] Timestamps* timestamps() const { return timestamps_; }
@@ -111,6 +116,7 @@ private:
     // Inside the timed pass: waiting belongs to the pass's cost, and some devices only finish here.
     void compute_barrier();
     void finish_dispatch(); // counts it and splits the command buffer
+    [[nodiscard]] bool groups() const { return !dry_ && split_ == nullptr && context_.begin_label != nullptr; }
 
     const Context& context_;
     VkCommandBuffer cmd_ = VK_NULL_HANDLE;
@@ -119,6 +125,22 @@ private:
     Split split_ = nullptr;
     void* split_user_ = nullptr;
     uint32_t dispatches_ = 0;
+};
+
+// A group of a recorder, as a scope.
+class GroupScope
+{
+public:
+    GroupScope(Recorder& recorder, const char* name, uint32_t number, uint32_t count) : recorder_(recorder)
+    {
+        recorder_.begin_group(name, number, count);
+    }
+    ~GroupScope() { recorder_.end_group(); }
+    GroupScope(const GroupScope&) = delete;
+    GroupScope& operator=(const GroupScope&) = delete;
+
+private:
+    Recorder& recorder_;
 };
 
 } // namespace voile::gpu
