@@ -57,11 +57,11 @@ void main()
     const vec3 stage_v = stage_velocities[i].xyz;
     const float inverse_mass = stage_x.w;
     const FinePosition here = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
-    const vec3 a = inverse_mass > 0 ? acceleration(false, self, here, inverse_mass, stage_v) : vec3(0);
-
-    // Stage 1's state is the base state: one read suffices.
+    // Stage 1's state is the base state: one read suffices. No branch around the gather: all loads are issued together.
     const FinePosition x = push.stage == 1 ? here : base_position(i);
     const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
+    const vec3 forced = acceleration(false, self, here, inverse_mass, stage_v);
+    const vec3 a = inverse_mass > 0 ? forced : vec3(0);
     const float h = push.step;
     if (push.stage == 4)
     {

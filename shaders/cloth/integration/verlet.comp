@@ -38,10 +38,12 @@ void main()
     if (!self.exists)
         return;
     const uint i = self.index;
+    // No branch around the gather: all loads are issued together.
     const vec4 stage_x = stage_positions[i];
-    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
-    const vec3 a = stage_x.w > 0 ? acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz) : vec3(0);
     const vec4 before = velocities[i];
+    const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
+    const vec3 forced = acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz);
+    const vec3 a = stage_x.w > 0 ? forced : vec3(0);
     // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
