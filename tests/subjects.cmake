@@ -96,6 +96,11 @@ set_tests_properties("foreign_engine: a sheet falls on a ball" "async_compute: e
     ENVIRONMENT "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
 add_test(NAME "integration: the guide shows the program of foreign_engine"
          COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_integration.cmake)
+find_program(DOXYGEN doxygen)
+if(DOXYGEN)
+    file(MAKE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/reference)
+    add_test(NAME "reference: Doxygen has no warning" COMMAND ${DOXYGEN} docs/Doxyfile WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+endif()
 add_test(NAME "recipes: vcpkg and Conan"
          COMMAND ${CMAKE_COMMAND} -DVERSION=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_recipes.cmake)
 voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp LIBRARIES voile::cloth voile::engine)

@@ -5,7 +5,7 @@
 #define VOILE_VERSION_MINOR 1
 #define VOILE_VERSION_PATCH 0
 
-// Grows with each version: #if VOILE_VERSION >= VOILE_MAKE_VERSION(0, 2, 0)
+// Grows with each version, so that versions compare: VOILE_VERSION >= VOILE_MAKE_VERSION(0, 2, 0).
 #define VOILE_MAKE_VERSION(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
 #define VOILE_VERSION VOILE_MAKE_VERSION(VOILE_VERSION_MAJOR, VOILE_VERSION_MINOR, VOILE_VERSION_PATCH)
 
