@@ -167,7 +167,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     ClothEntry cloth;
     cloth.location = location_of(field);
     if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
-                               "integrator", "self_collision", "layers"}))
+                               "integrator", "self_collision", "layers", "look"}))
         return cloth;
     cloth.name = "cloth_" + std::to_string(index);
     const Field name = SceneReader::child(field, "name");
@@ -185,6 +185,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
 
     cloth.transform = parse_transform(reader, SceneReader::child(field, "transform"));
     cloth.material = parse_material(reader, SceneReader::child(field, "material"));
+    cloth.look = parse_look(reader, SceneReader::child(field, "look"));
     const Field pins = SceneReader::child(field, "pins");
     if (reader.array(pins))
     {

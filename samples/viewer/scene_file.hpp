@@ -4,8 +4,9 @@
 #pragma once
 
 #include "voile/descriptions.hpp"
-
 #include "voile/result.hpp"
+
+#include "voile/engine/scene/component.hpp"
 
 #include <glm/glm.hpp>
 
@@ -137,12 +138,25 @@ struct PinEntry
     Location location;
 };
 
+// How a cloth is drawn. What is absent follows from the material's preset.
+struct LookEntry
+{
+    std::optional<glm::vec3> color{};      // linear, 0..1
+    std::optional<glm::vec3> back_color{}; // of the other side; absent beside `color`: darker
+    std::optional<voile::engine::Surface::Weave> weave{};
+    std::optional<voile::engine::Surface::Pattern> pattern{};
+    std::optional<float> roughness{};    // 0.05..1
+    std::optional<float> sheen{};        // 0..1
+    std::optional<float> translucency{}; // 0..1
+};
+
 struct ClothEntry
 {
     std::string name;                                    // unique, fit for a file name; "cloth_0" ... where unnamed
     std::variant<GridEntry, std::filesystem::path> form; // a grid, or a mesh file (OBJ or PLY, resolved)
     TransformEntry transform;
     MaterialEntry material;
+    LookEntry look;
     std::vector<PinEntry> pins;
     std::optional<float> tethers; // how far they let the cloth stretch, 0..10; absent: none
     glm::vec3 velocity{0.f};      // m/s at the start

@@ -2,10 +2,10 @@
 #include "samples/viewer/stage.hpp"
 
 #include "samples/viewer/cloths.hpp"
+#include "samples/viewer/looks.hpp"
 #include "samples/viewer/solid_meshes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,20 +13,6 @@ namespace viewer
 {
 namespace
 {
-
-struct Colors
-{
-    glm::vec3 front;
-    glm::vec3 back;
-};
-
-// Linear; cloths take them in turn.
-constexpr std::array<Colors, 4> k_fabrics{{
-    {{0.50f, 0.04f, 0.07f}, {0.42f, 0.30f, 0.16f}},
-    {{0.05f, 0.16f, 0.38f}, {0.40f, 0.36f, 0.28f}},
-    {{0.06f, 0.28f, 0.17f}, {0.42f, 0.34f, 0.20f}},
-    {{0.50f, 0.26f, 0.04f}, {0.30f, 0.10f, 0.12f}},
-}};
 
 voile::engine::Surface solid_surface()
 {
@@ -205,14 +191,12 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
     for (size_t i = 0; i < stage.cloths.size(); ++i)
     {
         const StageCloth& cloth = stage.cloths[i];
-        const Colors& colors = k_fabrics[i % k_fabrics.size()];
         const voile::engine::Bounds extent = bounds_of(cloth.start);
         const glm::vec3 size = extent.max - extent.min;
         app.scene()
             .add(cloth.name)
-            .add<voile::component::Sheet>(
-                world, app.uploads(), cloth.id,
-                voile::component::fabric_surface(colors.front, colors.back, std::max({size.x, size.y, size.z, 1e-3f})));
+            .add<voile::component::Sheet>(world, app.uploads(), cloth.id,
+                                          cloth_surface(scene.cloths[i], i, std::max({size.x, size.y, size.z, 1e-3f})));
     }
     SolidMeshes meshes(app.uploads(), glm::distance(box.min, box.max));
     for (const Solid& solid : solids)

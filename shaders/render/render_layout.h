@@ -8,6 +8,16 @@
 #define VOILE_SURFACE_FABRIC 1u
 #define VOILE_SURFACE_GROUND 2u
 
+// How the threads of a fabric lie (Surface::Weave), and the pattern of their colors (Surface::Pattern).
+#define VOILE_WEAVE_PLAIN 0u
+#define VOILE_WEAVE_TWILL 1u
+#define VOILE_WEAVE_SATIN 2u
+#define VOILE_WEAVE_GRAIN 3u
+#define VOILE_WEAVE_NONE 4u
+#define VOILE_PATTERN_CHECK 0u
+#define VOILE_PATTERN_STRIPES 1u
+#define VOILE_PATTERN_NONE 2u
+
 VOILE_SHARED_BEGIN(voile::engine)
 
 struct FrameUniforms
@@ -36,6 +46,9 @@ struct DrawPush
     float weave_scale;
     float pattern_scale;
     uint kind;
+    float translucency;
+    uint weave;
+    uint pattern;
 };
 
 // Lines and dots; as large as DrawPush at most.

@@ -41,13 +41,18 @@ vec3 tilt_normal(vec3 n, vec2 tilt)
 
 void apply_fabric(inout Shading s)
 {
-    const vec2 check = check_pattern(push.pattern_scale * texture_coordinate);
-    s.albedo *= 1 - 0.42 * check.x;
-    s.albedo = mix(s.albedo, vec3(0.82, 0.78, 0.68), 0.75 * check.y);
-    const Weave weave = plain_weave(push.weave_scale * texture_coordinate);
+    const vec2 colors = yarn_pattern(push.pattern, push.pattern_scale * texture_coordinate);
+    s.albedo *= 1 - 0.42 * colors.x;
+    s.albedo = mix(s.albedo, k_light_yarn, 0.75 * colors.y);
+    s.translucency = push.translucency;
+    if (push.weave == VOILE_WEAVE_NONE)
+        return;
+    const Weave weave = push.weave == VOILE_WEAVE_GRAIN ? leather_grain(push.weave_scale * texture_coordinate)
+                                                        : woven(push.weave, push.weave_scale * texture_coordinate);
+    if (push.weave == VOILE_WEAVE_TWILL)
+        s.albedo = mix(s.albedo, k_light_yarn, 0.3 * weave.weft);
     s.albedo *= 0.45 + 0.65 * weave.height;
     s.normal = tilt_normal(s.normal, weave.tilt);
-    s.translucency = 0.10;
 }
 
 // Joints between slabs, whose size follows the scene's.

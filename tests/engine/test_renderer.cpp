@@ -11,6 +11,7 @@
 #include "voile/engine/scene/static_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -270,6 +271,41 @@ TEST_CASE("dots are round, have one size, and show only the requested flags")
         CHECK_FALSE(is_red(picture, 173, 95)); // a corner of its square
         CHECK_FALSE(is_red(picture, 178, 90));
     }
+}
+
+TEST_CASE("each weave and each pattern of a fabric is seen close up, and fades from afar")
+{
+    using Surface = voile::engine::Surface;
+    voile::engine::Mesh square;
+    square.positions = {{-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}};
+    square.normals.assign(4, {0, 0, 1});
+    square.texture_coordinates = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const auto picture_of = [&](Surface::Weave weave, Surface::Pattern pattern, float distance)
+    {
+        Surface surface = voile::component::fabric_surface({0.3f, 0.1f, 0.1f}, {0.3f, 0.1f, 0.1f}, 2);
+        surface.weave = weave;
+        surface.pattern = pattern;
+        Stage stage;
+        stage.scene.camera = {.position = {0, 1, distance}, .target = {0, 1, 0}};
+        stage.scene.add("square").add<voile::engine::StaticMesh>(stage.uploads, square, surface);
+        return stage.draw();
+    };
+    const std::array weaves = {Surface::Weave::plain, Surface::Weave::twill, Surface::Weave::satin,
+                               Surface::Weave::grain, Surface::Weave::none};
+    const std::array patterns = {Surface::Pattern::check, Surface::Pattern::stripes, Surface::Pattern::none};
+    std::vector<voile::engine::Picture> near;
+    for (const Surface::Weave weave : weaves)
+        near.push_back(picture_of(weave, Surface::Pattern::none, 0.12f));
+    for (const Surface::Pattern pattern : patterns)
+        near.push_back(picture_of(Surface::Weave::none, pattern, 2));
+    for (size_t i = 0; i < near.size(); ++i)
+        for (size_t j = 0; j < i; ++j)
+            if ((i < weaves.size()) == (j < weaves.size()))
+                CHECK(difference(near[i], near[j]) > 5); // measured: 9.8 and more
+    // From afar a plain and a satin weave have the same mean.
+    CHECK(difference(picture_of(Surface::Weave::plain, Surface::Pattern::none, 40),
+                     picture_of(Surface::Weave::satin, Surface::Pattern::none, 40)) < 0.1);
 }
 
 TEST_CASE("the golden picture")

@@ -86,7 +86,10 @@ void PassView::draw(VkCommandBuffer cmd, const Drawable& drawable)
                                 surface.sheen,
                                 surface.weave_scale,
                                 surface.pattern_scale,
-                                static_cast<uint32_t>(surface.kind)};
+                                static_cast<uint32_t>(surface.kind),
+                                surface.translucency,
+                                static_cast<uint32_t>(surface.weave),
+                                static_cast<uint32_t>(surface.pattern)};
     context_.fn.vkCmdPushConstants(cmd, pass_.layout, k_stages, 0, sizeof(push), &push);
     const std::array buffers{drawable.positions, drawable.normals, drawable.texture_coordinates};
     const std::array offsets{drawable.position_offset, drawable.normal_offset, drawable.texture_coordinate_offset};

@@ -28,7 +28,22 @@ struct Surface
     float sheen = 0;            // 0..1; strength of the fabric's grazing-angle sheen
     float weave_scale = 0;      // fabric: threads per unit of texture coordinate
     float pattern_scale = 0;    // fabric: repeats of its check per unit of texture coordinate
+    float translucency = 0.1f;  // fabric: fraction of the sun's light that passes through, 0..1
     bool two_sided = false;     // lit from both sides, not culled
+    enum class Weave : uint32_t // fabric: how its threads lie
+    {
+        plain, // warp and weft alternate
+        twill, // warp over three wefts, in diagonals
+        satin, // warp over four, scattered: smooth
+        grain, // no threads: the pebbles of leather
+        none,
+    } weave = Weave::plain;
+    enum class Pattern : uint32_t // fabric: of the colors of its threads
+    {
+        check,
+        stripes, // along the weft
+        none,
+    } pattern = Pattern::check;
     enum class Kind : uint32_t
     {
         plain,
