@@ -85,8 +85,6 @@ Node node_of(Search search, uint vertex)
     return Node(midpoint.xyz - search.origin, midpoint.w, vertex);
 }
 
-Box around(Node node) { return Box(node.x - node.reach, node.x + node.reach); }
-
 vec4 sphere_around(Node a, Node b)
 {
     return vec4(0.5 * (a.x + b.x), 0.5 * distance(a.x, b.x) + max(a.reach, b.reach));
@@ -106,7 +104,9 @@ Piece piece_of(Search search, Fan fan, uint k)
     piece.a = node_of(search, fan.center);
     piece.b = piece.wedge.triangle || piece.wedge.edge_b ? node_of(search, piece.wedge.b) : piece.a;
     piece.c = piece.wedge.triangle || piece.wedge.edge_c ? node_of(search, piece.wedge.c) : piece.a;
-    piece.box = joined(around(piece.a), joined(around(piece.b), around(piece.c)));
+    // As distance_of, with the longest sweep of all vertices.
+    const float reach = max(piece.a.reach, max(piece.b.reach, piece.c.reach));
+    piece.box = grown(joined(box_around(piece.a.x, piece.b.x), Box(piece.c.x, piece.c.x)), reach);
     piece.edge_b = sphere_around(piece.a, piece.b);
     piece.edge_c = sphere_around(piece.a, piece.c);
     piece.triangle = sphere_around(piece.a, piece.b, piece.c);
@@ -212,7 +212,7 @@ void visit_leaf(inout Search search, uint leaf, uint count)
         if (search.own_wedge != j)
             search.own = piece_of(search, search.fan, j);
         search.own_wedge = j;
-        if (!overlap(grown(piece.box, search.range), search.own.box))
+        if (!overlap(grown(piece.box, search.range + search.rounding), search.own.box))
             continue;
         if (j == 0)
             consider_triangle(search, search.own.a, piece);

@@ -67,7 +67,7 @@ Listed listed_by(uint owner, uint vertex)
             continue;
         // A side does not list the pair, or another thread of its search has left out a nearer one.
         const float at = pair_distances[entry];
-        if (at > min(list.range, pair_lists[first ? owners.y : owners.x].range))
+        if (at >= min(list.range, pair_lists[first ? owners.y : owners.x].range))
             listed.reach = min(listed.reach, at);
         else
             listed.mask |= 1u << e;
