@@ -358,6 +358,13 @@ void respond_to_pairs(Hold hold, inout Motion motion)
     motion.displacement = along;
 }
 
+void ask_for_lists(Hold hold, vec3 displacement)
+{
+    if (wants_lists(hold, displacement))
+        for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
+            pair_searches[k].wanted = k == VOILE_PAIR_SEARCH ? push.pair_lanes : 1;
+}
+
 // Cuts the motion where the guards of pairs end.
 void hold_within_guards(Hold hold, inout Motion motion)
 {
@@ -367,9 +374,16 @@ void hold_within_guards(Hold hold, inout Motion motion)
         motion.v *= part;
         motion.displacement *= part;
     }
-    if (wants_lists(hold, motion.displacement))
-        for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
-            pair_searches[k].wanted = k == VOILE_PAIR_SEARCH ? push.pair_lanes : 1;
+    ask_for_lists(hold, motion.displacement);
+}
+
+// Nothing holds a vertex without mass.
+void watch_driven(uint i, Motion motion)
+{
+    const Hold hold = hold_of(i, motion.from);
+    ask_for_lists(hold, motion.displacement);
+    if (!is_in_sweep(hold, motion.displacement))
+        atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
 }
 
 void main()
@@ -385,9 +399,11 @@ void main()
     uint flags;
     Motion motion = proposed_motion(i, cloth, proposed.xyz, flags);
     bool changed = flags != 0;
+    const bool held = PAIRS != 0 && (cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) != 0;
+    if (held && proposed.w == 0)
+        watch_driven(i, motion);
     if (proposed.w > 0)
     {
-        const bool held = PAIRS != 0 && (cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) != 0;
         Hold hold;
         if (held)
         {

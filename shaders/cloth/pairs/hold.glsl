@@ -64,29 +64,53 @@ bool wants_lists(Hold hold, vec3 motion)
     return squared_distance_from_sweep(hold.swept + (1 + push.pair_ahead) * motion, hold.bound.sweep.sweep) >= most * most;
 }
 
-bool is_held(Hold hold, vec3 motion)
+// Whether no unlisted pair can have met. Rounding may take a vertex that ends its sweep's reach a little farther.
+bool is_in_sweep(Hold hold, vec3 motion)
+{
+    const float reach = (1 + k_guard_rounding) * hold.bound.sweep.reach;
+    return squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep) <= reach * reach;
+}
+
+// Where a vertex is within its guards. Each number is negative outside, and grows inwards.
+struct Room
+{
+    vec2 planes; // m
+    float ball;  // m
+    float sweep; // m^2
+};
+
+Room room_at(Hold hold, vec3 motion)
 {
     const vec3 d = hold.at + motion;
-    const vec3 x = hold.swept + motion;
-    const float part = 1 - k_guard_rounding;
-    return dot(d, hold.bound.guard.planes[0].xyz) + hold.bound.guard.planes[0].w >= 0 &&
-           dot(d, hold.bound.guard.planes[1].xyz) + hold.bound.guard.planes[1].w >= 0 &&
-           length(d) <= part * hold.bound.guard.reach &&
-           squared_distance_from_sweep(x, hold.bound.sweep.sweep) <= part * hold.bound.sweep.reach * part * hold.bound.sweep.reach;
+    const PairGuard guard = hold.bound.guard;
+    const float reach = (1 - k_guard_rounding) * hold.bound.sweep.reach;
+    Room room;
+    room.planes = vec2(dot(d, guard.planes[0].xyz) + guard.planes[0].w, dot(d, guard.planes[1].xyz) + guard.planes[1].w);
+    room.ball = (1 - k_guard_rounding) * guard.reach - length(d);
+    room.sweep = reach * reach - squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep);
+    return room;
+}
+
+// Rounding, or what moves vertices that have no mass, may put a vertex outside at the start. It may not go farther out.
+bool is_held(Room room, Room start)
+{
+    return all(greaterThanEqual(room.planes, min(start.planes, 0))) && room.ball >= min(start.ball, 0) &&
+           room.sweep >= min(start.sweep, 0);
 }
 
 // The part of a motion after which the vertex is still within its guards. The guards are convex, and the start of the
-// motion is within them, so bisection finds the end. A vertex that something else put outside is not held.
+// motion is within them, so bisection finds the end.
 float held_part(Hold hold, vec3 motion)
 {
-    if (is_held(hold, motion) || !is_held(hold, vec3(0)))
+    const Room start = room_at(hold, vec3(0));
+    if (is_held(room_at(hold, motion), start))
         return 1;
     float low = 0;
     float high = 1;
     for (uint k = 0; k < 12; ++k)
     {
         const float middle = 0.5 * (low + high);
-        if (is_held(hold, middle * motion))
+        if (is_held(room_at(hold, middle * motion), start))
             low = middle;
         else
             high = middle;

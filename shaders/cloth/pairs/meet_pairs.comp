@@ -24,6 +24,12 @@ layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory p
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_responses)) writeonly buffer PairResponses { PairResponse pair_responses[]; };
 
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
+
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/fine_position.glsl"
@@ -106,6 +112,21 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     return wanted * approach.n - (1 - left / speed) * undone;
 }
 
+// m: how far vertices without mass, which nothing holds, will move towards the other side until the next pass. The first
+// side's, and the second's.
+vec2 driven_approach(uint sides, Vertices vertices, Separation separation)
+{
+    vec2 needed = vec2(0);
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+    {
+        const bool first = k < sides;
+        const float along = push.interval * dot(vertices.v[k], first ? -separation.n : separation.n);
+        const float approach = vertices.inverse_masses[k] == 0 ? along - separation.from_plane[k] : 0;
+        needed = max(needed, first ? vec2(approach, 0) : vec2(0, approach));
+    }
+    return needed;
+}
+
 void add_load(uint vertex, float weight)
 {
     atomicAdd(pair_loads[(push.pass & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
@@ -138,8 +159,13 @@ void main()
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
-    const float slack = max(VOILE_PAIR_APPROACH * (separation.gap - k_floor * thickness), 0);
     const uint sides = first_side(pair);
+    const vec2 needed = driven_approach(sides, vertices, separation);
+    const float room = max(2 * VOILE_PAIR_APPROACH * (separation.gap - k_floor * thickness), 0);
+    const float spare = room - needed.x - needed.y;
+    if (spare < 0 && first)
+        atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
+    const float slack = max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;
     vec3 heights = vec3(0);

@@ -13,6 +13,8 @@
 // The most dispatches that make the lists: boxes of leaves, folds of levels, the search, and the index of the lists.
 #define VOILE_PAIR_SEARCHES 8
 #define VOILE_PAIR_SEARCH 6
+// The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair had.
+#define VOILE_PAIR_FORCED 0
 #define VOILE_PAIR_INDEX 7
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
