@@ -30,6 +30,7 @@ struct StatisticsReducePush
 {
     uint patches;
     uint slot; // of the result
+    uint pairs_met; // 0: the last step had no passes over pairs
 };
 
 // Pairs of an edge and a triangle, or of a triangle and a solid, that intersect.
@@ -54,8 +55,8 @@ struct StatisticsRecord
     uint contacts;             // vertices that touch a collider
     uint candidates;           // triangles in the lists of all vertices
     uint overflowing_vertices; // vertices near more triangles than a list can contain; they traverse in every substep
-    uint padding_0;
-    uint padding_1;
+    uint forced_pairs;         // in which vertices without mass took more room than there was, in the last step
+    uint padding;
 };
 
 // What the host reads.

@@ -3,12 +3,19 @@
 // Merges the statistics of all patches. One workgroup: each thread merges every group-size-th patch, then the workgroup
 // folds. Intersections are copied afterwards, if they were counted.
 #include "shared/bindings.h"
+#include "shared/pair_layout.h"
 #include "shared/statistics_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(partials)) readonly buffer Partials { StatisticsRecord partials[]; };
 layout(VOILE_BINDING(statistics)) writeonly buffer Statistics { StatisticsResult result[]; };
+
+layout(VOILE_BINDING(pair_bounds)) readonly buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { StatisticsReducePush push; };
 
@@ -23,5 +30,7 @@ void main()
     if (gl_LocalInvocationID.x != 0)
         return;
     result[push.slot].cloths = merged;
+    if (push.pairs_met != 0)
+        result[push.slot].cloths.forced_pairs = pair_searches[VOILE_PAIR_FORCED].entries;
     result[push.slot].intersections = IntersectionCounters(0, 0, 0, 0);
 }

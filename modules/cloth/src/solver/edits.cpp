@@ -257,6 +257,8 @@ void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& st
     if (solver.edits.pins || solver.edits.masses || edited > 0)
         record_pins(recorder, solver, solver.lists.resting_pins, 0);
     solver.history.normals_due |= edited > 0;
+    if (edited > 0)
+        solver.history.forget_pairs();
     solver.anchors_moved = now.anchors;
     solver.colliders_moved = now.colliders;
     finish_motions(solver);

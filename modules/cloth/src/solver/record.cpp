@@ -76,6 +76,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
     passes.record();
+    history.pairs_met = solver.passes.pairs;
     if (solver.passes.pairs)
         history.next_pair_pass += count_pair_passes(step, plan.substeps);
     record_normals(recorder, solver);

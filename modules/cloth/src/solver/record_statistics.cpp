@@ -89,7 +89,7 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, Inter
     recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
                       shared::StatisticsPush{state_->passes.colliders, device.near_stride});
     recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,
-                      shared::StatisticsReducePush{device.patch_count, slot});
+                      shared::StatisticsReducePush{device.patch_count, slot, state_->history.pairs_met ? 1u : 0u});
     if (counted)
         copy_counts(recorder, *state_, slot);
     recorder.barrier(k_compute | k_transfer,

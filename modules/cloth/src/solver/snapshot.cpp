@@ -226,6 +226,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     barrier(state_->context, state_->options, cmd, false);
     state_->lifetime.end(cmd);
     state_->history.depenetration_due = true; // as after restoring, so that both continue the same way
+    state_->history.forget_pairs();
     return {};
 }
 
@@ -251,6 +252,7 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     state_->lifetime.end(cmd);
     state_->history.depenetration_step = snapshot.contents_->depenetration_step;
     state_->history.depenetration_due = true;
+    state_->history.forget_pairs();
     state_->edits.masses = state_->edits.pins = true; // materials and pins may have changed since it was saved
     return {};
 }

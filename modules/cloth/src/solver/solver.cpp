@@ -202,6 +202,7 @@ Statistics Solver::statistics(uint32_t slot) const
     result.contacts = record.contacts;
     result.candidates = record.candidates;
     result.overflowing_vertices = record.overflowing_vertices;
+    result.forced_pairs = record.forced_pairs;
     if (const shared::IntersectionCounters& pairs = read.intersections; pairs.counted != 0)
         result.intersections = {pairs.cloth_pairs, pairs.collider_pairs, pairs.uncertain_pairs};
     return result;

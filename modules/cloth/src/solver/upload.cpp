@@ -310,6 +310,8 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     record_boxes_at_rest(recorder, *this, deforming);
     history.normals_due = true;
     history.depenetration_due = true;
+    history.pairs_met = false;
+    history.forget_pairs();
     dirty = false;
 }
 
