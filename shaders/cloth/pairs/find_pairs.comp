@@ -117,20 +117,21 @@ void insert(inout Search search, uvec4 vertices, bool edges, float at)
 {
     const uint part = VOILE_PAIRS / search.lanes;
     const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;
+    const uint capacity = max(push.capacity / search.lanes, 1);
     uint place = search.count;
-    if (search.count < part)
+    if (search.count < capacity)
         ++search.count;
     else
     {
         float farthest = at;
-        for (uint k = 0; k < part; ++k)
+        for (uint k = 0; k < capacity; ++k)
             if (pair_distances[first + k] > farthest)
             {
                 farthest = pair_distances[first + k];
                 place = k;
             }
         search.range = min(search.range, farthest);
-        if (place == part)
+        if (place == capacity)
             return;
     }
     pairs[first + place] = packed(Pair(vertices, edges));

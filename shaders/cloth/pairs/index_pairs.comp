@@ -43,6 +43,10 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
+// The part of the thickness that no pair comes closer than while no list has it. Else full lists would let it come
+// closer with each search, until rounding hides which side is which.
+const float k_unlisted_floor = 0.02;
+
 // What the list of an owner has for a vertex.
 struct Listed
 {
@@ -131,13 +135,14 @@ void refer(Fan fan, uint at)
     }
 }
 
-// Until a pass finds the vertex in a pair, only its sweep bounds it.
+// Until a pass finds the vertex in a pair, only its sweep bounds it. Where sweeps may meet that no list has as a pair, the
+// vertex stays where it is. It loses its velocity, so that the next sweeps are shorter.
 void bound(uint i, float reach, bool listed)
 {
     PairSweep sweep;
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
-    sweep.sweep = sweep_of(i);
+    sweep.sweep = reach > 0 ? sweep_of(i) : vec3(0);
     sweep.listed = listed ? 1 : 0;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
@@ -171,7 +176,7 @@ void main()
             own = k == 0 ? listed.mask : own;
             references += bitCount(listed.mask);
         }
-        bound(i, reach, references != 0);
+        bound(i, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, references != 0);
     }
     barrier();
     uint pair_place = atomicAdd(shared_pairs, bitCount(own));

@@ -109,6 +109,7 @@ struct PairPush
     uint vertices; // of the solver
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
+    uint capacity; // of a list, at most VOILE_PAIRS
 };
 
 #ifdef __cplusplus

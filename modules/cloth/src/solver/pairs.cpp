@@ -84,6 +84,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
+    push.capacity = solver_.options.tuning.pair_capacity;
     if (substep % substeps_per_search(h_) == 0)
     {
         find(push, from);

@@ -5,6 +5,7 @@
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
+#include "shared/pair_layout.h"
 #include "shared/statistics_layout.h"
 
 #include <algorithm>
@@ -93,6 +94,9 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     if (options.statistics_slots < 1 || options.statistics_slots > 16)
         return Error{"SolverOptions: statistics_slots is " + std::to_string(options.statistics_slots) +
                      ", must be 1 to 16"};
+    if (options.tuning.pair_capacity < 1 || options.tuning.pair_capacity > VOILE_PAIRS)
+        return Error{"Tuning: pair_capacity is " + std::to_string(options.tuning.pair_capacity) + ", not from 1 to " +
+                     std::to_string(VOILE_PAIRS)};
     if (options.tuning.feature_threads > 0 && (!std::has_single_bit(options.tuning.feature_threads) ||
                                                options.tuning.feature_threads > options.tuning.workgroup_size))
         return Error{"Tuning: feature_threads is " + std::to_string(options.tuning.feature_threads) +
