@@ -1,0 +1,157 @@
+// Momentum, friction, and changes while cloths collide.
+#include "support/momenta.hpp"
+#include "support/pair_harness.hpp"
+
+#include <doctest/doctest.h>
+
+namespace
+{
+
+using tests::at;
+using tests::PairHarness;
+using tests::turned;
+using voile::engine::take;
+
+glm::dvec3 mean(const std::vector<glm::vec4>& positions)
+{
+    glm::dvec3 sum(0);
+    for (const glm::vec4& p : positions)
+        sum += glm::dvec3(p);
+    return sum / static_cast<double>(positions.size());
+}
+
+constexpr double k_static = 0.5;
+constexpr double k_kinetic = 0.4;
+
+// A sheet on another one whose vertices are all pinned, on a plane of that inclination.
+class Incline : public PairHarness
+{
+public:
+    explicit Incline(float angle) : angle_(angle)
+    {
+        voile::GridCloth lower = tests::pair_sheet(14, 8, 0.02f);
+        voile::GridCloth upper = tests::pair_sheet(5, 5, 0.02f);
+        for (voile::GridCloth* sheet : {&lower, &upper})
+        {
+            auto& fabric = std::get<voile::Fabric>(sheet->material);
+            fabric.static_friction = static_cast<float>(k_static);
+            fabric.kinetic_friction = static_cast<float>(k_kinetic);
+            fabric.air_drag_normal = fabric.air_drag_tangential = 0;
+        }
+        for (uint32_t i = 0; i < 14 * 8; ++i)
+            lower.pins.push_back(i);
+        lower.transform = turned(-angle, {0, 0, 1});
+        upper.transform = lower.transform * at({-0.06f, 0.0031f, 0});
+        add(lower);
+        add(upper);
+        upload();
+        start_ = mean(positions(cloths[1]));
+    }
+
+    // m, downhill
+    double slid()
+    {
+        const auto angle = static_cast<double>(angle_);
+        const glm::dvec3 downhill(std::cos(angle), -std::sin(angle), 0);
+        return glm::dot(mean(positions(cloths[1])) - start_, downhill);
+    }
+
+private:
+    float angle_;
+    glm::dvec3 start_{0};
+};
+
+} // namespace
+
+TEST_CASE("two sheets that collide in free flight keep their momentum")
+{
+    PairHarness harness;
+    for (const float side : {-1.f, 1.f})
+    {
+        voile::GridCloth sheet = tests::pair_sheet(10, 10, 0.02f);
+        sheet.transform = at({0.02f * side, 0.02f * side, 0}) * turned(0.2f * side, {0.1f, 1, 0.2f});
+        sheet.velocity = {0, -0.5f * side, 0};
+        harness.add(sheet);
+    }
+    harness.upload();
+    const voile::Step step{.duration = 1.f / 60, .gravity = {0, 0, 0}, .air_density = 0};
+    const auto total = [&]
+    {
+        tests::Momenta sum;
+        for (const voile::ClothId cloth : harness.cloths)
+        {
+            const tests::Momenta of = tests::momenta_of(harness, cloth);
+            sum.linear += of.linear;
+            sum.speeds += of.speeds;
+        }
+        return sum;
+    };
+    const tests::Momenta before = total();
+    harness.step(step, 12);
+    const tests::Momenta after = total();
+    CHECK(after.speeds < 0.8 * before.speeds); // they have met
+    CHECK(glm::length(after.linear - before.linear) < 5e-6 * before.speeds);
+}
+
+TEST_CASE("cloth slides down on cloth as Coulomb's law says")
+{
+    const double angle = std::atan(0.8);
+    Incline incline(static_cast<float>(angle));
+    incline.step({.duration = 1.f / 60}, 15);
+    const double t = 0.25;
+    const double expected = 0.5 * 9.81 * (std::sin(angle) - k_kinetic * std::cos(angle)) * t * t;
+    CHECK(incline.slid() == doctest::Approx(expected).epsilon(0.05));
+    CHECK(incline.intersections() == 0);
+}
+
+TEST_CASE("cloth sticks on cloth")
+{
+    Incline incline(std::atan(0.2f));
+    incline.step({.duration = 1.f / 60}, 12);
+    const double before = incline.slid();
+    incline.step({.duration = 1.f / 60}, 24);
+    CHECK(std::abs(incline.slid() - before) < 0.4 * 1e-4); // m, 0.1 mm/s
+}
+
+TEST_CASE("steps after restoring a snapshot equal those after saving it, while sheets collide")
+{
+    Incline incline(std::atan(0.8f));
+    incline.step({.duration = 1.f / 60}, 4);
+    const voile::Snapshot snapshot = take(incline.solver.create_snapshot());
+    incline.run([&](VkCommandBuffer cmd) { take(incline.solver.record_save(cmd, snapshot)); });
+    incline.step({.duration = 1.f / 60}, 4);
+    const std::vector<glm::vec4> after_saving = incline.positions(incline.cloths[1]);
+    incline.run([&](VkCommandBuffer cmd) { take(incline.solver.record_restore(cmd, snapshot)); });
+    incline.step({.duration = 1.f / 60}, 4);
+    CHECK(tests::same_bits(after_saving, incline.positions(incline.cloths[1])));
+}
+
+TEST_CASE("changes while sheets collide lead to no intersections")
+{
+    PairHarness harness;
+    (void)take(harness.solver.add_collider(voile::PlaneCollider{}));
+    for (const float level : {0.004f, 0.01f, 0.016f})
+    {
+        voile::GridCloth sheet = tests::pair_sheet(9, 9, 0.02f);
+        sheet.transform = at({0, level, 0}) * turned(50 * level, {0, 1, 0});
+        harness.add(sheet);
+    }
+    harness.upload();
+    const auto change = [&](int frame)
+    {
+        if (frame == 3)
+            take(harness.solver.set_material(harness.cloths[1], voile::leather()));
+        if (frame == 6)
+            take(harness.solver.set_velocity(harness.cloths[2], {0.5f, -2, 0}));
+        if (frame == 9)
+            take(harness.solver.teleport(harness.cloths[2], at({0, 0.05f, 0})));
+        if (frame == 12)
+            take(harness.solver.set_enabled(harness.cloths[2], false));
+        if (frame == 14)
+            take(harness.solver.set_enabled(harness.cloths[2], true));
+        if (frame == 17)
+            take(harness.solver.set_material(harness.cloths[1], voile::silk()));
+    };
+    CHECK(harness.first_intersection({.duration = 1.f / 60}, 24, change) == -1);
+    CHECK(harness.statistics().forced_pairs == 0);
+}

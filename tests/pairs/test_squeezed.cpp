@@ -1,0 +1,138 @@
+// Cloth that is squeezed, by colliders that leave it room or not, and by pins.
+#include "support/pair_harness.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+namespace
+{
+
+using tests::at;
+using tests::PairHarness;
+using tests::turned;
+using voile::engine::take;
+
+constexpr voile::Step k_weightless{.duration = 1.f / 60, .gravity = {0, 0, 0}};
+
+void add_layers(PairHarness& harness, int layers)
+{
+    for (int i = 0; i < layers; ++i)
+    {
+        voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.02f);
+        const auto level = static_cast<float>(i);
+        sheet.transform = at({0, 0.006f * level, 0}) * turned(0.3f * level, {0, 1, 0});
+        harness.add(sheet);
+    }
+    harness.upload();
+}
+
+// Two boxes that close around three sheets until 2 mm are left, and open again. The first step with an intersection.
+int squeeze(PairHarness& harness)
+{
+    add_layers(harness, 3);
+    constexpr float k_open = 0.05f;
+    const voile::ColliderId above = take(harness.solver.add_collider(
+        voile::BoxCollider{.min = {-0.1f, k_open, -0.1f}, .max = {0.1f, k_open + 0.1f, 0.1f}}));
+    const voile::ColliderId below = take(harness.solver.add_collider(
+        voile::BoxCollider{.min = {-0.1f, -k_open - 0.1f, -0.1f}, .max = {0.1f, -k_open, 0.1f}}));
+    harness.upload();
+    const auto move = [&](int frame)
+    {
+        const int closed = std::min({frame + 1, 8, std::max(18 - frame, 0)});
+        const float way = (k_open - 0.001f) * static_cast<float>(closed) / 8;
+        take(harness.solver.move_collider(above, at({0, -way, 0})));
+        take(harness.solver.move_collider(below, at({0, way, 0})));
+    };
+    return harness.first_intersection(k_weightless, 20, move);
+}
+
+voile::SolverOptions with_capacity(uint32_t capacity)
+{
+    voile::SolverOptions options;
+    options.tuning.pair_capacity = capacity;
+    return options;
+}
+
+// Two vertical sheets, the upper rows of which hang from anchors.
+class Curtains : public PairHarness
+{
+public:
+    // m, along x and z from the middle
+    explicit Curtains(const glm::vec3& offset)
+    {
+        for (const float side : {-1.f, 1.f})
+        {
+            voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.02f);
+            sheet.transform = at(side * offset) * turned(1.57f, {1, 0, 0});
+            add(sheet);
+            rails.push_back(take(solver.add_anchor(glm::mat4(1))));
+            std::vector<voile::Attachment> pins;
+            for (uint32_t i = 0; i < 8; ++i)
+                pins.push_back(voile::pin(i, rails.back()));
+            take(solver.set_attachments(cloths.back(), pins));
+        }
+        upload();
+    }
+
+    // m, each towards the other
+    void move(float distance)
+    {
+        take(solver.move_anchor(rails[0], at({0, 0, distance})));
+        take(solver.move_anchor(rails[1], at({0, 0, -distance})));
+    }
+
+    std::vector<voile::AnchorId> rails;
+};
+
+} // namespace
+
+TEST_CASE("boxes that close on three sheets do not push one through another, whatever the capacity of lists")
+{
+    for (const uint32_t capacity : {32u, 8u, 2u, 1u})
+    {
+        CAPTURE(capacity);
+        PairHarness harness(with_capacity(capacity));
+        CHECK(squeeze(harness) == -1);
+    }
+}
+
+TEST_CASE("a capacity of lists of pairs out of its range is refused")
+{
+    for (const uint32_t capacity : {0u, 33u})
+        CHECK(!voile::Solver::create(tests::test_handles(), with_capacity(capacity)));
+}
+
+TEST_CASE("pins that are driven through each other force pairs, and no intersection is left after they part")
+{
+    Curtains curtains({0.005f, 0, 0.03f});
+    int first_forced = -1;
+    int first_intersection = -1;
+    for (int frame = 0; frame < 40; ++frame)
+    {
+        const int in = std::min({frame + 1, 12, std::max(30 - frame, 0)});
+        curtains.move(0.04f * static_cast<float>(in) / 12);
+        curtains.step({.duration = 1.f / 60});
+        if (first_forced < 0 && curtains.statistics().forced_pairs > 0)
+            first_forced = frame;
+        if (first_intersection < 0 && curtains.intersections() > 0)
+            first_intersection = frame;
+    }
+    CHECK(first_intersection > 0);
+    CHECK(first_forced >= 0);
+    CHECK(first_forced <= first_intersection);
+    CHECK(curtains.intersections() == 0);
+    CHECK(curtains.statistics().forced_pairs == 0);
+}
+
+TEST_CASE("pins that carry one curtain through the path of another force no pair")
+{
+    Curtains curtains({0.01f, 0.015f, 0.03f});
+    for (int frame = 0; frame < 30; ++frame)
+    {
+        curtains.move(0.005f * static_cast<float>(frame + 1));
+        curtains.step({.duration = 1.f / 60});
+        REQUIRE(curtains.intersections() == 0);
+        REQUIRE(curtains.statistics().forced_pairs == 0);
+    }
+}
