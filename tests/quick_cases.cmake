@@ -123,7 +123,11 @@ quick(test_samples
     "hello_cloth draws a cloth on a sphere"
     "the shooting method gives the known drops of a heavy elastica")
 quick(test_scene_meshes)
-quick(test_self_collision)
+quick(test_self_collision
+    "a capacity of lists of pairs out of its range is refused"
+    "a sheet that collides with itself falls freely as one that does not"
+    "cloth slides down on cloth as Coulomb's law says"
+    "pins that are driven through each other force pairs, and no intersection is left after they part")
 quick(test_stability
     "damping of springs folded into one line is as stable as in a plane"
     "two slivers in a small mesh are softened, many slivers are not")

@@ -74,8 +74,8 @@ TEST_CASE("five sheets on a sphere keep their order")
     for (int i = 0; i < 5; ++i)
     {
         voile::GridCloth sheet = square(9);
-        sheet.transform = at({0, 0.088f + 0.006f * static_cast<float>(i), 0}) *
-                          turned(0.3f * static_cast<float>(i), {0, 1, 0});
+        sheet.transform =
+            at({0, 0.088f + 0.006f * static_cast<float>(i), 0}) * turned(0.3f * static_cast<float>(i), {0, 1, 0});
         harness.add(sheet);
     }
     harness.upload();
@@ -113,8 +113,8 @@ TEST_CASE("a flag in a storm does not intersect itself")
 TEST_CASE("a cloth is pulled from under another one without intersections")
 {
     PairHarness harness;
-    (void)take(harness.solver.add_collider(
-        voile::BoxCollider{.min = {-0.09f, -0.1f, -0.09f}, .max = {0.09f, 0, 0.09f}}));
+    (void)take(
+        harness.solver.add_collider(voile::BoxCollider{.min = {-0.09f, -0.1f, -0.09f}, .max = {0.09f, 0, 0.09f}}));
     voile::GridCloth lower = square(11);
     lower.transform = at({0, 0.005f, 0});
     voile::GridCloth upper = square(7);
@@ -128,8 +128,9 @@ TEST_CASE("a cloth is pulled from under another one without intersections")
     for (uint32_t row = 0; row < 11; ++row)
         pins.push_back(voile::pin(11 * row + 10, hand));
     take(harness.solver.set_attachments(harness.cloths[0], pins));
-    const auto pull = [&](int frame)
-    { take(harness.solver.move_anchor(hand, at({0.03f * static_cast<float>(frame + 1), 0, 0}))); };
+    const auto pull = [&](int frame) {
+        take(harness.solver.move_anchor(hand, at({0.03f * static_cast<float>(frame + 1), 0, 0})));
+    };
     CHECK(harness.first_intersection({.duration = 1.f / 60}, 20, pull) == -1);
     CHECK(harness.positions(harness.cloths[1])[24].x < 0.3f); // it stays behind: the hand has gone 0.6 m
 }

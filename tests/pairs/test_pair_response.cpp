@@ -106,7 +106,7 @@ TEST_CASE("cloth slides down on cloth as Coulomb's law says")
 
 TEST_CASE("cloth sticks on cloth")
 {
-    Incline incline(std::atan(0.2f));
+    Incline incline(std::atan(0.4f));
     incline.step({.duration = 1.f / 60}, 12);
     const double before = incline.slid();
     incline.step({.duration = 1.f / 60}, 24);

@@ -42,6 +42,8 @@ const float k_floor = 0.1;
 // A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
 const float k_part = 0.2;
 const float k_lift_speed = 0.25;
+// Pairs that miss each other by less than this part of the thickness bounce: they drift until they touch again.
+const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 // Halfs are rounded by less than this part.
@@ -88,28 +90,30 @@ struct Approach
     vec3 slip;     // m, along the sides, that has not been undone
     vec3 n;        // unit, towards the first side
     float missing; // m, of the thickness; below 0: so far apart
+    float thickness; // m
 };
 
-// The velocity that the pair removes or adds, and how far it slides if it sticks, in `drift`.
+// The velocity that the pair removes or adds, and how far it slides until it touches again, in `drift`.
 vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
 {
     drift = vec3(0);
     const float missing = approach.missing / push.interval;
     const float along = dot(approach.velocity, approach.n);
     const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - along;
-    if (wanted <= 0)
-        return vec3(0);
     const vec3 sliding = approach.velocity - along * approach.n;
-    const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
-    const vec3 undone = sliding + k_undo_slip / push.interval * slip;
-    const float speed = length(undone);
-    if (speed <= friction.x * wanted)
+    if (wanted <= 0)
     {
-        drift = sliding * push.interval;
-        return wanted * approach.n - undone;
+        drift = approach.missing > -k_near * approach.thickness ? sliding * push.interval : vec3(0);
+        return vec3(0);
     }
+    const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
+    const vec3 undo = k_undo_slip / push.interval * slip;
+    const float speed = length(sliding);
+    const float spare = friction.x * wanted - speed;
+    if (spare >= 0) // it sticks; taking back what has drifted must not make it slide
+        return wanted * approach.n - sliding - min(1, spare / max(length(undo), 1e-30)) * undo;
     const float left = slip_speed(speed, wanted, friction.x, friction.y);
-    return wanted * approach.n - (1 - left / speed) * undone;
+    return wanted * approach.n - (1 - left / speed) * sliding;
 }
 
 // m: how far vertices without mass, which nothing holds, will move towards the other side until the next pass. The first
@@ -153,7 +157,7 @@ void main()
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
     const Approach approach =
-        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart);
+        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness);
     response.impulse = impulse_of(approach, friction_of(pair), drift);
     response.mobilities = nearest.weights * vertices.inverse_masses;
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));

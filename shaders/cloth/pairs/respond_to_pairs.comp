@@ -40,7 +40,7 @@ const float k_keep_slip = 0.999;
 struct Gather
 {
     vec3 change;    // m/s
-    float touching; // the sum of the weights in pairs that push
+    float touching; // the sum of the weights in pairs that push or drift
     vec3 drift;     // m, weighted
     PairGuard guard;
 };
@@ -121,14 +121,16 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
     const vec3 n = unpack_direction(response.normal);
     const vec3 heights = vec3(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y).x);
     add_plane(sum.guard, vec4(first ? n : -n, entry_of(vec4(heights, 0), first ? place : place - sides)));
-    const float mobility = split_mobility(pair, response);
-    if (response.impulse == vec3(0) || mobility <= 0 || inverse_mass <= 0)
+    const bool pushed = response.impulse != vec3(0);
+    if (inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
     const float own = entry_of(response.mobilities, place);
     const float weight = own / inverse_mass;
-    sum.change += own / mobility * response.impulse;
     sum.touching += abs(weight);
     sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
+    const float mobility = split_mobility(pair, response);
+    if (pushed && mobility > 0)
+        sum.change += own / mobility * response.impulse;
 }
 
 // `self`: the vertex, its cloth, the first of its references, and their number.

@@ -95,7 +95,7 @@ struct PairResponse
     uint normal;     // towards the first side (packSnorm2x16 of its octahedral map)
     vec4 mobilities; // 1/kg, weight times inverse mass of each vertex
     uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side
-    uvec2 drift;     // m, as halfs: how far a pair that sticks slides until the next pass; 0: it does not stick
+    uvec2 drift;     // m, as halfs: how far a pair that just does not touch slides until the next pass
 };
 
 struct PairPush

@@ -62,7 +62,17 @@ struct GridCloth
     // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
     uint32_t layers = 1;
 
-    // The cloth collides with itself, and with other such cloths.
+    // The cloth collides with itself, and with other such cloths, at its thickness (at most 0.4 of the spacing of its
+    // vertices) and with its friction; of two cloths, at the mean of both.
+    //
+    // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
+    // the strain limit do. A collider that presses layers together gets into them instead
+    // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: if pins are driven into cloth faster
+    // than it can give way, it may intersect (Statistics::forced_pairs). So may cloth that the host puts somewhere:
+    // reset, teleport, a snapshot, a pin with a position elsewhere. Cloth that intersects is not pulled apart.
+    //
+    // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer. What it would
+    // move beyond is lost with its momentum.
     bool self_collision = false;
 };
 
@@ -118,7 +128,7 @@ struct MeshCloth
     // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
     uint32_t layers = 1;
 
-    // The cloth collides with itself, and with other such cloths.
+    // The cloth collides with itself, and with other such cloths (GridCloth::self_collision).
     bool self_collision = false;
 
     // Replaces positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest is
