@@ -40,6 +40,8 @@ layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { vec4 feature_centers[]; };
+layout(VOILE_BINDING(feature_lists)) readonly buffer FeatureLists { uint feature_lists[]; };
 layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
@@ -51,6 +53,8 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "integration/integrator.glsl"
 #include "colliders/near_colliders.glsl"
 #include "shared/mesh.glsl"
+#include "contact/feature_fan.glsl"
+#include "contact/feature_lists.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
 
@@ -90,6 +94,33 @@ vec3 exit_direction(uint cloth, uint c)
     return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
 }
 
+// Tests the features of the set in the list. `used`: m, of its margin.
+void visit_list(uint list, FeatureList near, float used, FeatureSet set, Corner corner)
+{
+    bool loaded = false;
+    for (uint i = 0; i < near.count; ++i)
+    {
+        const uint entry = feature_lists[entry_word(list, i)];
+        const uint feature = feature_of(entry);
+        if (excess_of(entry, near.margin) > used || feature - set.first_feature >= set.features)
+            continue;
+        if (!loaded && !load_piece(corner))
+            return;
+        loaded = true;
+        visit_feature(features[feature]);
+    }
+}
+
+// Tests the features of the set that the hierarchy finds near the piece. `around`: bounds of all pieces.
+void visit_hierarchy(FeatureSet set, Corner corner, Box around)
+{
+    if (!load_piece(corner))
+        return;
+    const Box box = piece_box();
+    FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
+    traverse_bvh(query, set.first_node, set.first_feature);
+}
+
 // Tests every `parts`-th piece around the vertex, from the `part`-th on.
 void visit_collider(uint c, uint part, uint parts)
 {
@@ -106,14 +137,22 @@ void visit_collider(uint c, uint part, uint parts)
         return;
     friction = find_friction();
     exits_along = exit_direction(self.vertex.cloth, c);
-    const uint count = corner_count();
+    const float own_drift = drift(self.vertex.index, self.earlier.x, self.proposed.x);
+    const uint count = corner_count(self.vertex);
     for (uint k = part; k < count; k += parts)
     {
-        if (!load_piece(k))
+        const Corner corner = corner_at(k);
+        if (!corner.exists)
             continue;
-        const Box box = piece_box();
-        FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
-        traverse_bvh(query, set.first_node, set.first_feature);
+        const uint list = list_of(self.vertex, k, corner.triangle);
+        const FeatureList near = unpacked(feature_lists[head_word(list)]);
+        float used = max(own_drift, drift(corner.b));
+        if (corner.triangle)
+            used = max(used, drift(corner.c));
+        if (near.count <= VOILE_FEATURE_ENTRIES && used <= near.margin)
+            visit_list(list, near, used, set, corner);
+        else
+            visit_hierarchy(set, corner, around);
     }
 }
 

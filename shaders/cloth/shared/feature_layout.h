@@ -7,8 +7,12 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The number of substeps from one query for near features to the next.
+// The number of substeps from one query for near features, which makes the lists of them, to the next.
 #define VOILE_FEATURE_PERIOD 16
+// The number of lists of near features per vertex, of entries that one has room for, and of its words.
+#define VOILE_FEATURE_LISTS 2
+#define VOILE_FEATURE_ENTRIES 24
+#define VOILE_FEATURE_WORDS (VOILE_FEATURE_ENTRIES + 1)
 // The substep of a correction that applies in no substep.
 #define VOILE_NO_SUBSTEP 0xffffffffu
 
@@ -60,6 +64,7 @@ struct NearFeaturesPush
     uint near_stride;
     uint first_patch;   // of the dispatch, and of its entries in the list of patches near features
     uint dispatch_word; // of the size of their dispatch
+    uint vertices;      // of all cloths
 };
 
 // Push constants of feature contact.
@@ -72,6 +77,8 @@ struct FeaturePush
     uint substep; // counted over all steps
     uint near_stride;
     uint first_patch; // of the entries in the list of patches near features
+    uint vertices;    // of all cloths
+    float progress_listed; // 0..1, of the step, when the lists of near features were made
 };
 
 VOILE_SHARED_END

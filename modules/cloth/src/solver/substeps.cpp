@@ -173,6 +173,7 @@ void LevelRecorder::record_near_features(uint32_t substep)
     push.colliders = solver_.passes.colliders;
     push.near_stride = device_.near_stride;
     push.dispatch_word = word;
+    push.vertices = static_cast<uint32_t>(device_.capacities.vertices);
     dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features, device_.sets.near_features,
              lists_.patches, push);
     publish_dispatch(recorder_);
@@ -186,7 +187,9 @@ void LevelRecorder::record_features(uint32_t substep)
                                    solver_.passes.colliders,
                                    context_.first_substep + substep,
                                    device_.near_stride,
-                                   lists_.patches.first};
+                                   lists_.patches.first,
+                                   static_cast<uint32_t>(device_.capacities.vertices),
+                                   progress(substep - substep % VOILE_FEATURE_PERIOD)};
     recorder_.dispatch_indirect(
         solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
         device_.sets.feature_contact[in_stage_b(substep) ? 1 : 0][context_.history.depenetration_step % 2],
