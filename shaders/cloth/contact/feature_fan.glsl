@@ -1,4 +1,5 @@
-// The triangles around a vertex of a cloth, and the lists of features near them.
+// The triangles around a vertex of a cloth, and the pieces of cloth that a vertex has: triangles and edges, each of one
+// vertex in a grid.
 //
 // The including kernel declares cloths[], mesh_vertices[] and mesh_corners[], and includes patch.glsl and mesh.glsl
 // before.
@@ -8,8 +9,12 @@
 // The neighbors of a grid vertex in order. Cells are cut into two triangles from (column + 1, row) to (column, row +
 // 1).
 const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(0, -1), ivec2(1, -1));
-// The cells of the triangles between them: the offset of the first vertex.
-const ivec2 k_ring_cells[6] = ivec2[](ivec2(0, 0), ivec2(-1, 0), ivec2(-1, 0), ivec2(-1, -1), ivec2(0, -1), ivec2(0, -1));
+
+// The vertices of a grid's cell, and those of its pieces: two triangles, three edges, and those on the border of the
+// grid.
+const ivec2 k_cell[4] = ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 1));
+const uvec3 k_cell_pieces[7] = uvec3[](uvec3(0, 1, 3), uvec3(1, 2, 3), uvec3(0, 1, 1), uvec3(0, 3, 3), uvec3(1, 3, 3),
+                                       uvec3(1, 2, 2), uvec3(3, 2, 2));
 
 // The number of triangles that there may be around the vertex.
 uint corner_count(PatchVertex self)
@@ -17,13 +22,18 @@ uint corner_count(PatchVertex self)
     return self.columns > 0 ? 6 : mesh_vertices[cloths[self.cloth].first_list + self.local].corners;
 }
 
+MeshCorner mesh_corner(PatchVertex self, uint k)
+{
+    const uint first = mesh_vertices[cloths[self.cloth].first_list + self.local].first_corner;
+    return mesh_corners[first + k * MESH_STRIDE];
+}
+
 // The other two corners of the k-th triangle. False: outside of a grid; `b` may exist all the same.
 bool find_corner(PatchVertex self, uint k, out uint b, out uint c)
 {
     if (self.columns == 0)
     {
-        const uint first = mesh_vertices[cloths[self.cloth].first_list + self.local].first_corner;
-        const MeshCorner corner = mesh_corners[first + k * MESH_STRIDE];
+        const MeshCorner corner = mesh_corner(self, k);
         b = self.index - self.local + corner.b;
         c = self.index - self.local + corner.c;
         return true;
@@ -36,20 +46,37 @@ bool find_corner(PatchVertex self, uint k, out uint b, out uint c)
            in_grid(self.column_row + to_c, self.columns, self.rows);
 }
 
-// Whether the vertex b of the k-th triangle exists, though the triangle may not.
-bool has_spoke(PatchVertex self, uint k)
+// The vertices of a piece. An edge repeats its second one.
+uvec3 piece_vertices(PatchVertex self, uint kind, uint k)
 {
-    return self.columns == 0 || in_grid(self.column_row + k_ring[k], self.columns, self.rows);
+    if (self.columns > 0)
+        return uvec3(neighbor(self.index, k_cell[k_cell_pieces[k].x], self.columns),
+                     neighbor(self.index, k_cell[k_cell_pieces[k].y], self.columns),
+                     neighbor(self.index, k_cell[k_cell_pieces[k].z], self.columns));
+    uint b;
+    uint c;
+    find_corner(self, k, b, c);
+    return uvec3(self.index, kind == VOILE_PIECE_EDGE_C ? c : b, kind == VOILE_PIECE_EDGE_B ? b : c);
 }
 
-// The list of the k-th triangle. In a grid each triangle has one, which its three vertices share. An edge on the border
-// is in the list of the triangle before it. The triangles around a vertex of a mesh share two.
-uint list_of(PatchVertex self, uint k, bool triangle)
+// The vertices that the pieces of a vertex have: of a grid those of its cell.
+uint cell_count(PatchVertex self) { return self.columns > 0 ? 4 : 1 + 2 * corner_count(self); }
+
+// False: outside of the grid.
+bool find_in_cell(PatchVertex self, uint i, out uint vertex)
 {
-    if (self.columns == 0)
-        return VOILE_FEATURE_LISTS * self.index + k % VOILE_FEATURE_LISTS;
-    const uint of = triangle ? k : (k + 5) % 6;
-    return VOILE_FEATURE_LISTS * neighbor(self.index, k_ring_cells[of], self.columns) + of % VOILE_FEATURE_LISTS;
+    vertex = self.index;
+    if (self.columns > 0)
+    {
+        vertex = neighbor(self.index, k_cell[i], self.columns);
+        return in_grid(self.column_row + k_cell[i], self.columns, self.rows);
+    }
+    uint other;
+    if (i > 0 && i % 2 == 1)
+        find_corner(self, (i - 1) / 2, vertex, other);
+    else if (i > 0)
+        find_corner(self, (i - 1) / 2, other, vertex);
+    return true;
 }
 
 #endif

@@ -1,7 +1,7 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and
+// the residuals of both, proposed_velocities[] and feature_centers[], and includes box.glsl, patch.glsl, collider_pose.glsl and
 // feature_fan.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
@@ -24,7 +24,7 @@ uint collider_flags;
 bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
-Pose pose_listed; // when the lists of near features were made
+Pose pose_listed; // when near features were listed
 PoseChange change_of_pose;
 
 void select_collider(uint c)
@@ -87,11 +87,13 @@ SweptVertex swept_vertex(uint index)
                         proposed_positions[index].w);
 }
 
-// m: the longest distance of a vertex within the substep from where it was when the lists were made, relative to the
-// collider. Residuals are far smaller than margins.
-float drift(uint index, vec3 earlier, vec3 proposed)
+// m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
+// the collider. Residuals are far smaller than margins.
+float drift(uint index)
 {
     const vec3 center = feature_centers[index].xyz;
+    const vec3 earlier = earlier_positions[index].xyz;
+    const vec3 proposed = proposed_positions[index].xyz;
     if (!collider_moves)
         return max(distance(center, earlier), distance(center, proposed));
     const vec3 origin = collider_motions[collider_index].origin;
@@ -99,8 +101,6 @@ float drift(uint index, vec3 earlier, vec3 proposed)
     return max(distance(listed, to_collider(pose_from, earlier - origin)),
                distance(listed, to_collider(pose_to, proposed - origin)));
 }
-
-float drift(uint index) { return drift(index, earlier_positions[index].xyz, proposed_positions[index].xyz); }
 
 // The vertex and two of its neighbors. Features are tested one after the other, so their common input is kept here.
 struct Piece
@@ -116,41 +116,36 @@ struct Piece
 };
 Piece piece;
 
-// The vertices of the k-th piece around the vertex.
-struct Corner
+// Prepares a piece whose vertices are loaded. `triangle`: (a, b, c) is one. False: it is not finite and has no box.
+bool orient_piece(bool triangle)
 {
-    bool exists;   // (a, b) is an edge
-    bool triangle; // (a, b, c) is a triangle
-    uint b;
-    uint c;
-};
-
-Corner corner_at(uint k)
-{
-    Corner corner;
-    corner.triangle = find_corner(self.vertex, k, corner.b, corner.c);
-    corner.exists = has_spoke(self.vertex, k);
-    return corner;
-}
-
-// Loads a piece. False: it is not finite and has no box.
-bool load_piece(Corner corner)
-{
-    piece.b = swept_vertex(corner.b);
-    piece.c = piece.b;
-    if (corner.triangle)
-        piece.c = swept_vertex(corner.c);
     const vec3 normal = cross(piece.b.to - piece.a.to, piece.c.to - piece.a.to);
     const vec3 earlier = cross(piece.b.from - piece.a.from, piece.c.from - piece.a.from);
     if (!(dot(normal, normal) + dot(earlier, earlier) < 3e38))
         return false;
-    piece.edge_b = piece.b.inverse_mass > 0;
-    piece.edge_c = self.vertex.columns == 0 && piece.c.inverse_mass > 0; // a grid tests it with another k
-    piece.triangle = corner.triangle && piece.edge_b && piece.c.inverse_mass > 0 && dot(normal, normal) >= 1e-30 &&
-                     dot(earlier, earlier) >= 1e-30;
+    piece.triangle = triangle && min(min(piece.a.inverse_mass, piece.b.inverse_mass), piece.c.inverse_mass) > 0 &&
+                     dot(normal, normal) >= 1e-30 && dot(earlier, earlier) >= 1e-30;
     piece.across = normalize(normal);
     piece.across_then = normalize(earlier);
     return true;
+}
+
+// Loads the k-th piece around the vertex. False: none.
+bool load_piece(uint k)
+{
+    const bool is_grid = self.vertex.columns > 0;
+    uint b;
+    uint c;
+    const bool has_c = find_corner(self.vertex, k, b, c);
+    if (is_grid && !in_grid(self.vertex.column_row + k_ring[k], self.vertex.columns, self.vertex.rows))
+        return false;
+    piece.b = swept_vertex(b);
+    piece.c = piece.b;
+    if (has_c)
+        piece.c = swept_vertex(c);
+    piece.edge_b = piece.b.inverse_mass > 0;
+    piece.edge_c = !is_grid && piece.c.inverse_mass > 0; // a grid tests it with another k
+    return orient_piece(has_c);
 }
 
 Box piece_box()
