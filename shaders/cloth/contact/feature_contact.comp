@@ -44,7 +44,6 @@ layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
-layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { vec4 feature_centers[]; };
 layout(VOILE_BINDING(feature_cells)) readonly buffer FeatureCells { FeatureCell cells[]; };
 layout(VOILE_BINDING(feature_responses)) readonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
 layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth

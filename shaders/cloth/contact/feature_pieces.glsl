@@ -1,7 +1,7 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both, proposed_velocities[] and feature_centers[], and includes box.glsl, patch.glsl, collider_pose.glsl and
+// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and
 // feature_fan.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
@@ -85,21 +85,6 @@ SweptVertex swept_vertex(uint index)
 {
     return swept_vertex(earlier_position(index), proposed_position(index), proposed_velocities[index].xyz,
                         proposed_positions[index].w);
-}
-
-// m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
-// the collider. Residuals are far smaller than margins.
-float drift(uint index)
-{
-    const vec3 center = feature_centers[index].xyz;
-    const vec3 earlier = earlier_positions[index].xyz;
-    const vec3 proposed = proposed_positions[index].xyz;
-    if (!collider_moves)
-        return max(distance(center, earlier), distance(center, proposed));
-    const vec3 origin = collider_motions[collider_index].origin;
-    const vec3 listed = to_collider(pose_listed, center - origin);
-    return max(distance(listed, to_collider(pose_from, earlier - origin)),
-               distance(listed, to_collider(pose_to, proposed - origin)));
 }
 
 // The vertex and two of its neighbors. Features are tested one after the other, so their common input is kept here.

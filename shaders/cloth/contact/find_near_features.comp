@@ -88,6 +88,7 @@ struct FeatureSearch
     Box sweep;          // of all triangles around the vertex until the next pass
     bool found;         // a feature in the sweep, or it is not looked for
     float query_radius; // m, the thickness with room for rounding
+    float widest;       // m, the margin that is counted with
     float margin;       // m
     bool writes;
     uvec4 counts;       // within each margin
@@ -263,7 +264,7 @@ bool search_collider(inout FeatureSearch search, uint c, uint lane)
     const Surrounding around = surrounding(search.self, c, space.flags);
     const vec3 far = max(abs(around.box.min), abs(around.box.max));
     search.query_radius = 1.01 * cloths[search.self.cloth].thickness + rounding(far);
-    const float room = search.query_radius + max(search.margin, max(around.longest, push.sudden * push.time));
+    const float room = search.query_radius + max(search.widest, max(around.longest, push.sudden * push.time));
     search.sweep = grown(joined(around.box, around.later), room);
     if (!overlap(search.sweep, Box(set.box_min, set.box_max)))
         return false;
@@ -367,7 +368,7 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     search.next = first;
     for (uint i = thread - lane; i < thread; ++i)
         search.next += lane_counts[i];
-    search.end = search.next + count;
+    search.end = search.next + (fits ? count : 0);
     if (lane == 0 && search.self.exists)
         cells[search.self.index] = FeatureCell(first, fits ? cell_count : 0, VOILE_NO_SUBSTEP,
                                                fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP);
@@ -389,7 +390,7 @@ void main()
     search.self = patch_vertex(patch_of_group(),
                                (gl_WorkGroupID.x % push.lanes * gl_WorkGroupSize.x + thread) / push.lanes);
     search.counts = uvec4(0);
-    search.margin = 0;
+    search.widest = 0;
     Box walked = Box(vec3(0), vec3(0));
     bool searches = search.self.exists;
     if (searches)
@@ -397,10 +398,11 @@ void main()
         const vec3 position = positions[search.self.index].xyz;
         const float reach = max(2 * length(velocities[search.self.index].xyz), push.sudden) * push.time;
         walked = grown(Box(position, position), reach);
-        search.margin = find_margin(search.self, walked);
+        search.widest = find_margin(search.self, walked);
         if (lane == 0)
             feature_centers[search.self.index] = vec4(position, 0);
     }
+    search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)
     {

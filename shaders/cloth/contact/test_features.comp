@@ -60,6 +60,21 @@ PatchVertex item_vertex(uint cloth, uint index)
     return vertex;
 }
 
+// m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
+// the collider. Residuals are far smaller than margins.
+float drift(uint index)
+{
+    const vec3 center = feature_centers[index].xyz;
+    const vec3 earlier = earlier_positions[index].xyz;
+    const vec3 proposed = proposed_positions[index].xyz;
+    if (!collider_moves)
+        return max(distance(center, earlier), distance(center, proposed));
+    const vec3 origin = collider_motions[collider_index].origin;
+    const vec3 listed = to_collider(pose_listed, center - origin);
+    return max(distance(listed, to_collider(pose_from, earlier - origin)),
+               distance(listed, to_collider(pose_to, proposed - origin)));
+}
+
 void check_guard(float margin)
 {
     bool valid = true;

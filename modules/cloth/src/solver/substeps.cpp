@@ -162,7 +162,8 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
 
 LevelRecorder::ItemRange LevelRecorder::feature_items() const
 {
-    const uint64_t capacity = device_.capacities.features == 0 ? 0 : device_.capacities.vertices * VOILE_FEATURE_ITEMS;
+    const uint32_t per_vertex = std::min(solver_.options.tuning.feature_items, uint32_t{VOILE_FEATURE_ITEMS});
+    const uint64_t capacity = device_.capacities.features == 0 ? 0 : device_.capacities.vertices * per_vertex;
     const auto before = [&](uint64_t patch)
     { return static_cast<uint32_t>(capacity * patch / std::max(context_.lists.patch_count(), 1u)); };
     const uint32_t first = before(lists_.patches.first);
