@@ -22,6 +22,7 @@ struct Options
     bool list_devices = false;
     std::string device;
     std::string csv;
+    std::string meshes;
     uint32_t repetitions = 0; // 0: by device
     uint32_t workgroup = voile::Tuning().workgroup_size;
     bool passes = false;
@@ -41,6 +42,9 @@ void declare(CLI::App& app, Options& options)
         ->type_name("INDEX|NAME");
     app.add_option("--csv", options.csv, "Append one row per case to this file; keep one file per machine")
         ->type_name("FILE");
+    app.add_option("--meshes", options.meshes,
+                   "Folder of OBJ meshes; each makes two cases, real-NAME and real-NAME-turning")
+        ->type_name("FOLDER");
     app.add_option("--repeat", options.repetitions, "Repetitions of each measurement; default: 100, on CPU devices 20")
         ->type_name("N")
         ->check(CLI::Range(1u, k_most));
@@ -54,13 +58,21 @@ struct Chosen
     std::vector<const bench::Case*> cases;
     std::vector<const bench::RefitCase*> refits;
     std::vector<const bench::DrapeCase*> drapes;
+    std::vector<const bench::RealCase*> reals;
     std::vector<const bench::AddCase*> adds;
     bool costs = false;
     bool levels = false;
 };
 
-// All named cases. Without names all, but the drape scene only on a GPU: a CPU device would take hours.
-Chosen choose(const std::vector<std::string>& names, bool cpu)
+const bench::RealCase* find_real_case(std::span<const bench::RealCase> reals, const std::string& name)
+{
+    const auto found = std::ranges::find(reals, name, &bench::RealCase::name);
+    return found == reals.end() ? nullptr : &*found;
+}
+
+// All named cases. Without names all, but the drape scene and meshes from files only on a GPU: a CPU device would take
+// hours.
+Chosen choose(const std::vector<std::string>& names, std::span<const bench::RealCase> reals, bool cpu)
 {
     Chosen chosen;
     for (const std::string& name : names)
@@ -71,6 +83,8 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
             chosen.refits.push_back(refit);
         else if (const bench::DrapeCase* drape = bench::find_drape_case(name))
             chosen.drapes.push_back(drape);
+        else if (const bench::RealCase* real = find_real_case(reals, name))
+            chosen.reals.push_back(real);
         else if (const bench::AddCase* add = bench::find_add_case(name))
             chosen.adds.push_back(add);
         else if (name == bench::k_cost_case)
@@ -87,8 +101,12 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
     for (const bench::RefitCase& item : bench::refit_cases())
         chosen.refits.push_back(&item);
     if (!cpu)
+    {
         for (const bench::DrapeCase& item : bench::drape_cases())
             chosen.drapes.push_back(&item);
+        for (const bench::RealCase& item : reals)
+            chosen.reals.push_back(&item);
+    }
     for (const bench::AddCase& item : bench::add_cases())
         chosen.adds.push_back(&item);
     chosen.costs = true;
@@ -96,7 +114,7 @@ Chosen choose(const std::vector<std::string>& names, bool cpu)
     return chosen;
 }
 
-void list_cases()
+void list_cases(std::span<const bench::RealCase> reals)
 {
     for (const bench::Case& item : bench::cases())
         std::printf("%-28s %s\n", item.name, item.purpose);
@@ -104,11 +122,19 @@ void list_cases()
         std::printf("%-28s %s\n", item.name, item.purpose);
     for (const bench::DrapeCase& item : bench::drape_cases())
         std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
+    for (const bench::RealCase& item : reals)
+        std::printf("%-28s cotton over %s%s\n", item.name.c_str(), item.file.string().c_str(),
+                    item.turns ? ", which turns by 90 degrees per second" : "");
     for (const bench::AddCase& item : bench::add_cases())
         std::printf("%-28s adding a mesh collider: %s\n", item.name, item.purpose);
     std::printf("%-28s adding cloth meshes and cooked data; adding and removing beside much else\n",
                 bench::k_cost_case);
     std::printf("%-28s a soft sheet beside a stiff one that needs more substeps\n", bench::k_levels_case);
+}
+
+std::vector<bench::RealCase> real_cases_of(const Options& options)
+{
+    return options.meshes.empty() ? std::vector<bench::RealCase>() : bench::real_cases(options.meshes);
 }
 
 void list_devices()
@@ -121,7 +147,8 @@ void list_devices()
 
 void run(const Options& options)
 {
-    (void)choose(options.names, false); // reports an unknown name before a device is opened
+    const std::vector<bench::RealCase> reals = real_cases_of(options);
+    (void)choose(options.names, reals, false); // reports an unknown name before a device is opened
     std::optional<bench::CsvFile> csv;
     if (!options.csv.empty())
         csv = voile::engine::take(bench::CsvFile::open(options.csv));
@@ -134,7 +161,7 @@ void run(const Options& options)
     const uint32_t repetitions = options.repetitions > 0 ? options.repetitions : device.is_cpu() ? 20 : 100;
     bench::print_device(device.info(), probe);
     const bench::Settings settings{options.workgroup, options.passes};
-    const Chosen chosen = choose(options.names, device.is_cpu());
+    const Chosen chosen = choose(options.names, reals, device.is_cpu());
     if (!chosen.cases.empty())
         bench::print_header();
     for (const bench::Case* item : chosen.cases)
@@ -162,6 +189,10 @@ void run(const Options& options)
         if (csv)
             voile::engine::take(csv->append(device.info(), probe, *item, measurement));
     }
+    if (!chosen.reals.empty())
+        bench::print_real_header();
+    for (const bench::RealCase* item : chosen.reals)
+        bench::print_real_row(*item, bench::measure_real(queue, *item, settings));
     if (!chosen.adds.empty())
         bench::print_add_header();
     for (const bench::AddCase* item : chosen.adds)
@@ -190,7 +221,7 @@ int main(int argc, char** argv)
         declare(app, options);
         app.parse(argc, argv);
         if (options.list)
-            list_cases();
+            list_cases(real_cases_of(options));
         else if (options.list_devices)
             list_devices();
         else

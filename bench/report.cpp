@@ -89,6 +89,23 @@ void print_drape_row(const DrapeCase& item, const DrapeMeasurement& m)
     std::fflush(stdout);
 }
 
+void print_real_header()
+{
+    std::printf(
+        "\nCotton of 1.6 m over meshes of 1 m, whole frames of 1/60 s. Crossings: intersecting pairs of cloth and\n"
+        "collider, the most and at the end.\n\n");
+    std::printf("%-32s %8s %9s %8s %10s %9s %9s %9s %9s\n", "case", "vertices", "triangles", "substeps", "dispatches",
+                "median ms", "p95 ms", "crossings", "last");
+    std::fflush(stdout);
+}
+
+void print_real_row(const RealCase& item, const RealMeasurement& m)
+{
+    std::printf("%-32s %8u %9u %8u %10u %9.3f %9.3f %9u %9u\n", item.name.c_str(), m.vertices, m.triangles, m.substeps,
+                m.dispatches, m.gpu_median, m.gpu_p95, m.most_crossings, m.last_crossings);
+    std::fflush(stdout);
+}
+
 void print_refit_header()
 {
     std::printf("\nThe refit of a deforming mesh's hierarchy. The floor is its bytes at the copy's bandwidth and its\n"

@@ -7,6 +7,7 @@
 #include "host_costs.hpp"
 #include "levels.hpp"
 #include "measure.hpp"
+#include "real_mesh.hpp"
 #include "refit_case.hpp"
 
 #include <string>
@@ -20,6 +21,10 @@ void print_row(const Case& item, const Measurement& measurement, const DevicePro
 
 void print_drape_header();
 void print_drape_row(const DrapeCase& item, const DrapeMeasurement& measurement);
+
+// Without rows in the CSV file: the meshes are not part of the benchmark.
+void print_real_header();
+void print_real_row(const RealCase& item, const RealMeasurement& measurement);
 
 void print_refit_header();
 void print_refit_row(const RefitCase& item, const RefitMeasurement& measurement, const DeviceProbe& probe);

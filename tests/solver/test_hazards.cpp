@@ -205,9 +205,9 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
     voile::engine::take(harness.solver.record(recorder, {.substeps = 3}));
     voile::engine::take(harness.solver.record(recorder, {.substeps = 2}));
     buffers.submit();
-    // One per dispatch, and one after the last: six per substep, and per step normals, depenetration, which needs the
-    // normals of the start, and one query of the patches near features.
-    CHECK(buffers.count() == 6 * 5 + 3 * 2 + 1 + 1);
+    // One per dispatch, and one after the last: seven per substep, and per step normals, depenetration, which needs the
+    // normals of the start, and one query for near features.
+    CHECK(buffers.count() == 7 * 5 + 3 * 2 + 1 + 1);
 }
 
 // The host copies what it gets, without barriers of its own.

@@ -1,8 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Contact of feature edges and feature vertices of colliders with the triangles and edges of all cloths. The contact of
-// vertices misses colliders between them. Each vertex takes its fraction of the contacts of the triangles around it.
-// Several threads per vertex (gl_NumWorkGroups.y) query these triangles, and the first of them merges the results.
+// Contact of feature edges and feature vertices of colliders with the triangles and edges of all cloths: the response of
+// each vertex. The contact of vertices misses colliders between them.
+//
+// test_features.comp has tested the features near each piece of cloth before. Each vertex merges the contacts of the
+// pieces that it is in. Where the list of near features is not valid, because it overflowed or the vertices have moved
+// too far, several threads per vertex (push.lanes) traverse the hierarchies of features with the triangles around it,
+// and the first of them merges the results. All threads of the workgroup take part in that.
 //
 // Vertices of a triangle move along straight lines within the substep. A triangle that comes closer than the thickness,
 // or crosses the feature, is put back at the thickness. Its vertices share the correction by the barycentric
@@ -40,6 +44,8 @@ layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(VOILE_BINDING(feature_cells)) readonly buffer FeatureCells { FeatureCell cells[]; };
+layout(VOILE_BINDING(feature_responses)) readonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
 layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
 
 layout(push_constant, std430) uniform Push { FeaturePush push; };
@@ -51,11 +57,15 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "integration/integrator.glsl"
 #include "colliders/near_colliders.glsl"
 #include "shared/mesh.glsl"
+#include "contact/feature_fan.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
 
 // Per thread of the workgroup. Threads of one vertex are adjacent.
 shared Response responses[gl_WorkGroupSize.x];
+// The vertices of the patch whose items do not suffice, in no order.
+shared uint traversing[gl_WorkGroupSize.x];
+shared uint traversing_count;
 
 // Whether two boxes are closer than the thickness.
 bool is_near(Box a, Box b)
@@ -71,6 +81,30 @@ struct FeatureQuery
 
 bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, node); }
 
+void visit_edge(Feature feature, SweptVertex b)
+{
+    const PieceContact touch = edge_contact(feature, b);
+    if (touch.contact.found)
+        respond(impulse_of(touch), edge_portions(touch, b).x, collider_index);
+}
+
+void visit_feature(Feature feature)
+{
+    if (feature.a != feature.b)
+    {
+        if (piece.edge_b)
+            visit_edge(feature, piece.b);
+        if (piece.edge_c)
+            visit_edge(feature, piece.c);
+        return;
+    }
+    if (!piece.triangle)
+        return;
+    const PieceContact touch = triangle_contact(feature);
+    if (touch.contact.found)
+        respond(impulse_of(touch), triangle_portions(touch).x, collider_index);
+}
+
 void visit_leaf(inout FeatureQuery query, uint first, uint count)
 {
     for (uint f = first; f < first + count; ++f)
@@ -79,16 +113,6 @@ void visit_leaf(inout FeatureQuery query, uint first, uint count)
 
 #define VOILE_QUERY FeatureQuery
 #include "colliders/bvh.glsl"
-
-// The sum of the exit directions of the cloth's vertices, in the collider's space; 0 if none is inside it.
-vec3 exit_direction(uint cloth, uint c)
-{
-    const uint word = VOILE_VOTE_WORDS * cloth;
-    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
-        return vec3(0);
-    const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
-    return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
-}
 
 // Tests every `parts`-th piece around the vertex, from the `part`-th on.
 void visit_collider(uint c, uint part, uint parts)
@@ -104,9 +128,8 @@ void visit_collider(uint c, uint part, uint parts)
     const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
     if (!is_near(around, Box(set.box_min, set.box_max)))
         return;
-    friction = find_friction();
-    exits_along = exit_direction(self.vertex.cloth, c);
-    const uint count = corner_count();
+    prepare_collider();
+    const uint count = corner_count(self.vertex);
     for (uint k = part; k < count; k += parts)
     {
         if (!load_piece(k))
@@ -117,51 +140,119 @@ void visit_collider(uint c, uint part, uint parts)
     }
 }
 
-void visit_colliders(uint part, uint parts)
+void visit_colliders(uint patch_index, uint part, uint parts)
 {
-    const uint i = self.vertex.index;
-    const uint cloth = self.vertex.cloth;
-    self.earlier = earlier_position(i);
-    self.proposed = proposed_position(i);
-    self.inverse_mass = proposed_positions[i].w;
-    self.velocity = proposed_velocities[i].xyz;
-    self.thickness = cloths[cloth].thickness;
-    if (self.inverse_mass == 0)
-        return;
-    ColliderWalk walk =
-        walk_colliders(near_patches[push.first_patch + gl_WorkGroupID.x], box_around(self.earlier.x, self.proposed.x));
+    self.thickness = cloths[self.vertex.cloth].thickness;
+    ColliderWalk walk = walk_colliders(patch_index, box_around(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, part, parts);
 }
 
+// The number of cells that the vertex is in, and one of them. In the cell to the left, for example, it is the vertex to
+// the right.
+uint cells_around() { return self.vertex.columns > 0 ? 4 : 1; }
+uint cell_around(uint i) { return neighbor(self.vertex.index, -k_cell[i], self.vertex.columns); }
+bool has_cell(uint i)
+{
+    return self.vertex.columns == 0 || in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
+}
+
+// Merges the contacts of the items of a cell, in which the vertex is the i-th one.
+void merge_cell(FeatureCell cell, uint i)
+{
+    for (uint item = cell.first; item < cell.first + cell.count; ++item)
+        if (feature_responses[item].substep == push.substep)
+        {
+            const FeatureResponse touch = feature_responses[item];
+            if (touch.portions[i] > 0)
+                respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
+                        touch.collider);
+        }
+}
+
+// False: it is pinned.
+bool load_self()
+{
+    const uint i = self.vertex.index;
+    self.earlier = earlier_position(i);
+    self.proposed = proposed_position(i);
+    self.inverse_mass = proposed_positions[i].w;
+    self.velocity = proposed_velocities[i].xyz;
+    return self.inverse_mass > 0;
+}
+
+// Merges the contacts of the items around the vertex. False: they do not suffice.
+bool merge_cells()
+{
+    bool valid = true;
+    bool touched = false;
+    FeatureCell around[4];
+    const uint count = cells_around();
+    for (uint i = 0; i < count; ++i)
+    {
+        around[i] = FeatureCell(0, 0, VOILE_NO_SUBSTEP, VOILE_NO_SUBSTEP);
+        if (has_cell(i))
+            around[i] = cells[cell_around(i)];
+        valid = valid && around[i].invalid != push.substep && around[i].invalid != VOILE_EVERY_SUBSTEP;
+        touched = touched || around[i].touched == push.substep;
+    }
+    if (valid && touched && load_self())
+        for (uint i = 0; i < count; ++i)
+            if (around[i].touched == push.substep)
+                merge_cell(around[i], i);
+    return valid;
+}
+
 void write_correction()
 {
+    if (response.collider == k_no_collider)
+        return;
+    select_collider(response.collider);
+    friction = find_friction();
+    add_friction();
     const uint i = self.vertex.index;
     corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, 0);
     if (is_verlet(cloths[self.vertex.cloth].flags))
         predicted[i] += vec4(response.change, 0);
 }
 
-void main()
+// The response of the `index`-th vertex of those that traverse.
+void traverse(uint patch_index, uint index)
 {
-    const uint parts = gl_NumWorkGroups.y;
     const uint thread = gl_LocalInvocationID.x;
-    const uint part = thread % parts;
-    self.vertex = patch_vertex(near_patches[push.first_patch + gl_WorkGroupID.x],
-                               (gl_WorkGroupID.y * gl_WorkGroupSize.x + thread) / parts);
-    if (self.vertex.exists)
-        visit_colliders(part, parts);
+    const uint part = thread % push.lanes;
+    response = no_response();
+    if (index < traversing_count)
+    {
+        self.vertex = patch_vertex(patch_index, traversing[index]);
+        if (load_self())
+            visit_colliders(patch_index, part, push.lanes);
+    }
     responses[thread] = response;
     barrier();
-    if (part > 0)
-        return;
-    for (uint other = thread + 1; other < thread + parts; ++other)
-        merge(responses[other]);
-    if (response.collider == k_no_collider)
-        return;
-    select_collider(response.collider);
-    friction = find_friction();
-    add_friction();
-    write_correction();
+    if (part == 0 && index < traversing_count)
+    {
+        for (uint other = thread + 1; other < thread + push.lanes; ++other)
+            merge(responses[other]);
+        write_correction();
+    }
+    barrier();
+}
+
+void main()
+{
+    const uint thread = gl_LocalInvocationID.x;
+    if (thread == 0)
+        traversing_count = 0;
+    barrier();
+    const uint patch_index = near_patches[push.first_patch + gl_WorkGroupID.x];
+    self.vertex = patch_vertex(patch_index, thread);
+    if (self.vertex.exists && !merge_cells())
+        traversing[atomicAdd(traversing_count, 1)] = thread;
+    else
+        write_correction();
+    barrier();
+    for (uint first = 0; first < traversing_count; first += gl_WorkGroupSize.x / push.lanes)
+        traverse(patch_index, first + thread / push.lanes);
 }

@@ -1,14 +1,10 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and mesh.glsl
-// before.
+// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and
+// feature_fan.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
-
-// The neighbors of a grid vertex in order. Cells are cut into two triangles from (column + 1, row) to (column, row +
-// 1).
-const ivec2 k_ring[6] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(0, -1), ivec2(1, -1));
 
 // The vertex of this thread.
 struct Self
@@ -28,6 +24,7 @@ uint collider_flags;
 bool collider_moves;
 Pose pose_from; // at the substep's start
 Pose pose_to;   // at its end
+Pose pose_listed; // when near features were listed
 PoseChange change_of_pose;
 
 void select_collider(uint c)
@@ -39,6 +36,7 @@ void select_collider(uint c)
     {
         pose_from = pose_at(c, push.progress_from);
         pose_to = pose_at(c, push.progress_to);
+        pose_listed = pose_at(c, push.progress_listed);
         change_of_pose = pose_change(c, push.progress_from, push.progress_to);
     }
 }
@@ -89,34 +87,6 @@ SweptVertex swept_vertex(uint index)
                         proposed_positions[index].w);
 }
 
-// The number of triangles that there may be around the vertex.
-uint corner_count()
-{
-    return cloths[self.vertex.cloth].columns > 0
-               ? 6
-               : mesh_vertices[cloths[self.vertex.cloth].first_list + self.vertex.local].corners;
-}
-
-// The other two corners of the k-th triangle. False: outside of a grid; `b` may exist all the same.
-bool find_corner(uint k, out uint b, out uint c)
-{
-    const ClothRecord cloth = cloths[self.vertex.cloth];
-    if (cloth.columns == 0)
-    {
-        const uint first = mesh_vertices[cloth.first_list + self.vertex.local].first_corner;
-        const MeshCorner corner = mesh_corners[first + k * MESH_STRIDE];
-        b = cloth.first_vertex + corner.b;
-        c = cloth.first_vertex + corner.c;
-        return true;
-    }
-    const ivec2 to_b = k_ring[k];
-    const ivec2 to_c = k_ring[(k + 1) % 6];
-    b = neighbor(self.vertex.index, to_b, cloth.columns);
-    c = neighbor(self.vertex.index, to_c, cloth.columns);
-    return in_grid(self.vertex.column_row + to_b, cloth.columns, cloth.rows) &&
-           in_grid(self.vertex.column_row + to_c, cloth.columns, cloth.rows);
-}
-
 // The vertex and two of its neighbors. Features are tested one after the other, so their common input is kept here.
 struct Piece
 {
@@ -131,31 +101,36 @@ struct Piece
 };
 Piece piece;
 
+// Prepares a piece whose vertices are loaded. `triangle`: (a, b, c) is one. False: it is not finite and has no box.
+bool orient_piece(bool triangle)
+{
+    const vec3 normal = cross(piece.b.to - piece.a.to, piece.c.to - piece.a.to);
+    const vec3 earlier = cross(piece.b.from - piece.a.from, piece.c.from - piece.a.from);
+    if (!(dot(normal, normal) + dot(earlier, earlier) < 3e38))
+        return false;
+    piece.triangle = triangle && min(min(piece.a.inverse_mass, piece.b.inverse_mass), piece.c.inverse_mass) > 0 &&
+                     dot(normal, normal) >= 1e-30 && dot(earlier, earlier) >= 1e-30;
+    piece.across = normalize(normal);
+    piece.across_then = normalize(earlier);
+    return true;
+}
+
 // Loads the k-th piece around the vertex. False: none.
 bool load_piece(uint k)
 {
-    const ClothRecord cloth = cloths[self.vertex.cloth];
-    const bool is_grid = cloth.columns > 0;
+    const bool is_grid = self.vertex.columns > 0;
     uint b;
     uint c;
-    const bool has_c = find_corner(k, b, c);
-    if (is_grid && !in_grid(self.vertex.column_row + k_ring[k], cloth.columns, cloth.rows))
+    const bool has_c = find_corner(self.vertex, k, b, c);
+    if (is_grid && !in_grid(self.vertex.column_row + k_ring[k], self.vertex.columns, self.vertex.rows))
         return false;
     piece.b = swept_vertex(b);
     piece.c = piece.b;
     if (has_c)
         piece.c = swept_vertex(c);
-    const vec3 normal = cross(piece.b.to - piece.a.to, piece.c.to - piece.a.to);
-    const vec3 earlier = cross(piece.b.from - piece.a.from, piece.c.from - piece.a.from);
-    if (!(dot(normal, normal) + dot(earlier, earlier) < 3e38))
-        return false; // not finite: it has no box
     piece.edge_b = piece.b.inverse_mass > 0;
     piece.edge_c = !is_grid && piece.c.inverse_mass > 0; // a grid tests it with another k
-    piece.triangle = has_c && piece.edge_b && piece.c.inverse_mass > 0 && dot(normal, normal) >= 1e-30 &&
-                     dot(earlier, earlier) >= 1e-30;
-    piece.across = normalize(normal);
-    piece.across_then = normalize(earlier);
-    return true;
+    return orient_piece(has_c);
 }
 
 Box piece_box()

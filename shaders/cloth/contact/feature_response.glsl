@@ -1,6 +1,7 @@
 // Contact of a feature vertex or a feature edge of a collider with a piece of cloth, and its response on the vertex.
 //
-// The including kernel includes feature_pieces.glsl and friction.glsl before, and sets `exits_along` for each collider.
+// The including kernel declares votes[] and includes feature_pieces.glsl and friction.glsl before. It calls
+// prepare_collider for each collider.
 #ifndef VOILE_FEATURE_RESPONSE_GLSL
 #define VOILE_FEATURE_RESPONSE_GLSL
 
@@ -30,7 +31,8 @@ struct Response
     uint collider; // of the strongest contact
     vec3 slowing;  // m/s, by friction, of that contact
 };
-Response response = Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0));
+Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0)); }
+Response response = no_response();
 
 // Static and kinetic coefficient of the cloth with the current collider.
 vec2 friction;
@@ -43,6 +45,23 @@ vec2 find_friction()
     const ClothRecord cloth = cloths[self.vertex.cloth];
     return vec2(pair_friction(cloth.static_friction, collider.static_friction, collider.flags),
                 pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
+}
+
+// The sum of the exit directions of the cloth's vertices, in the collider's space; 0 if none is inside it.
+vec3 exit_direction(uint cloth, uint c)
+{
+    const uint word = VOILE_VOTE_WORDS * cloth;
+    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
+        return vec3(0);
+    const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
+    return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
+}
+
+// After select_collider.
+void prepare_collider()
+{
+    friction = find_friction();
+    exits_along = exit_direction(self.vertex.cloth, collider_index);
 }
 
 // The contact of a feature with a piece of cloth.
@@ -118,27 +137,51 @@ float holding_fraction(float pressed, float speed)
 // The part of a vector across a unit vector.
 vec3 tangential(vec3 v, vec3 n) { return v - dot(v, n) * n; }
 
-// Responds to a contact at `point`. `portion`: of the vertex in the motion of the cloth there; `velocity`: m/s, world,
-// of the cloth there.
-void respond(FeatureContact contact, vec3 point, float portion, vec3 velocity)
+// Where a feature and a piece of cloth touch.
+struct PieceContact
 {
-    vec3 n = contact.direction;
-    vec3 relative = velocity;
+    FeatureContact contact;
+    vec3 point;    // of the feature, collider's space
+    vec3 weights;  // barycentric coordinates
+    vec3 velocity; // m/s, world, of the cloth there
+};
+
+// What a contact does to the cloth there.
+struct Impulse
+{
+    vec3 direction;   // unit, world
+    float correction; // m, along it
+    vec3 slowing;     // m/s, by friction
+    float approach;   // m/s
+};
+
+Impulse impulse_of(PieceContact touch)
+{
+    vec3 n = touch.contact.direction;
+    vec3 relative = touch.velocity;
     if (collider_moves)
     {
         n = rotate(pose_to.rotation, n);
-        relative -= displacement(pose_from, change_of_pose, point) / push.step;
+        relative -= displacement(pose_from, change_of_pose, touch.point) / push.step;
     }
-    // Corrections by other contacts in this direction count.
-    response.shift += max(portion * (contact.wanted - contact.gap) - dot(response.shift, n), 0) * n;
     const float approach = -min(dot(relative, n), 0);
-    response.change += max(portion * approach - dot(response.change, n), 0) * n;
-    if (response.collider != k_no_collider && portion * approach <= response.pressed)
-        return;
-    response.pressed = portion * approach;
-    response.collider = collider_index;
     const vec3 sliding = tangential(relative, n);
-    response.slowing = -portion * friction_fraction(approach, length(sliding)) * sliding;
+    return Impulse(n, touch.contact.wanted - touch.contact.gap,
+                   friction_fraction(approach, length(sliding)) * sliding, approach);
+}
+
+// Responds to a contact with collider c. `portion`: of the vertex in the motion of the cloth there.
+void respond(Impulse impulse, float portion, uint c)
+{
+    const vec3 n = impulse.direction;
+    // Corrections by other contacts in this direction count.
+    response.shift += max(portion * impulse.correction - dot(response.shift, n), 0) * n;
+    response.change += max(portion * impulse.approach - dot(response.change, n), 0) * n;
+    if (response.collider != k_no_collider && portion * impulse.approach <= response.pressed)
+        return;
+    response.pressed = portion * impulse.approach;
+    response.collider = c;
+    response.slowing = -portion * impulse.slowing;
 }
 
 // Friction with the current collider, after all contacts. Cloth that slides fast is slowed at the contact. Slow cloth
@@ -193,16 +236,23 @@ void merge(Response other)
     response.pressed = max(response.pressed, other.pressed);
 }
 
-// The motion of the vertex per motion of the contact point. Bounded: a vertex of a millionth of its neighbors' mass and
-// a thousandth of the weight would be thrown. The products of the smallest inverse masses underflow.
-float portion_of(vec3 weights, vec3 inverse_masses)
+// The motion of the vertices per motion of the contact point. Bounded: a vertex of a millionth of its neighbors' mass
+// and a thousandth of the weight would be thrown. The products of the smallest inverse masses underflow.
+vec3 portions_of(vec3 weights, vec3 inverse_masses)
 {
     const float sum = max(dot(inverse_masses, weights * weights), 1e-37);
-    return min(inverse_masses.x * weights.x / sum, k_most_portion);
+    return min(inverse_masses * weights / sum, k_most_portion);
+}
+
+PieceContact no_contact()
+{
+    PieceContact none;
+    none.contact.found = false;
+    return none;
 }
 
 // A feature vertex and the triangle.
-void visit_triangle(Feature feature)
+PieceContact triangle_contact(Feature feature)
 {
     const SweptVertex a = piece.a;
     const SweptVertex b = piece.b;
@@ -211,7 +261,7 @@ void visit_triangle(Feature feature)
         feature_contact(feature, piece.across_then, dot(piece.across_then, a.from - feature.a), piece.across,
                         dot(piece.across, a.to - feature.a));
     if (!contact.found)
-        return;
+        return no_contact();
     const vec3 corner = mix(a.from, a.to, contact.time);
     const vec3 ab = mix(b.from, b.to, contact.time) - corner;
     const vec3 ac = mix(c.from, c.to, contact.time) - corner;
@@ -221,21 +271,21 @@ void visit_triangle(Feature feature)
     const float v = dot(cross(ap, ac), n) / area;
     const float w = dot(cross(ab, ap), n) / area;
     if (min(min(v, w), 1 - v - w) < -k_border)
-        return;
+        return no_contact();
     const vec3 weights = clamp(vec3(1 - v - w, v, w), vec3(0), vec3(1));
-    respond(contact, feature.a, portion_of(weights, vec3(a.inverse_mass, b.inverse_mass, c.inverse_mass)),
-            weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity);
+    return PieceContact(contact, feature.a, weights,
+                        weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity);
 }
 
-// A feature edge and the cloth's edge from the vertex to b.
-void visit_edge(Feature feature, SweptVertex b)
+// A feature edge and the cloth's edge from a to b.
+PieceContact edge_contact(Feature feature, SweptVertex b)
 {
     const SweptVertex a = piece.a;
     const vec3 along = feature.b - feature.a;
     const vec3 ab = b.to - a.to;
     const vec3 normal = cross(ab, along);
     if (dot(normal, normal) <= k_parallel * k_parallel * dot(ab, ab) * dot(along, along))
-        return;
+        return no_contact();
     const vec3 across = normalize(normal);
     const vec3 earlier = cross(b.from - a.from, along);
     // An edge that has turned over, or was parallel, has no side from before.
@@ -244,7 +294,7 @@ void visit_edge(Feature feature, SweptVertex b)
     const FeatureContact contact =
         feature_contact(feature, across_then, dot(across_then, a.from - feature.a), across, dot(across, a.to - feature.a));
     if (!contact.found)
-        return;
+        return no_contact();
     // The nearest points of two lines; Ericson 2004, Real-Time Collision Detection, 5.1.8.
     const vec3 start = mix(a.from, a.to, contact.time);
     const vec3 u = mix(b.from, b.to, contact.time) - start;
@@ -256,23 +306,18 @@ void visit_edge(Feature feature, SweptVertex b)
     const float s = (ua * dot(along, r) - aa * dot(u, r)) / determinant;
     const float t = (uu * dot(along, r) - ua * dot(u, r)) / determinant;
     if (min(s, t) < 0 || max(s, t) > 1)
-        return;
-    respond(contact, feature.a + t * along, portion_of(vec3(1 - s, s, 0), vec3(a.inverse_mass, b.inverse_mass, 0)),
-            mix(a.velocity, b.velocity, s));
+        return no_contact();
+    return PieceContact(contact, feature.a + t * along, vec3(1 - s, s, 0), mix(a.velocity, b.velocity, s));
 }
 
-void visit_feature(Feature feature)
+vec3 triangle_portions(PieceContact touch)
 {
-    if (feature.a == feature.b)
-    {
-        if (piece.triangle)
-            visit_triangle(feature);
-        return;
-    }
-    if (piece.edge_b)
-        visit_edge(feature, piece.b);
-    if (piece.edge_c)
-        visit_edge(feature, piece.c);
+    return portions_of(touch.weights, vec3(piece.a.inverse_mass, piece.b.inverse_mass, piece.c.inverse_mass));
+}
+
+vec3 edge_portions(PieceContact touch, SweptVertex b)
+{
+    return portions_of(touch.weights, vec3(piece.a.inverse_mass, b.inverse_mass, 0));
 }
 
 #endif

@@ -1,7 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lists the patches of cloth near features of colliders until the next such pass. feature_contact.comp runs over these
-// patches only, by an indirect dispatch. One thread per vertex.
+// Lists the features near the pieces of all cloths, and the patches near features, until the next such pass.
+// test_features.comp runs over the listed features, feature_contact.comp over the patches, by indirect dispatches.
+//
+// Several threads per vertex (push.lanes) each take some of its pieces. They find the features near them twice: first
+// they count them, for four margins, then they write those within the widest margin with few enough. A vertex that has
+// too many, or for which no room is left, has none, and feature_contact.comp traverses the hierarchies instead.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -15,81 +19,402 @@ layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
 layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
 layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
 layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
+layout(VOILE_BINDING(feature_centers)) writeonly buffer FeatureCenters { vec4 feature_centers[]; };
+layout(VOILE_BINDING(feature_cells)) writeonly buffer FeatureCells { FeatureCell cells[]; };
+layout(VOILE_BINDING(feature_items)) writeonly buffer FeatureItems { FeatureItem items[]; };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 
 #include "shared/patch.glsl"
+#include "shared/mesh.glsl"
+#include "shared/segments.glsl"
 #include "colliders/collider_pose.glsl"
 #include "colliders/near_colliders.glsl"
+#include "contact/feature_fan.glsl"
+#include "contact/rounding.glsl"
+#include "contact/triangle.glsl"
 
+// The margin of cloth at rest, as a fraction of the thickness.
+const float k_resting_margin = 0.5;
+// Of moving cloth, as a fraction of the displacement that it will have at its velocity.
+const float k_moving_margin = 1.25;
+// Each margin is half of the one before.
+const uint k_margins = 4;
+const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
+
+// Of the workgroup.
 shared uint near_vertices;
+shared uint items_of_group;
+shared uint first_of_group;                      // of the level's items; VOILE_NO_SUBSTEP: there is no room
+shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
+shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen
+shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
 
-struct FeatureSearch
+// Each patch has as many workgroups as vertices have lanes.
+uint patch_of_group() { return push.first_patch + gl_WorkGroupID.x / push.lanes; }
+
+// The space of a collider when features are listed.
+struct Space
 {
-    Box box;
-    bool found;
+    uint collider;
+    uint flags;
+    Pose pose;
 };
 
-// The first leaf suffices.
-bool enters_node(FeatureSearch search, Box node) { return !search.found && overlap(search.box, node); }
-void visit_leaf(inout FeatureSearch search, uint first, uint count) { search.found = true; }
+struct PieceKind
+{
+    uint kind;
+    uint k;
+};
+
+// Features near a piece of cloth.
+struct FeatureSearch
+{
+    PatchVertex self;
+    PieceKind piece;
+    Triangle shape;     // an edge repeats its second vertex
+    uint collider;
+    Box box;            // of the piece, grown by the margin
+    Box sweep;          // of all triangles around the vertex until the next pass
+    bool found;         // a feature in the sweep, or it is not looked for
+    float query_radius; // m, the thickness with room for rounding
+    float widest;       // m, the margin that is counted with
+    float margin;       // m
+    bool writes;
+    uvec4 counts;       // within each margin
+    uint next;          // item to write
+    uint end;
+};
+
+// The first leaf in the sweep suffices.
+bool enters_node(FeatureSearch search, Box node)
+{
+    return overlap(search.box, node) || (!search.found && overlap(search.sweep, node));
+}
+
+// The residual is far smaller than margins.
+vec3 position_in(Space space, uint vertex)
+{
+    const vec3 offset = from_origin(space.collider, space.flags, FinePosition(positions[vertex].xyz, vec3(0)));
+    return is_moved(space.flags) ? to_collider(space.pose, offset) : offset;
+}
+
+// m
+float feature_distance(Feature feature, Triangle t, bool edge)
+{
+    if (edge)
+        return segment_distance(t.a, t.b, feature.a, feature.b) - feature.radius;
+    return distance(feature.a, nearest_on_triangle(feature.a, t.a, t.b, t.c)) - feature.radius;
+}
+
+void write_item(inout FeatureSearch search, uint feature, float excess)
+{
+    if (search.next >= search.end)
+        return;
+    const uint excess_bits = packHalf2x16(vec2(0, 0.99 * excess)) & 0xffff0000u;
+    items[search.next++] = FeatureItem(search.self.index, feature, search.collider | excess_bits,
+                                       search.self.cloth | search.piece.kind << VOILE_ITEM_CLOTH_BITS |
+                                           search.piece.k << (VOILE_ITEM_CLOTH_BITS + 2));
+}
+
+// `excess`: m, the distance beyond the thickness.
+void add_item(inout FeatureSearch search, uint feature, float excess)
+{
+    if (excess > search.margin)
+        return;
+    if (search.writes)
+        write_item(search, feature, excess);
+    else
+        search.counts += uvec4(lessThanEqual(vec4(excess), search.margin * vec4(k_fractions[0], k_fractions[1], k_fractions[2], k_fractions[3])));
+}
+
+void visit_leaf(inout FeatureSearch search, uint first, uint count)
+{
+    search.found = true;
+    const bool edge = search.piece.kind != VOILE_PIECE_TRIANGLE;
+    for (uint f = first; f < first + count; ++f)
+    {
+        const Feature feature = features[f];
+        if ((feature.a != feature.b) != edge || search.piece.kind == VOILE_PIECE_GUARD)
+            continue;
+        const float excess = feature_distance(feature, search.shape, edge) - search.query_radius;
+        add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
+    }
+}
 
 #define VOILE_QUERY FeatureSearch
 #include "colliders/bvh.glsl"
 
-// Whether a feature of collider c is near. `margin`: m, the longest displacement of the vertex until the next pass.
-bool has_near_feature(uint c, uint cloth, vec3 position, float margin)
+// The vertices of the triangles around a vertex, and of its cell.
+uint around_count(PatchVertex self) { return self.columns > 0 ? 8 : cell_count(self); }
+
+// False: outside of the grid.
+bool find_around(PatchVertex self, uint i, out uint vertex)
 {
-    const FeatureSet set = feature_sets[c];
-    const uint flags = colliders[c].flags;
-    // The residual is far smaller than the cloth's edges.
-    vec3 from = from_origin(c, flags, FinePosition(position, vec3(0)));
-    vec3 to = from;
-    if (is_moved(flags))
-    {
-        from = to_collider(pose_at(c, push.progress_from), to);
-        to = to_collider(pose_at(c, push.progress_to), to);
-        margin += 0.5 * distance(from, to); // on the arc between them
-    }
-    const float radius = margin + VOILE_MOST_STRETCH * set.edge + cloths[cloth].thickness;
-    FeatureSearch search = FeatureSearch(grown(box_around(from, to), radius), false);
-    if ((colliders[c].layers & cloths[cloth].layers) != 0 && overlap(search.box, Box(set.box_min, set.box_max)))
-        traverse_bvh(search, set.first_node, set.first_feature);
-    return search.found;
+    if (self.columns == 0)
+        return find_in_cell(self, i, vertex);
+    const ivec2 to = i == 0 ? ivec2(0) : i == 7 ? ivec2(1) : k_ring[i - 1];
+    vertex = neighbor(self.index, to, self.columns);
+    return in_grid(self.column_row + to, self.columns, self.rows);
 }
 
-bool has_near_feature(PatchVertex self, vec3 position)
+// The triangles around a vertex in the space of a collider.
+struct Surrounding
 {
-    const float margin = max(2 * length(velocities[self.index].xyz), push.sudden) * push.time;
-    ColliderWalk walk = walk_colliders(push.first_patch + gl_WorkGroupID.x, grown(Box(position, position), margin));
+    Box box;       // now
+    Box later;     // at the next pass, where the velocities lead
+    float longest; // m, the longest displacement of a vertex
+};
+
+Surrounding surrounding(PatchVertex self, uint c, uint flags)
+{
+    Surrounding result = Surrounding(Box(vec3(3e38), vec3(-3e38)), Box(vec3(3e38), vec3(-3e38)), 0);
+    const bool moves = is_moved(flags);
+    Pose start;
+    Pose end;
+    if (moves)
+    {
+        start = pose_at(c, push.progress_from);
+        end = pose_at(c, push.progress_to);
+    }
+    const uint count = around_count(self);
+    for (uint i = 0; i < count; ++i)
+    {
+        uint vertex;
+        if (!find_around(self, i, vertex))
+            continue;
+        vec3 from = from_origin(c, flags, FinePosition(positions[vertex].xyz, vec3(0)));
+        vec3 to = from + push.time * velocities[vertex].xyz;
+        if (moves)
+        {
+            from = to_collider(start, from);
+            to = to_collider(end, to);
+        }
+        result.box = joined(result.box, Box(from, from));
+        result.later = joined(result.later, Box(to, to));
+        result.longest = max(result.longest, distance(from, to));
+    }
+    return result;
+}
+
+bool may_touch(uint c, PatchVertex self)
+{
+    return feature_sets[c].features > 0 && (colliders[c].layers & cloths[self.cloth].layers) != 0;
+}
+
+// m: the margin for the vertex's pieces, for the collider relative to which they move fastest.
+float find_margin(PatchVertex self, Box walked)
+{
+    float longest = 0;
+    ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
     while (next_collider(walk, c))
-        if (feature_sets[c].features > 0 && has_near_feature(c, self.cloth, position, margin))
-            return true;
-    return false;
+        if (may_touch(c, self))
+            longest = max(longest, surrounding(self, c, colliders[c].flags).longest);
+    return k_resting_margin * cloths[self.cloth].thickness + k_moving_margin * longest;
+}
+
+// The number of pieces that a vertex may have, and one of them. False: not this one.
+uint piece_count(PatchVertex self) { return self.columns > 0 ? 7 : 3 * corner_count(self); }
+
+bool find_piece(PatchVertex self, uint i, out PieceKind piece)
+{
+    if (self.columns > 0)
+    {
+        piece = PieceKind(i < 2 ? VOILE_PIECE_TRIANGLE : VOILE_PIECE_EDGE_B, i);
+        const ivec2 next = self.column_row + ivec2(1);
+        if (i == 2)
+            return uint(next.x) < self.columns;
+        if (i == 3)
+            return uint(next.y) < self.rows;
+        // The last two are edges on the border of the grid.
+        return in_grid(next, self.columns, self.rows) && (i != 5 || uint(next.x) + 1 == self.columns) &&
+               (i != 6 || uint(next.y) + 1 == self.rows);
+    }
+    piece = PieceKind(i % 3, i / 3);
+    if (piece.kind != VOILE_PIECE_EDGE_C)
+        return true;
+    // Most edges to a c are those to the b of the next triangle.
+    const uint c = mesh_corner(self, piece.k).c;
+    const uint count = corner_count(self);
+    for (uint k = 0; k < count; ++k)
+        if (mesh_corner(self, k).b == c)
+            return false;
+    return true;
+}
+
+// Finds the features of collider c near the pieces of this lane. The first lane returns whether a feature may touch a
+// triangle around the vertex before the next pass.
+bool search_collider(inout FeatureSearch search, uint c, uint lane)
+{
+    const FeatureSet set = feature_sets[c];
+    Space space = Space(c, colliders[c].flags, Pose(vec4(0, 0, 0, 1), vec3(0)));
+    if (is_moved(space.flags))
+        space.pose = pose_at(c, push.progress_from);
+    const Surrounding around = surrounding(search.self, c, space.flags);
+    const vec3 far = max(abs(around.box.min), abs(around.box.max));
+    search.query_radius = 1.01 * cloths[search.self.cloth].thickness + rounding(far);
+    const float room = search.query_radius + max(search.widest, max(around.longest, push.sudden * push.time));
+    search.sweep = grown(joined(around.box, around.later), room);
+    if (!overlap(search.sweep, Box(set.box_min, set.box_max)))
+        return false;
+    search.collider = c;
+    search.found = lane > 0;
+    const uint count = piece_count(search.self);
+    for (uint i = lane; i < count; i += push.lanes)
+    {
+        if (!find_piece(search.self, i, search.piece))
+            continue;
+        const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
+        search.shape = Triangle(position_in(space, v.x), position_in(space, v.y), position_in(space, v.z));
+        search.box = grown(joined(box_around(search.shape.a, search.shape.b), Box(search.shape.c, search.shape.c)),
+                           search.query_radius + search.margin);
+        traverse_bvh(search, set.first_node, set.first_feature);
+    }
+    if (lane == 0 && !search.found) // its pieces do not exist
+    {
+        search.box = search.sweep;
+        search.piece.kind = VOILE_PIECE_GUARD;
+        traverse_bvh(search, set.first_node, set.first_feature);
+    }
+    return lane == 0 && search.found;
+}
+
+// Finds the features near the pieces of this lane.
+bool search_colliders(inout FeatureSearch search, Box walked, uint lane)
+{
+    bool near = false;
+    ColliderWalk walk = walk_colliders(patch_of_group(), walked);
+    uint c;
+    while (next_collider(walk, c))
+    {
+        if (!may_touch(c, search.self) || !search_collider(search, c, lane))
+            continue;
+        near = true;
+        search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
+        add_item(search, floatBitsToUint(search.margin), 0);
+    }
+    return near;
+}
+
+// Whether the pieces of the vertex can be written as items.
+bool has_numbers(PatchVertex self)
+{
+    return self.cloth >> VOILE_ITEM_CLOTH_BITS == 0 && push.colliders <= 0x10000 &&
+           corner_count(self) < (1u << (30 - VOILE_ITEM_CLOTH_BITS));
+}
+
+// The index of the margin with few enough items; k_margins: none.
+uint choose_margin(uint in_group)
+{
+    for (uint i = 0; i < k_margins; ++i)
+        if (counts[k_margins * in_group + i] <= VOILE_MOST_FEATURE_ITEMS)
+            return i;
+    return k_margins;
+}
+
+// Claims room for the items of the workgroup.
+void claim_items()
+{
+    const uint first = atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_CLAIMED], items_of_group);
+    const uint end = first + items_of_group;
+    first_of_group = end <= push.items ? first : VOILE_NO_SUBSTEP;
+    if (items_of_group == 0 || end > push.items)
+        return;
+    atomicMax(dispatch_size[push.dispatch_word + VOILE_DISPATCH_ITEMS], end);
+    atomicMax(dispatch_size[push.dispatch_word], (end + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+}
+
+void list_patch()
+{
+    const uint index = patch_of_group();
+    if (near_vertices != 0 && atomicExchange(patches[index].near_features, push.query) != push.query)
+        near_patches[push.first_patch +
+                     atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES], 1)] = index;
+}
+
+// Chooses the margin of a vertex and claims room for its items. False: it has none.
+bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_group)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    for (uint i = 0; i < k_margins; ++i)
+        atomicAdd(counts[k_margins * in_group + i], search.counts[i]);
+    barrier();
+    const uint chosen = choose_margin(in_group);
+    bool fits = countable && chosen < k_margins;
+    const uint of_margin = min(chosen, k_margins - 1);
+    const uint count = fits ? search.counts[of_margin] : 0;
+    const uint cell_count = fits ? counts[k_margins * in_group + of_margin] : 0;
+    search.margin *= k_fractions[of_margin];
+    lane_counts[thread] = count;
+    if (lane == 0)
+        cell_firsts[in_group] = atomicAdd(items_of_group, cell_count);
+    barrier();
+    if (thread == 0)
+        claim_items();
+    barrier();
+    fits = fits && first_of_group != VOILE_NO_SUBSTEP;
+    const uint first = push.first_item + first_of_group + cell_firsts[in_group];
+    search.next = first;
+    for (uint i = thread - lane; i < thread; ++i)
+        search.next += lane_counts[i];
+    search.end = search.next + (fits ? count : 0);
+    if (lane == 0 && search.self.exists)
+        cells[search.self.index] = FeatureCell(first, fits ? cell_count : 0, VOILE_NO_SUBSTEP,
+                                               fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP);
+    return fits && count > 0;
 }
 
 void main()
 {
-    if (gl_LocalInvocationID.x == 0)
-        near_vertices = 0;
+    const uint thread = gl_LocalInvocationID.x;
+    const uint lane = thread % push.lanes;
+    const uint in_group = thread / push.lanes;
+    for (uint i = 0; i < k_margins; ++i)
+        counts[k_margins * thread + i] = 0;
+    if (thread == 0)
+        near_vertices = items_of_group = 0;
     barrier();
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    const vec4 position = self.exists ? positions[self.index] : vec4(0);
-    if (position.w > 0 && has_near_feature(self, position.xyz))
-        atomicOr(near_vertices, 1);
+
+    FeatureSearch search;
+    search.self = patch_vertex(patch_of_group(),
+                               (gl_WorkGroupID.x % push.lanes * gl_WorkGroupSize.x + thread) / push.lanes);
+    search.counts = uvec4(0);
+    search.widest = 0;
+    Box walked = Box(vec3(0), vec3(0));
+    bool searches = search.self.exists;
+    if (searches)
+    {
+        const vec3 position = positions[search.self.index].xyz;
+        const float reach = max(2 * length(velocities[search.self.index].xyz), push.sudden) * push.time;
+        walked = grown(Box(position, position), reach);
+        search.widest = find_margin(search.self, walked);
+        if (lane == 0)
+            feature_centers[search.self.index] = vec4(position, 0);
+    }
+    search.margin = search.widest;
+    // The same instructions count and write, so that rounding does not decide differently.
+    for (uint round = 0; round < 2; ++round)
+    {
+        search.writes = round == 1;
+        if (searches && search_colliders(search, walked, lane))
+            atomicOr(near_vertices, 1);
+        if (round == 0)
+            searches = allocate(search, searches && has_numbers(search.self), lane, in_group);
+    }
+    while (search.next < search.end)
+        items[search.next++].vertex = VOILE_NO_VERTEX;
     barrier();
-    if (gl_LocalInvocationID.x > 0)
-        return;
-    patches[push.first_patch + gl_WorkGroupID.x].near_features = near_vertices;
-    if (near_vertices != 0)
-        near_patches[push.first_patch + atomicAdd(dispatch_size[push.dispatch_word], 1)] =
-            push.first_patch + gl_WorkGroupID.x;
+    if (thread == 0)
+        list_patch();
 }

@@ -2,6 +2,8 @@
 #ifndef VOILE_PAIR_GLSL
 #define VOILE_PAIR_GLSL
 
+#include "shared/segments.glsl"
+
 const uint k_pair_edges_bit = 1u << 31; // of the first word
 
 // The vertices of two edges: each edge's in ascending order, first the edge with the lowest of all. Of a vertex and a
@@ -63,30 +65,6 @@ struct Nearest
     vec4 weights; // of the vertices: they sum to 1 on the first side and to -1 on the second
     vec3 apart;   // m, from the second side's point to the first side's
 };
-
-// Of segments (a, b) and (c, d): the parameter of each. Ericson 2004, Real-Time Collision Detection, 5.1.9.
-vec2 nearest_on_segments(vec3 a, vec3 b, vec3 c, vec3 d)
-{
-    const vec3 d1 = b - a;
-    const vec3 d2 = d - c;
-    const vec3 r = a - c;
-    const float aa = dot(d1, d1);
-    const float ee = dot(d2, d2);
-    const float f = dot(d2, r);
-    const float g = dot(d1, r);
-    const float m = dot(d1, d2);
-    const float determinant = aa * ee - m * m;
-    float s = 0.5; // of parallel edges
-    if (determinant > 1e-6 * aa * ee)
-        s = clamp((m * f - g * ee) / determinant, 0, 1);
-    float t = ee > 0 ? (m * s + f) / ee : 0;
-    if (t < 0 || t > 1)
-    {
-        t = clamp(t, 0, 1);
-        s = aa > 0 ? clamp((t * m - g) / aa, 0, 1) : 0;
-    }
-    return vec2(s, t);
-}
 
 // The barycentric coordinates of the point of triangle (a, b, c) nearest to the origin.
 vec3 nearest_weights(vec3 a, vec3 b, vec3 c)

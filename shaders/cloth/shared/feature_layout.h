@@ -7,10 +7,28 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The number of substeps from one query for near features to the next.
+// The number of substeps from one query for near features, to the next.
 #define VOILE_FEATURE_PERIOD 16
+// The mean number of items per vertex that there is room for, and the largest number of one vertex.
+#define VOILE_FEATURE_ITEMS 8
+#define VOILE_MOST_FEATURE_ITEMS 64
+// The kind of a piece in an item.
+#define VOILE_PIECE_TRIANGLE 0
+#define VOILE_PIECE_EDGE_B 1
+#define VOILE_PIECE_EDGE_C 2
+#define VOILE_PIECE_GUARD 3 // no feature: the item checks that the items of the vertex suffice
+#define VOILE_ITEM_CLOTH_BITS 20
+#define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
+// The sizes of the dispatches of a level: over items, their number, over patches near features, the number of items for
+// which there was no room or was.
+#define VOILE_FEATURE_DISPATCH_WORDS 8
+#define VOILE_DISPATCH_ITEMS 3
+#define VOILE_DISPATCH_PATCHES 4
+#define VOILE_DISPATCH_CLAIMED 7
 // The substep of a correction that applies in no substep.
 #define VOILE_NO_SUBSTEP 0xffffffffu
+// Instead of the substep in which a vertex's items are not valid: until the next query.
+#define VOILE_EVERY_SUBSTEP 0xfffffffeu
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -49,6 +67,38 @@ struct FeatureCorrection
     uint padding;
 };
 
+// A feature near a piece of cloth, until the next query.
+struct FeatureItem
+{
+    uint vertex;   // that has the piece
+    uint feature;  // of a guard: the margin, m, as the bits of a float
+    uint collider; // the upper half: a lower bound of the distance beyond the thickness, m, as half a float
+    uint piece;    // of bits: 20 for the cloth, 2 for the kind of the piece, 10 for its number
+};
+
+// The items of a vertex.
+struct FeatureCell
+{
+    uint first;
+    uint count;
+    uint touched; // the last substep in which one of them was in contact
+    uint invalid; // the last substep in which features may be near that are not among them
+};
+
+// The contact of a feature with a piece of cloth.
+struct FeatureResponse
+{
+    vec3 direction;   // unit, world
+    float correction; // m, along it
+    vec3 slowing;     // m/s, by friction
+    float approach;   // m/s
+    vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
+    uint substep;
+    uint collider;
+    uint padding_0;
+    uint padding_1;
+};
+
 // Push constants of the query for near features.
 struct NearFeaturesPush
 {
@@ -59,7 +109,11 @@ struct NearFeaturesPush
     uint colliders;
     uint near_stride;
     uint first_patch;   // of the dispatch, and of its entries in the list of patches near features
-    uint dispatch_word; // of the size of their dispatch
+    uint dispatch_word; // of the sizes of the dispatches over items and over patches near features
+    uint lanes;         // threads per vertex
+    uint first_item;    // of those that the dispatch may write
+    uint items;         // their number
+    uint query;         // the number of this one; differs from the one before
 };
 
 // Push constants of feature contact.
@@ -72,6 +126,10 @@ struct FeaturePush
     uint substep; // counted over all steps
     uint near_stride;
     uint first_patch; // of the entries in the list of patches near features
+    float progress_listed; // 0..1, of the step, when near features were listed
+    uint first_item;       // of the dispatch over items
+    uint dispatch_word;    // of the size of that dispatch, which their number follows
+    uint lanes;            // threads per vertex that traverses
 };
 
 VOILE_SHARED_END

@@ -4,18 +4,7 @@
 #ifndef VOILE_PATCH_GLSL
 #define VOILE_PATCH_GLSL
 
-#include "shared/grid.glsl"
-
-struct PatchVertex
-{
-    bool exists; // false for threads beyond the cloth's border
-    uint cloth;
-    uint local; // counted within the cloth
-    uint index; // in the solver's buffers
-    uint columns; // of the cloth; of a mesh 0
-    uint rows;
-    ivec2 column_row; // in a grid
-};
+#include "shared/patch_vertex.glsl"
 
 PatchVertex patch_vertex(uint patch_index, uint thread)
 {

@@ -73,12 +73,16 @@ enum class MeshLayout
 struct Tuning
 {
     // Invocations per workgroup. A power of two, from 1 to the device's limits of invocations and shared memory; an
-    // invocation takes 48 bytes. A dispatch has at most maxComputeWorkGroupCount workgroups.
+    // invocation takes 53 bytes. A dispatch has at most maxComputeWorkGroupCount workgroups.
     uint32_t workgroup_size = 128;
 
     // Invocations per vertex in feature contact, which divide its triangles among them. A power of two up to
     // workgroup_size. 0: eight, on CPU devices one.
     uint32_t feature_threads = 0;
+
+    // The mean number of features near the cloth that are listed per vertex, at most 8. Vertices for which there is no
+    // room find theirs in every substep: slower, with the same result.
+    uint32_t feature_items = 8;
 
     // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that
     // need fewer substeps than others get dispatches of their own where these cost less than the substeps that they
@@ -98,7 +102,8 @@ struct SolverOptions
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
 
     // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
-    // with features that can protrude between the vertices of a cloth costs one pass more per substep.
+    // with features that can protrude between the vertices of a cloth costs two passes more per substep, and 672 bytes
+    // of device memory per vertex.
     bool feature_contact = true;
 
     // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this they

@@ -48,6 +48,7 @@ struct DescriptorSets
     VkDescriptorSet near_colliders{};
     VkDescriptorSet near_features{};
     // Corrections of stage B, of the state; with the votes of an even step, of an odd one.
+    std::array<std::array<VkDescriptorSet, 2>, 2> test_features{};
     std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};

@@ -69,12 +69,15 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};
-    add(kernels.near_features, "cloth near features", shaders::k_find_near_features_comp, at_rest);
-    add(kernels.near_features_moving, "cloth near features", shaders::k_find_near_features_comp, moving);
-    add(kernels.feature_contact, "cloth feature contact", shaders::k_feature_contact_comp,
-        {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 0});
-    add(kernels.feature_contact_moving, "cloth feature contact", shaders::k_feature_contact_comp,
-        {.workgroup_size = group, .interleaved = interleaved, .colliders_move = 1});
+    const auto add_features = [&](gpu::Kernel& near, gpu::Kernel& test, gpu::Kernel& contact, uint32_t move)
+    {
+        const Specialization with{.workgroup_size = group, .interleaved = interleaved, .colliders_move = move};
+        add(near, "cloth near features", shaders::k_find_near_features_comp, with);
+        add(test, "cloth feature tests", shaders::k_test_features_comp, with);
+        add(contact, "cloth feature contact", shaders::k_feature_contact_comp, with);
+    };
+    add_features(kernels.near_features, kernels.test_features, kernels.feature_contact, 0);
+    add_features(kernels.near_features_moving, kernels.test_features_moving, kernels.feature_contact_moving, 1);
     add(kernels.depenetrate, "cloth depenetrate", shaders::k_depenetrate_comp, at_rest);
     add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);

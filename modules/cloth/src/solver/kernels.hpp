@@ -36,6 +36,8 @@ struct Kernels
     gpu::Kernel near_colliders;
     gpu::Kernel near_features;
     gpu::Kernel near_features_moving;
+    gpu::Kernel test_features;
+    gpu::Kernel test_features_moving;
     gpu::Kernel feature_contact;
     gpu::Kernel feature_contact_moving;
     gpu::Kernel depenetrate;        // out of meshes at rest

@@ -2,6 +2,8 @@
 #include "solver/descriptor_sets.hpp"
 #include "solver/state_buffers.hpp"
 
+#include <utility>
+
 namespace voile
 {
 
@@ -30,9 +32,9 @@ public:
     std::vector<SetDescription> describe();
 
 private:
-    void add(VkDescriptorSet& set, const gpu::Kernel& kernel, std::initializer_list<RoleBuffer> roles = {})
+    void add(VkDescriptorSet& set, const gpu::Kernel& kernel, std::vector<RoleBuffer> roles = {})
     {
-        descriptions_.push_back({&set, &kernel, roles});
+        descriptions_.push_back({&set, &kernel, std::move(roles)});
     }
 
     void add_stage(VkDescriptorSet& set, const StateBuffers& base, const StateBuffers& third, const StateBuffers& input,
@@ -205,14 +207,17 @@ void Describer::add_contact()
              {binding::earlier_velocities, earlier.velocities},
              {binding::earlier_predicted, earlier_predicted}});
         for (size_t votes = 0; votes < 2; ++votes)
-            add(sets_.feature_contact[parity][votes], kernels_.feature_contact,
-                {{binding::proposed_positions, proposed.positions},
-                 {binding::proposed_residuals, proposed.residuals},
-                 {binding::proposed_velocities, proposed.velocities},
-                 {binding::proposed_predicted, predicted},
-                 {binding::earlier_positions, earlier.positions},
-                 {binding::earlier_residuals, earlier.residuals},
-                 {binding::step_votes, k_depenetration_votes[votes]}});
+        {
+            std::vector<RoleBuffer> roles = {{binding::proposed_positions, proposed.positions},
+                                             {binding::proposed_residuals, proposed.residuals},
+                                             {binding::proposed_velocities, proposed.velocities},
+                                             {binding::earlier_positions, earlier.positions},
+                                             {binding::earlier_residuals, earlier.residuals},
+                                             {binding::step_votes, k_depenetration_votes[votes]}};
+            add(sets_.test_features[parity][votes], kernels_.test_features, roles);
+            roles.push_back({binding::proposed_predicted, predicted});
+            add(sets_.feature_contact[parity][votes], kernels_.feature_contact, roles);
+        }
     }
     add(sets_.near_features, kernels_.near_features);
     add(sets_.near_colliders, kernels_.near_colliders);

@@ -160,11 +160,28 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
     dispatch(kernels_.near_colliders, device_.sets.near_colliders, lists_.patches, push);
 }
 
+LevelRecorder::ItemRange LevelRecorder::feature_items() const
+{
+    const uint32_t per_vertex = std::min(solver_.options.tuning.feature_items, uint32_t{VOILE_FEATURE_ITEMS});
+    const uint64_t capacity = device_.capacities.features == 0 ? 0 : device_.capacities.vertices * per_vertex;
+    const auto before = [&](uint64_t patch)
+    { return static_cast<uint32_t>(capacity * patch / std::max(context_.lists.patch_count(), 1u)); };
+    const uint32_t first = before(lists_.patches.first);
+    return {first, before(lists_.patches.first + lists_.patches.count) - first};
+}
+
 void LevelRecorder::record_near_features(uint32_t substep)
 {
-    const uint32_t word = level_ * VOILE_DISPATCH_WORDS;
-    clear_dispatch(recorder_, device_[buffer::feature_dispatch].handle(), word, solver_.options.tuning.feature_threads);
+    const uint32_t word = level_ * VOILE_FEATURE_DISPATCH_WORDS;
+    // Each patch has that many workgroups.
+    uint32_t lanes = solver_.options.tuning.feature_threads;
+    while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
+        lanes /= 2;
+    const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0};
+    write_dispatches(recorder_, device_[buffer::feature_dispatch].handle(), word * sizeof(uint32_t),
+                     std::as_bytes(std::span(none)));
     const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
+    const ItemRange items = feature_items();
     shared::NearFeaturesPush push{};
     push.time = h_ * static_cast<float>(next - substep);
     push.sudden = sudden_speed();
@@ -172,25 +189,40 @@ void LevelRecorder::record_near_features(uint32_t substep)
     push.progress_to = progress(next);
     push.colliders = solver_.passes.colliders;
     push.near_stride = device_.near_stride;
+    push.first_patch = lists_.patches.first;
     push.dispatch_word = word;
-    dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features, device_.sets.near_features,
-             lists_.patches, push);
+    push.lanes = lanes;
+    push.first_item = items.first;
+    push.items = items.count;
+    push.query = context_.first_substep + substep + 1;
+    recorder_.dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features,
+                       device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
     publish_dispatch(recorder_);
 }
 
 void LevelRecorder::record_features(uint32_t substep)
 {
+    const uint32_t word = level_ * VOILE_FEATURE_DISPATCH_WORDS;
     const shared::FeaturePush push{h_,
                                    progress(substep),
                                    progress(substep + 1),
                                    solver_.passes.colliders,
                                    context_.first_substep + substep,
                                    device_.near_stride,
-                                   lists_.patches.first};
-    recorder_.dispatch_indirect(
-        solver_.passes.moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
-        device_.sets.feature_contact[in_stage_b(substep) ? 1 : 0][context_.history.depenetration_step % 2],
-        device_[buffer::feature_dispatch].handle(), level_ * VOILE_DISPATCH_WORDS * sizeof(uint32_t), push);
+                                   lists_.patches.first,
+                                   progress(substep - substep % VOILE_FEATURE_PERIOD),
+                                   feature_items().first,
+                                   word,
+                                   solver_.options.tuning.feature_threads};
+    const bool moving = solver_.passes.moving;
+    const size_t begins = in_stage_b(substep) ? 1 : 0;
+    const size_t votes = context_.history.depenetration_step % 2;
+    const VkBuffer sizes = device_[buffer::feature_dispatch].handle();
+    recorder_.dispatch_indirect(moving ? kernels_.test_features_moving : kernels_.test_features,
+                                device_.sets.test_features[begins][votes], sizes, word * sizeof(uint32_t), push);
+    recorder_.dispatch_indirect(moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
+                                device_.sets.feature_contact[begins][votes], sizes,
+                                (word + VOILE_DISPATCH_PATCHES) * sizeof(uint32_t), push);
 }
 
 void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)

@@ -48,10 +48,17 @@ private:
     // At the substep's end, over `duration` s. With 0, springs add nothing and only bounds hold.
     void record_attachments(uint32_t substep, float duration);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
-    // Lists the patches near features, until the next query.
+    // Lists the features near pieces of cloth and the patches near features, until the next query.
     void record_near_features(uint32_t substep);
     [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
+    // Of the level, in the buffer of items.
+    struct ItemRange
+    {
+        uint32_t first;
+        uint32_t count;
+    };
+    [[nodiscard]] ItemRange feature_items() const;
     void record_contact(uint32_t substep, bool after_pairs = false);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     [[nodiscard]] EntryRange verlet_patches() const;

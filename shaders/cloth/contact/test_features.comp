@@ -1,0 +1,164 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Tests each feature near a piece of cloth (find_near_features.comp) against that piece. One thread per item. Contacts
+// are kept with the item, and feature_contact.comp merges those of each vertex.
+//
+// Guards have no feature. They check that no vertex of a cell has moved farther than its margin since the items were
+// made, relative to the collider: then no other feature can touch the cell's pieces.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/collider_layout.h"
+#include "shared/contact_layout.h"
+#include "shared/feature_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
+
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
+layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
+layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
+layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
+layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
+layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
+layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
+layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { vec4 feature_centers[]; };
+layout(VOILE_BINDING(feature_items)) readonly buffer FeatureItems { FeatureItem items[]; };
+layout(VOILE_BINDING(feature_cells)) writeonly buffer FeatureCells { FeatureCell cells[]; };
+layout(VOILE_BINDING(feature_responses)) writeonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
+layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
+
+layout(push_constant, std430) uniform Push { FeaturePush push; };
+
+#include "shared/box.glsl"
+#include "shared/patch_vertex.glsl"
+#include "shared/mesh.glsl"
+#include "colliders/collider_pose.glsl"
+#include "contact/feature_fan.glsl"
+#include "contact/friction.glsl"
+#include "integration/integrator.glsl"
+#include "contact/feature_pieces.glsl"
+#include "contact/feature_response.glsl"
+
+// The vertex that an item is of.
+PatchVertex item_vertex(uint cloth, uint index)
+{
+    PatchVertex vertex;
+    vertex.exists = true;
+    vertex.cloth = cloth;
+    vertex.index = index;
+    vertex.local = index - cloths[cloth].first_vertex;
+    vertex.columns = cloths[cloth].columns;
+    vertex.rows = cloths[cloth].rows;
+    vertex.column_row = ivec2(0);
+    if (vertex.columns > 0)
+        vertex.column_row = ivec2(vertex.local % vertex.columns, vertex.local / vertex.columns);
+    return vertex;
+}
+
+// m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
+// the collider. Residuals are far smaller than margins.
+float drift(uint index)
+{
+    const vec3 center = feature_centers[index].xyz;
+    const vec3 earlier = earlier_positions[index].xyz;
+    const vec3 proposed = proposed_positions[index].xyz;
+    if (!collider_moves)
+        return max(distance(center, earlier), distance(center, proposed));
+    const vec3 origin = collider_motions[collider_index].origin;
+    const vec3 listed = to_collider(pose_listed, center - origin);
+    return max(distance(listed, to_collider(pose_from, earlier - origin)),
+               distance(listed, to_collider(pose_to, proposed - origin)));
+}
+
+void check_guard(float margin)
+{
+    bool valid = true;
+    const uint count = cell_count(self.vertex);
+    for (uint i = 0; i < count; ++i)
+    {
+        uint vertex;
+        if (find_in_cell(self.vertex, i, vertex))
+            valid = valid && drift(vertex) <= margin; // not if it is not a number
+    }
+    if (!valid)
+        cells[self.vertex.index].invalid = push.substep;
+}
+
+// The portions of the cell's vertices. Of a mesh the first is that of the vertex.
+vec4 cell_portions(vec3 portions, uint kind, uint k)
+{
+    vec4 result = vec4(0);
+    if (self.vertex.columns == 0)
+        result.x = portions.x;
+    else
+    {
+        const uvec3 in_cell = k_cell_pieces[k];
+        result[in_cell.x] = portions.x;
+        result[in_cell.y] = portions.y;
+        if (kind == VOILE_PIECE_TRIANGLE)
+            result[in_cell.z] = portions.z;
+    }
+    return result;
+}
+
+// Tests the feature against the piece. `excess`: m, a lower bound of its distance beyond the thickness when it was
+// listed.
+void test_piece(uint item, uint kind, uint k, float excess)
+{
+    const uvec3 v = piece_vertices(self.vertex, kind, k);
+    if (excess > max(max(drift(v.x), drift(v.y)), drift(v.z)))
+        return;
+    const bool triangle = kind == VOILE_PIECE_TRIANGLE;
+    piece.a = swept_vertex(v.x);
+    piece.b = swept_vertex(v.y);
+    piece.c = piece.b;
+    if (triangle)
+        piece.c = swept_vertex(v.z);
+    if (!orient_piece(triangle) || min(piece.a.inverse_mass, piece.b.inverse_mass) == 0 || piece.triangle != triangle)
+        return;
+    prepare_collider();
+    const Feature feature = features[items[item].feature];
+    PieceContact touch = no_contact();
+    vec3 portions = vec3(0);
+    if (triangle)
+    {
+        touch = triangle_contact(feature);
+        portions = triangle_portions(touch);
+    }
+    else
+    {
+        touch = edge_contact(feature, piece.b);
+        portions = edge_portions(touch, piece.b);
+    }
+    if (!touch.contact.found)
+        return;
+    const Impulse impulse = impulse_of(touch);
+    feature_responses[item] =
+        FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach,
+                        cell_portions(portions, kind, k), push.substep, collider_index, 0, 0);
+    cells[self.vertex.index].touched = push.substep;
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= dispatch_size[push.dispatch_word + VOILE_DISPATCH_ITEMS])
+        return;
+    const uint index = push.first_item + gl_GlobalInvocationID.x;
+    const FeatureItem item = items[index];
+    if (item.vertex == VOILE_NO_VERTEX)
+        return;
+    const uint cloth = item.piece & ((1u << VOILE_ITEM_CLOTH_BITS) - 1);
+    const uint kind = item.piece >> VOILE_ITEM_CLOTH_BITS & 3;
+    self.vertex = item_vertex(cloth, item.vertex);
+    self.thickness = cloths[cloth].thickness;
+    select_collider(item.collider & 0xffff);
+    if (kind == VOILE_PIECE_GUARD)
+        check_guard(uintBitsToFloat(item.feature));
+    else
+        test_piece(index, kind, item.piece >> (VOILE_ITEM_CLOTH_BITS + 2), unpackHalf2x16(item.collider >> 16).x);
+}
