@@ -143,6 +143,7 @@ voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& s
     grid.velocity = entry.velocity;
     grid.layers = entry.layers;
     grid.integrator = entry.integrator;
+    grid.self_collision = entry.self_collision;
     auto material = make_cloth_material(
         scene, entry.material,
         glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
@@ -190,6 +191,7 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
     cloth.velocity = entry.velocity;
     cloth.layers = entry.layers;
     cloth.integrator = entry.integrator;
+    cloth.self_collision = entry.self_collision;
     cloth.material = material.value();
     for (const glm::vec3& p : mesh.positions)
         vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
