@@ -1,5 +1,7 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
+#include "samples/viewer/animation_exports.hpp"
 #include "samples/viewer/debug_view.hpp"
+#include "samples/viewer/exports.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/output_check.hpp"
 #include "samples/viewer/progress.hpp"
@@ -10,6 +12,7 @@
 #include "voile/engine/gpu/capture.hpp"
 #include "voile/gpu/printable.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -38,8 +41,8 @@ void check_targets(const Options& options)
 {
     if (options.stats)
         (void)voile::engine::take(voile::engine::AtomicFile::create(*options.stats));
-    if (options.export_file)
-        (void)voile::engine::take(voile::engine::AtomicFile::create(*options.export_file));
+    for (const ExportTarget& target : options.exports)
+        (void)voile::engine::take(voile::engine::AtomicFile::create(target.path));
 }
 
 voile::engine::AppOptions app_options(const Options& options, const SceneFile& scene)
@@ -71,16 +74,31 @@ bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* 
     return open;
 }
 
-void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
-                voile::engine::Capture* capture, const Options& options)
+// The files that grow with every frame.
+struct Outputs
 {
+    FrameOutputs pictures;
+    AnimationExports animations;
+};
+
+// Returns the simulated time, s.
+double run_frames(voile::engine::App& app, Stage& stage, Outputs& outputs, RunStatistics& statistics,
+                  voile::engine::Capture* capture, const Options& options)
+{
+    double seconds = 0;
     app.draws = [&](const voile::engine::FrameInfo& frame)
-    { return options.stats || options.capture == frame.index || outputs.wants_picture(frame); };
-    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { outputs.record(cmd, frame); };
+    { return options.stats || options.capture == frame.index || outputs.pictures.wants_picture(frame); };
+    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
+    {
+        outputs.pictures.record(cmd, frame);
+        outputs.animations.record(cmd, frame);
+    };
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {
+        seconds = frame.time + static_cast<double>(frame.time_step);
         statistics.completed(stage, frame);
-        voile::engine::take(outputs.write(frame));
+        voile::engine::take(outputs.pictures.write(frame));
+        voile::engine::take(outputs.animations.write(frame));
     };
     const bool endless = app.has_window() && !options.frames;
     const uint32_t frames = endless ? UINT32_MAX : voile::engine::take(headless_frames(options));
@@ -100,21 +118,24 @@ void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, Ru
     app.finish();
     if (progress)
         progress->finish();
+    return seconds;
 }
 
-void export_state(const Options& options, const std::vector<FinalCloth>& state, Outcome& outcome)
+void export_states(const Options& options, std::vector<Surface> surfaces, size_t cloths, Outcome& outcome)
 {
-    if (!options.export_file || options.export_format == ExportFormat::point_cache)
-        return;
-    std::vector<ClothSurface> surfaces;
-    surfaces.reserve(state.size());
-    for (const FinalCloth& cloth : state)
-        surfaces.push_back({cloth.name, cloth.positions, cloth.normals, cloth.triangles});
-    const auto exported = export_surfaces(*options.export_file, surfaces);
-    if (!exported)
-        return outcome.add(exported.error(), "");
-    for (const auto& path : exported.value())
-        outcome.add({}, written_name(path));
+    if (!options.export_colliders)
+        surfaces.resize(cloths);
+    for (const ExportTarget& target : options.exports)
+    {
+        if (is_animation(target.format))
+            continue;
+        const auto exported = export_surfaces(target.path, surfaces);
+        if (!exported)
+            outcome.add(exported.error(), "");
+        else
+            for (const auto& path : exported.value())
+                outcome.add({}, written_name(path));
+    }
 }
 
 unsigned long long number(std::optional<uint64_t> count)
@@ -170,16 +191,23 @@ int run_scene(const Options& options)
     Stage stage = voile::engine::take(set_stage(app, scene, solids, options));
     if (options.debug.any())
         app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
-    FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, stage, scene, options));
+    const bool animated =
+        std::ranges::any_of(options.exports, [](const ExportTarget& target) { return is_animation(target.format); });
+    const ExportScene exported(stage, solids,
+                               animated ? download_state(app.device(), stage) : std::vector<FinalCloth>{},
+                               2 * app.scene().focus_radius);
+    Outputs outputs{voile::engine::take(FrameOutputs::create(app, static_cast<double>(scene.step.rate), options)),
+                    voile::engine::take(AnimationExports::create(app, stage, exported, scene, options))};
     RunStatistics measured;
     const voile::engine::IdleGuard idle(app.device());
-    run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
+    const double seconds = run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
-    outputs.finish(outcome);
+    outputs.pictures.finish(outcome);
+    outputs.animations.finish(outcome);
     const std::vector<FinalCloth> state = download_state(app.device(), stage);
-    export_state(options, state, outcome);
+    export_states(options, exported.surfaces(state, seconds), state.size(), outcome);
     Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
     if (options.verify)
         add_verification(voile::engine::take(verify(stage, solids, state)),

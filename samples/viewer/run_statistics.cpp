@@ -5,6 +5,7 @@
 #include "voile/engine/gpu/frames.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace viewer
 {
@@ -58,10 +59,11 @@ std::vector<FinalCloth> download_state(const voile::engine::Device& device, cons
     for (const StageCloth& cloth : stage.cloths)
     {
         const voile::VertexStreams streams = solver.vertices(cloth.id);
-        result.push_back({cloth.name, download_vectors(device, streams.positions, streams),
-                          download_vectors(device, streams.velocities, streams),
-                          at_start ? std::vector<glm::vec3>{} : download_vectors(device, streams.normals, streams),
-                          solver.triangles(cloth.id)});
+        std::vector<glm::vec3> positions = download_vectors(device, streams.positions, streams);
+        std::vector<glm::vec3> normals =
+            at_start ? surface_normals(positions, cloth.faces) : download_vectors(device, streams.normals, streams);
+        result.push_back({cloth.name, std::move(positions), download_vectors(device, streams.velocities, streams),
+                          std::move(normals), solver.triangles(cloth.id)});
     }
     return result;
 }

@@ -107,7 +107,7 @@ TEST_CASE("a closed terminal does not end a run")
     const Ending ending = viewer.wait();
     CHECK(ending.signal == 0);
     CHECK(ending.exit_code == 0);
-    CHECK(fs::file_size(folder / "c.pc2") == 32 + 20 * 16 * 16 * 12);
+    CHECK(fs::file_size(folder / "c.pc2") == 32 + 21 * 16 * 16 * 12);
     CHECK(fs::exists(folder / "s.json"));
     CHECK(unfinished(folder).empty());
 }

@@ -195,7 +195,7 @@ TEST_CASE("a run writes its requested files, the same every time, without a vali
     CHECK(text_of(folder / "0.obj") == text_of(folder / "1.obj"));
 }
 
-TEST_CASE("a point cache holds every frame, and each of several cloths gets a file")
+TEST_CASE("a point cache holds the start and every frame, and each of several cloths gets a file")
 {
     const TestFolder folder;
     const std::string two =
@@ -209,8 +209,8 @@ TEST_CASE("a point cache holds every frame, and each of several cloths gets a fi
                                (folder / "c.pc2").string());
     CAPTURE(run.errors);
     REQUIRE(run.exit_code == 0);
-    CHECK(fs::file_size(folder / "c_a.pc2") == 32 + 7 * 8 * 8 * 12);
-    CHECK(fs::file_size(folder / "c_b.pc2") == 32 + 7 * 5 * 4 * 12);
+    CHECK(fs::file_size(folder / "c_a.pc2") == 32 + 8 * 8 * 8 * 12);
+    CHECK(fs::file_size(folder / "c_b.pc2") == 32 + 8 * 5 * 4 * 12);
 }
 
 TEST_CASE("devices are listed with index, name and driver")
