@@ -39,6 +39,7 @@ voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, double
     outputs.folder_ = options.out;
     outputs.every_ = options.every;
     outputs.film_path_ = options.video;
+    outputs.png_.resize(app.slots());
     if (options.out)
     {
         if (auto made = make_folder(*options.out); !made)
@@ -56,41 +57,60 @@ voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, double
     return outputs;
 }
 
-bool FrameOutputs::wants_picture(const voile::engine::FrameInfo& frame) const
+bool FrameOutputs::wants_png(const voile::engine::FrameInfo& frame) const
 {
-    return film_ || (folder_ && frame.index % every_ == 0);
+    return folder_ && (frame.index % every_ == 0 || next_is_last_);
 }
 
-void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) const
+bool FrameOutputs::wants_picture(const voile::engine::FrameInfo& frame) const
 {
+    return film_ || wants_png(frame);
+}
+
+void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
+{
+    png_[frame.slot] = wants_png(frame);
     if (wants_picture(frame))
         pictures_->record(cmd, app_->renderer().color(), frame.slot);
 }
 
+voile::Result<void> FrameOutputs::save(uint64_t frame, const voile::engine::Picture& picture)
+{
+    if (auto saved = voile::engine::save_png(*folder_ / picture_name(frame), picture); !saved)
+        return saved;
+    ++pictures_written_;
+    last_saved_ = true;
+    return {};
+}
+
 voile::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& frame)
 {
-    if (wants_picture(frame))
-    {
-        const voile::engine::Picture picture = pictures_->picture(frame.slot);
-        if (folder_ && frame.index % every_ == 0)
-        {
-            if (auto saved = voile::engine::save_png(*folder_ / picture_name(frame.index), picture); !saved)
-                return saved;
-            ++pictures_written_;
-        }
-        if (film_)
-        {
-            if (auto added = film_->add(picture.rgba); !added)
-                return added;
-        }
-    }
-    return {};
+    last_ = frame.index;
+    last_saved_ = false;
+    if (png_[frame.slot])
+        if (auto saved = save(frame.index, pictures_->picture(frame.slot)); !saved)
+            return saved;
+    return film_ ? film_->add(pictures_->picture(frame.slot).rgba) : voile::Result<void>();
+}
+
+// The renderer still has the picture of the last frame that it drew, and in a window it draws every frame.
+voile::Result<void> FrameOutputs::save_last()
+{
+    voile::engine::FrameRing ring(app_->device(), 1);
+    const voile::engine::FrameRing::Frame frame = ring.begin();
+    pictures_->record(frame.cmd, app_->renderer().color(), 0);
+    ring.submit(frame);
+    ring.wait_all();
+    return save(*last_, pictures_->picture(0));
 }
 
 void FrameOutputs::finish(Outcome& outcome)
 {
-    if (folder_ && pictures_written_ > 0)
-        outcome.add({}, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
+    voile::Result<void> saved;
+    if (folder_ && last_ && !last_saved_ && app_->has_window())
+        saved = save_last();
+    if (folder_ && (pictures_written_ > 0 || !saved))
+        outcome.add(saved, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
     if (film_)
         outcome.add(film_->finish(), written_name(*film_path_));
 }

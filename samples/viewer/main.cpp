@@ -25,6 +25,7 @@ using namespace viewer;
 constexpr int k_done = 0;
 constexpr int k_failed = 1;
 constexpr int k_invalid = 2; // validation messages, or values that are not finite
+constexpr int k_interrupted = 130;
 
 void print_devices()
 {
@@ -83,7 +84,7 @@ struct Outputs
 
 // Returns the simulated time, s.
 double run_frames(voile::engine::App& app, Stage& stage, Outputs& outputs, RunStatistics& statistics,
-                  voile::engine::Capture* capture, const Options& options)
+                  voile::engine::Capture* capture, const voile::engine::EarlyFinish& early, const Options& options)
 {
     double seconds = 0;
     app.draws = [&](const voile::engine::FrameInfo& frame)
@@ -106,8 +107,12 @@ double run_frames(voile::engine::App& app, Stage& stage, Outputs& outputs, RunSt
     std::optional<Progress> progress;
     if (!app.has_window())
         progress.emplace(frames);
-    for (uint32_t i = 0; i < frames; ++i)
+    bool last = false;
+    for (uint32_t i = 0; i < frames && !last; ++i)
     {
+        last = early.requested() || i + 1 == frames;
+        if (last && !app.has_window())
+            outputs.pictures.announce_last();
         if (!run_frame(app, i, capture, options))
             break;
         softening.check(stage, app.time_step());
@@ -200,7 +205,8 @@ int run_scene(const Options& options)
                     voile::engine::take(AnimationExports::create(app, stage, exported, scene, options))};
     RunStatistics measured;
     const voile::engine::IdleGuard idle(app.device());
-    const double seconds = run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
+    const voile::engine::EarlyFinish early;
+    const double seconds = run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, early, options);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
@@ -219,7 +225,8 @@ int run_scene(const Options& options)
         std::printf("wrote %s\n", line.c_str());
     if (outcome.failure)
         throw voile::engine::StartupError(outcome.failure->message);
-    return exit_code(app, statistics);
+    const int code = exit_code(app, statistics);
+    return early.requested() ? k_interrupted : code;
 }
 
 int run(int count, char** arguments)
@@ -246,7 +253,11 @@ int main(int count, char** arguments)
     try
     {
         voile::engine::end_cleanly_on_signals("viewer");
-        return run(count, arguments);
+        const int code = run(count, arguments);
+        if (code != k_interrupted)
+            return code;
+        (void)std::fflush(nullptr);
+        voile::engine::end_by_interrupt();
     }
     catch (const std::bad_alloc&)
     {

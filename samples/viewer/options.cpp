@@ -50,6 +50,7 @@ constexpr const char* k_description = "Simulates cloth on the GPU and shows it, 
 
 constexpr const char* k_footer = R"(
 Exit codes: 0 done; 1 bad input or no device; 2 validation messages, or values that are not finite.
+Ctrl-C finishes all files with the frames so far; a second one ends at once.
 
 Examples:
   viewer                                              the reference scene in a window
