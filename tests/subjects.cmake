@@ -43,6 +43,23 @@ if(EXISTS /usr/bin/python3)
     set_tests_properties("capture: the frame in RenderDoc" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 endif()
 
+# Baked scenes, read by other programs. VOILE_USD_PYTHON: one that has the package usd-core.
+set(VOILE_USD_PYTHON /usr/bin/python3 CACHE FILEPATH "A Python with the package usd-core, for the test of USD files")
+if(EXISTS ${VOILE_USD_PYTHON})
+    add_test(NAME "bake: USD, OBJ and PC2 agree"
+             COMMAND ${VOILE_USD_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_usd.py $<TARGET_FILE:viewer>)
+    set_tests_properties("bake: USD, OBJ and PC2 agree" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+endif()
+find_program(BLENDER blender)
+if(BLENDER)
+    add_test(NAME "bake: Blender reads OBJ and PC2"
+             COMMAND ${BLENDER} --background --factory-startup --python-exit-code 1
+                     --python ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_blender.py -- $<TARGET_FILE:viewer>)
+else()
+    add_test(NAME "bake: Blender reads OBJ and PC2" COMMAND ${CMAKE_COMMAND} -E echo "skipped: Blender is not installed")
+endif()
+set_tests_properties("bake: Blender reads OBJ and PC2" PROPERTIES SKIP_REGULAR_EXPRESSION "^skipped:" TIMEOUT 120)
+
 # A window with its swapchain, if there is a virtual display.
 find_program(XVFB_RUN xvfb-run)
 if(XVFB_RUN)
