@@ -32,11 +32,10 @@ if ! $headless; then
   exec "$viewer" "$scene" ${arguments[@]+"${arguments[@]}"}
 fi
 
-out=out/demo
-mkdir -p "$out"
-rm -f "$out"/frame_*.png
 given() { [[ " ${arguments[*]-} " == *" $1 "* || " ${arguments[*]-}" == *" $1="* ]]; }
 files=()
+out=out/demo
+given --out && given --stats && given --video || mkdir -p "$out"
 given --out || files+=(--out "$out")
 given --every || files+=(--every 10)
 given --stats || files+=(--stats "$out/statistics.json")
@@ -47,4 +46,8 @@ elif command -v ffmpeg >/dev/null 2>&1; then
 else
   echo 'demo: no ffmpeg, so no film' >&2
 fi
-exec "$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}
+started=$(mktemp)
+trap 'rm -f "$started"' EXIT
+"$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}
+# Pictures of an earlier run are deleted once there are new ones.
+given --out || find "$out" -maxdepth 1 -name 'frame_*.png' ! -newer "$started" -delete

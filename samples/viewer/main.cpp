@@ -159,10 +159,10 @@ void add_verification(const Verification& verification, const PairCounts& pairs,
 {
     StatisticsSummary& summary = statistics.summary;
     summary.verified = true;
-    summary.penetrating_vertices = verification.penetrating_vertices;
-    summary.deepest_penetration = verification.deepest_penetration;
     summary.self_intersections = verification.self_intersections;
-    summary.intersections = pairs;
+    summary.last.penetrating_vertices = verification.penetrating_vertices;
+    summary.last.deepest_penetration = verification.deepest_penetration;
+    summary.last.intersections = pairs;
     std::printf("verified: %llu penetrating vertices, deepest %.3g mm, %llu self-intersections\n",
                 static_cast<unsigned long long>(verification.penetrating_vertices),
                 1000 * verification.deepest_penetration,
@@ -174,7 +174,7 @@ int exit_code(voile::engine::App& app, const Statistics& statistics)
     const uint32_t messages = app.device().validation().count();
     if (messages > 0)
         std::fprintf(stderr, "viewer: %u validation messages\n", messages);
-    const uint64_t broken = statistics.summary.nan_vertices.value_or(0);
+    const uint64_t broken = statistics.summary.last.nan_vertices.value_or(0);
     if (broken > 0)
         std::fprintf(stderr, "viewer: %llu vertices are not finite\n", static_cast<unsigned long long>(broken));
     return messages > 0 || broken > 0 ? k_invalid : k_done;
@@ -218,7 +218,7 @@ int run_scene(const Options& options)
     if (options.verify)
         add_verification(voile::engine::take(verify(stage, solids, state)),
                          pair_counts(count_intersections(app.device(), stage)), statistics);
-    print_intersections(statistics.summary.intersections);
+    print_intersections(statistics.summary.last.intersections);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
     for (const std::string& line : outcome.written)

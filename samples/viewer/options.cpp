@@ -222,7 +222,8 @@ void convert_exports(Converter& convert, const std::vector<std::string>& values,
         const std::string extension = lower_extension(value);
         const auto format = std::ranges::find_if(k_formats, [&](const auto& f) { return extension == f.first; });
         if (format == std::end(k_formats))
-            convert.fail("--export", path_in_quotes(value) + " does not end in .obj, .ply, .pc2 or .usda");
+            convert.fail("--export", path_in_quotes(value) + " does not end in .obj, .ply, .pc2 or .usda" +
+                                         suggestion(extension, {".obj", ".ply", ".pc2", ".usda"}));
         else
             options.exports.push_back({value, format->second});
     }
@@ -264,8 +265,9 @@ void convert_debug(Converter& convert, const std::vector<std::string>& values, D
         else if (value.starts_with(boxes))
             debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
         else
-            convert.fail("--debug",
-                         in_quotes(value) + " is not boxes, boxes:LEVEL, contacts, normals or intersections");
+            convert.fail("--debug", in_quotes(value) +
+                                        " is not boxes, boxes:LEVEL, contacts, normals or intersections" +
+                                        suggestion(value, {"boxes", "contacts", "normals", "intersections"}));
     }
 }
 

@@ -153,17 +153,9 @@ Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, con
         summary.gpu_pass_ms.emplace_back(series.name, median(series.milliseconds));
     if (frames_.empty())
         return result;
-    const FrameStatistics& last = frames_.back();
-    summary.max_stretch = last.max_stretch;
-    summary.mean_stretch = last.mean_stretch;
-    summary.kinetic_energy = last.kinetic_energy;
-    summary.penetrating_vertices = last.penetrating_vertices;
-    summary.deepest_penetration = last.deepest_penetration;
-    summary.intersections = last.intersections;
-    summary.nan_vertices = last.nan_vertices;
-    summary.contacts = last.contacts;
-    summary.candidates = last.candidates;
-    summary.contact_overflows = last.contact_overflows;
+    summary.last = frames_.back();
+    for (const FrameStatistics& frame : frames_)
+        summary.maxima = larger_of(summary.maxima, frame);
     return result;
 }
 

@@ -209,7 +209,10 @@ TEST_CASE("--debug accepts every mode")
     CHECK_FALSE(level.value().debug.contacts);
     CHECK(level.value().scene == "drape");
     CHECK(message({"--debug", "boxen"}) ==
-          "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections");
+          "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections; did you mean "
+          "\"boxes\"?");
+    CHECK(message({"--export", "a.objj"}) ==
+          "--export: \"a.objj\" does not end in .obj, .ply, .pc2 or .usda; did you mean \".obj\"?");
     CHECK(message({"--debug", "boxes:49"}) == "--debug boxes: \"49\" is not within 0 to 48");
     CHECK(message({"--debug", "boxes:"}) == "--debug boxes: the value is empty");
     CHECK(message({"--debug", "boxes:deep"}) == "--debug boxes: \"deep\" is not a whole number");

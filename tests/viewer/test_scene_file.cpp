@@ -253,6 +253,8 @@ TEST_CASE("scenes are found by path, then by name")
     const auto unknown = viewer::find_scene("curtain", folders);
     REQUIRE_FALSE(unknown);
     CHECK(unknown.error().message == "scene \"curtain\" is unknown; the scenes that ship are drape, flag");
+    CHECK(viewer::find_scene("drap", folders).error().message ==
+          "scene \"drap\" is unknown; the scenes that ship are drape, flag; did you mean \"drape\"?");
     const auto missing = viewer::find_scene("some/where.json", folders);
     REQUIRE_FALSE(missing);
     CHECK(missing.error().message == "some/where.json: the file does not exist; the scenes that ship are drape, flag");
