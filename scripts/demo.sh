@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and shows the reference scene: in a window if there is a display, else as a film,
-# pictures and statistics of its first 5 seconds in out/demo.
+# pictures and statistics of its first 3 seconds in out/demo.
 #
 #   scripts/demo.sh                    the window, or the film without a display
 #   scripts/demo.sh --headless         the film
@@ -37,6 +37,7 @@ files=()
 out=out/demo
 given --out && given --stats && given --video || mkdir -p "$out"
 given --out || files+=(--out "$out")
+given --frames || files+=(--frames 180)
 given --every || files+=(--every 10)
 given --stats || files+=(--stats "$out/statistics.json")
 if given --video; then
