@@ -59,7 +59,7 @@ TEST_CASE("exports hold the start, every frame and the end, of cloths and collid
     const Run start = run_viewer(scene + "--frames 0" + to("start.obj") + to("start.pc2") + to("start.usda"));
     CAPTURE(start.errors);
     REQUIRE(start.exit_code == 0);
-    const Run end = run_viewer(scene + "--frames 6" + to("end.obj") + to("run.pc2") + to("end.ply") + to("run.usda"));
+    const Run end = run_viewer(scene + "--frames 7" + to("end.obj") + to("run.pc2") + to("end.ply") + to("run.usda"));
     CAPTURE(end.errors);
     REQUIRE(end.exit_code == 0);
     for (const std::string name : {"grid", "patch", "box", "rise__d"})
@@ -67,7 +67,7 @@ TEST_CASE("exports hold the start, every frame and the end, of cloths and collid
         CAPTURE(name);
         const std::string file = "_" + name;
         const std::vector<Sample> samples = samples_of(folder.read("run" + file + ".pc2"));
-        REQUIRE(samples.size() == 7);
+        REQUIRE(samples.size() == 8);
         CHECK(samples.front() == positions_of(folder / ("start" + file + ".obj")));
         CHECK(samples.back() == positions_of(folder / ("end" + file + ".obj")));
         CHECK(samples.back() == positions_of(folder / ("end" + file + ".ply")));
@@ -75,12 +75,12 @@ TEST_CASE("exports hold the start, every frame and the end, of cloths and collid
         CHECK(samples_of(folder.read("start" + file + ".pc2")) == std::vector<Sample>{samples.front()});
         CHECK(folder.read("run" + file + ".pc2.json")
                   .starts_with("{\"frames_per_second\": 30, \"start_frame\": 0, "
-                               "\"samples\": 7, "));
+                               "\"samples\": 8, "));
     }
-    // Where they are after 6 frames of 1/30 s.
+    // Where they are after 7 frames of 1/30 s.
     CHECK(positions_of(folder / "end_box.obj")[0].x - positions_of(folder / "start_box.obj")[0].x ==
-          doctest::Approx(0.6f));
-    CHECK(positions_of(folder / "end_rise__d.obj")[0].y == doctest::Approx(0.6f));
+          doctest::Approx(0.7f));
+    CHECK(positions_of(folder / "end_rise__d.obj")[0].y == doctest::Approx(0.7f));
     CHECK(std::filesystem::exists(folder / "end_plane.obj"));
     CHECK_FALSE(std::filesystem::exists(folder / "run_plane.pc2")); // it stays
     // One prim per cloth and collider, with a sample per frame where something moves.
@@ -94,10 +94,10 @@ TEST_CASE("exports hold the start, every frame and the end, of cloths and collid
             ++found;
         return found;
     };
-    CHECK(count("\n            6: ") == 10); // points, extents and normals of three meshes, and a pose
-    CHECK(count("\n            7: ") == 0);
+    CHECK(count("\n            7: ") == 10); // points, extents and normals of three meshes, and a pose
+    CHECK(count("\n            8: ") == 0);
     CHECK(usd.find("timeCodesPerSecond = 30\n") != std::string::npos);
-    CHECK(usd.find("endTimeCode = 6\n") != std::string::npos);
+    CHECK(usd.find("endTimeCode = 7\n") != std::string::npos);
 }
 
 TEST_CASE("quads, normals and the texture coordinates of a mesh come out as they went in")
