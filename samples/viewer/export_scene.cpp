@@ -67,7 +67,7 @@ ExportObject solid_object(const Solid& solid, size_t number, float extent)
 } // namespace
 
 ExportScene::ExportScene(const Stage& stage, const std::vector<Solid>& solids, const std::vector<FinalCloth>& start,
-                         float extent)
+                         float extent, const Options& options)
     : solids_(solids)
 {
     for (size_t i = 0; i < stage.cloths.size(); ++i)
@@ -82,7 +82,10 @@ ExportScene::ExportScene(const Stage& stage, const std::vector<Solid>& solids, c
             object.surface.normals = start[i].normals;
         }
     }
-    for (size_t i = 0; i < solids.size(); ++i)
+    const bool with_solids =
+        options.export_colliders || std::ranges::any_of(options.exports, [](const ExportTarget& target)
+                                                        { return target.format == ExportFormat::usd; });
+    for (size_t i = 0; with_solids && i < solids.size(); ++i)
         objects_.push_back(solid_object(solids[i], i, extent));
 }
 

@@ -17,14 +17,14 @@ struct ExportObject
     std::optional<size_t> solid{}; // its number; a cloth has none
 };
 
-// The cloths, then the solids. Formula shapes become meshes, a plane a large square.
+// The cloths, then the solids if any export has them. Formula shapes become meshes, a plane a large square.
 class ExportScene
 {
 public:
     // `start`: the state before the first step; empty if only surfaces() is called. `extent`: m, of the scene. The
     // solids are borrowed.
     ExportScene(const Stage& stage, const std::vector<Solid>& solids, const std::vector<FinalCloth>& start,
-                float extent);
+                float extent, const Options& options);
 
     [[nodiscard]] const std::vector<ExportObject>& objects() const { return objects_; }
 

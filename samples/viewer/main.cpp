@@ -200,7 +200,7 @@ int run_scene(const Options& options)
         std::ranges::any_of(options.exports, [](const ExportTarget& target) { return is_animation(target.format); });
     const ExportScene exported(stage, solids,
                                animated ? download_state(app.device(), stage) : std::vector<FinalCloth>{},
-                               2 * app.scene().focus_radius);
+                               2 * app.scene().focus_radius, options);
     Outputs outputs{voile::engine::take(FrameOutputs::create(app, static_cast<double>(scene.step.rate), options)),
                     voile::engine::take(AnimationExports::create(app, stage, exported, scene, options))};
     RunStatistics measured;
