@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and shows the reference scene: in a window if there is a display, else as a film,
-# pictures and statistics of its first 5 seconds in out/demo.
+# pictures and statistics of its first 3 seconds in out/demo.
 #
 #   scripts/demo.sh                    the window, or the film without a display
 #   scripts/demo.sh --headless         the film
@@ -32,12 +32,12 @@ if ! $headless; then
   exec "$viewer" "$scene" ${arguments[@]+"${arguments[@]}"}
 fi
 
-out=out/demo
-mkdir -p "$out"
-rm -f "$out"/frame_*.png
 given() { [[ " ${arguments[*]-} " == *" $1 "* || " ${arguments[*]-}" == *" $1="* ]]; }
 files=()
+out=out/demo
+given --out && given --stats && given --video || mkdir -p "$out"
 given --out || files+=(--out "$out")
+given --frames || files+=(--frames 180)
 given --every || files+=(--every 10)
 given --stats || files+=(--stats "$out/statistics.json")
 if given --video; then
@@ -47,4 +47,8 @@ elif command -v ffmpeg >/dev/null 2>&1; then
 else
   echo 'demo: no ffmpeg, so no film' >&2
 fi
-exec "$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}
+started=$(mktemp)
+trap 'rm -f "$started"' EXIT
+"$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}
+# Pictures of an earlier run are deleted once there are new ones.
+given --out || find "$out" -maxdepth 1 -name 'frame_*.png' ! -newer "$started" -delete

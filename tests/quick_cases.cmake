@@ -148,9 +148,10 @@ quick(test_viewer
     "options that cannot be used are named"
     "a run without Vulkan prints one line that says so"
     "validation messages make the exit code 2"
-    "a point cache holds every frame, and each of several cloths gets a file"
+    "a point cache holds the start and every frame, and each of several cloths gets a file"
     "a scene of meshes, moving pins, tethers and gusts runs, and irregularities of a mesh are reported"
     "a run without frames has the state of the start"
+    "exports hold the start, every frame and the end, of cloths and colliders"
     "the jelly scene runs at a coarse resolution, and its cloth stays outside")
 quick(test_viewer_parts)
 

@@ -12,14 +12,14 @@ voile_add_test(test_self_collision SOURCES pairs/test_self_collision.cpp pairs/t
 voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SOURCE_DIR}/shaders/cloth SHADERS ../../tests/colliders/visit_padded.comp)
 voile_add_test(test_integration SOURCES integration/test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
-    SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_scene_syntax.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_statistics_file.cpp
+    SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_scene_syntax.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_usd.cpp viewer/test_statistics_file.cpp
             viewer/test_film.cpp viewer/test_looks.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES viewer/test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
 voile_add_test(test_viewer
                SOURCES viewer/test_viewer.cpp viewer/test_viewer_solids.cpp viewer/test_viewer_frames.cpp viewer/test_viewer_inputs.cpp
-                       viewer/test_signals.cpp viewer/test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
+                       viewer/test_signals.cpp viewer/test_viewer_exports.cpp viewer/test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
                LIBRARIES voile_viewer_parts voile_scene_meshes voile::cloth_component)
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES statistics/test_statistics.cpp LIBRARIES voile::cloth voile::engine)
@@ -42,6 +42,23 @@ if(EXISTS /usr/bin/python3)
              COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_capture.py $<TARGET_FILE:viewer> reference)
     set_tests_properties("capture: the frame in RenderDoc" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
 endif()
+
+# Baked scenes, read by other programs. VOILE_USD_PYTHON: one that has the package usd-core.
+set(VOILE_USD_PYTHON /usr/bin/python3 CACHE FILEPATH "A Python with the package usd-core, for the test of USD files")
+if(EXISTS ${VOILE_USD_PYTHON})
+    add_test(NAME "bake: USD, OBJ and PC2 agree"
+             COMMAND ${VOILE_USD_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_usd.py $<TARGET_FILE:viewer>)
+    set_tests_properties("bake: USD, OBJ and PC2 agree" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+endif()
+find_program(BLENDER blender)
+if(BLENDER)
+    add_test(NAME "bake: Blender reads OBJ and PC2"
+             COMMAND ${BLENDER} --background --factory-startup --python-exit-code 1
+                     --python ${CMAKE_CURRENT_SOURCE_DIR}/viewer/check_blender.py -- $<TARGET_FILE:viewer>)
+else()
+    add_test(NAME "bake: Blender reads OBJ and PC2" COMMAND ${CMAKE_COMMAND} -E echo "skipped: Blender is not installed")
+endif()
+set_tests_properties("bake: Blender reads OBJ and PC2" PROPERTIES SKIP_REGULAR_EXPRESSION "^skipped:" TIMEOUT 120)
 
 # A window with its swapchain, if there is a virtual display.
 find_program(XVFB_RUN xvfb-run)

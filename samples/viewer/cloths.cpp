@@ -7,6 +7,7 @@
 #include "voile/engine/assets/load_mesh.hpp"
 #include "voile/engine/assets/words.hpp"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -15,11 +16,11 @@ namespace viewer
 namespace
 {
 
-// What pins refer to.
-struct Vertices
+// A cloth before the first step.
+struct Start
 {
-    std::vector<glm::vec3> start; // m
-    uint32_t columns = 0;         // of a grid; 0: a mesh
+    Surface surface;
+    uint32_t columns = 0; // of a grid, which pins refer to; 0: a mesh
     uint32_t rows = 0;
 };
 
@@ -37,43 +38,43 @@ std::vector<glm::vec3> grid_positions(const voile::GridCloth& grid)
     return positions;
 }
 
-uint32_t corner_vertex(const Vertices& vertices, uint32_t corner)
+uint32_t corner_vertex(const Start& start, uint32_t corner)
 {
-    const uint32_t row = corner < 2 ? 0 : vertices.rows - 1;
-    const uint32_t column = corner % 2 == 0 ? 0 : vertices.columns - 1;
-    return row * vertices.columns + column;
+    const uint32_t row = corner < 2 ? 0 : start.rows - 1;
+    const uint32_t column = corner % 2 == 0 ? 0 : start.columns - 1;
+    return row * start.columns + column;
 }
 
-std::vector<uint32_t> edge_vertices(const Vertices& vertices, Edge edge)
+std::vector<uint32_t> edge_vertices(const Start& start, Edge edge)
 {
     const bool along_row = edge == Edge::top || edge == Edge::bottom;
-    const uint32_t count = along_row ? vertices.columns : vertices.rows;
-    const uint32_t line = edge == Edge::bottom ? vertices.rows - 1 : edge == Edge::right ? vertices.columns - 1 : 0;
+    const uint32_t count = along_row ? start.columns : start.rows;
+    const uint32_t line = edge == Edge::bottom ? start.rows - 1 : edge == Edge::right ? start.columns - 1 : 0;
     std::vector<uint32_t> result;
     for (uint32_t i = 0; i < count; ++i)
-        result.push_back(along_row ? line * vertices.columns + i : i * vertices.columns + line);
+        result.push_back(along_row ? line * start.columns + i : i * start.columns + line);
     return result;
 }
 
-std::vector<uint32_t> box_vertices(const Vertices& vertices, const BoxPin& box)
+std::vector<uint32_t> box_vertices(const Start& start, const BoxPin& box)
 {
     std::vector<uint32_t> result;
-    for (uint32_t i = 0; i < vertices.start.size(); ++i)
-        if (glm::all(glm::greaterThanEqual(vertices.start[i], box.min)) &&
-            glm::all(glm::lessThanEqual(vertices.start[i], box.max)))
+    for (uint32_t i = 0; i < start.surface.positions.size(); ++i)
+        if (glm::all(glm::greaterThanEqual(start.surface.positions[i], box.min)) &&
+            glm::all(glm::lessThanEqual(start.surface.positions[i], box.max)))
             result.push_back(i);
     return result;
 }
 
-std::vector<uint32_t> pinned_vertices(const Vertices& vertices, const PinEntry& pin)
+std::vector<uint32_t> pinned_vertices(const Start& start, const PinEntry& pin)
 {
     if (const auto* corner = std::get_if<CornerPin>(&pin.at))
-        return {corner_vertex(vertices, corner->corner)};
+        return {corner_vertex(start, corner->corner)};
     if (const auto* edge = std::get_if<EdgePin>(&pin.at))
-        return edge_vertices(vertices, edge->edge);
+        return edge_vertices(start, edge->edge);
     if (const auto* vertex = std::get_if<VertexPin>(&pin.at))
         return {vertex->vertex};
-    return box_vertices(vertices, std::get<BoxPin>(pin.at));
+    return box_vertices(start, std::get<BoxPin>(pin.at));
 }
 
 // What a pin of the scene does to a vertex: a pin, or a spring and a maximum distance.
@@ -86,8 +87,8 @@ voile::Attachment make_attachment(const PinEntry& entry, uint32_t vertex)
 }
 
 // The attachments of all pins; where two pins name a vertex, the later one counts.
-voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                             const Vertices& vertices, AddedCloth& added)
+voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry, const Start& start,
+                             AddedCloth& added)
 {
     std::map<uint32_t, voile::Attachment> attached;
     for (const PinEntry& pin : entry.pins)
@@ -101,20 +102,20 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
             anchor = id.value();
             added.moving_pins.push_back({id.value(), *pin.motion});
         }
-        const std::vector<uint32_t> pinned = pinned_vertices(vertices, pin);
+        const std::vector<uint32_t> pinned = pinned_vertices(start, pin);
         if (pinned.empty())
             return error_at(scene, pin.location,
                             "cloth " + in_quotes(entry.name) + ": no vertex lies in the pin's box");
         for (const uint32_t vertex : pinned)
         {
-            if (vertex >= vertices.start.size())
+            if (vertex >= start.surface.positions.size())
                 return error_at(scene, pin.location,
                                 "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
-                                    ", but it has " + std::to_string(vertices.start.size()) + " vertices");
+                                    ", but it has " + std::to_string(start.surface.positions.size()) + " vertices");
             voile::Attachment attachment = make_attachment(pin, vertex);
             if (anchor) // relative to the anchor, which is at its pose of time 0
                 attachment = attachment.to(*anchor).at(
-                    glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(vertices.start[vertex], 1)));
+                    glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(start.surface.positions[vertex], 1)));
             attached[vertex] = attachment;
         }
     }
@@ -131,7 +132,7 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
 }
 
 voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                       const GridEntry& form, const Options& options, Vertices& vertices)
+                                       const GridEntry& form, const Options& options, Start& start)
 {
     voile::GridCloth grid;
     grid.name = entry.name;
@@ -143,15 +144,72 @@ voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& s
     grid.velocity = entry.velocity;
     grid.layers = entry.layers;
     grid.integrator = entry.integrator;
+    grid.self_collision = entry.self_collision;
     auto material = make_cloth_material(
         scene, entry.material,
         glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
     if (!material)
         return material.error();
     grid.material = material.value();
-    vertices = {grid_positions(grid), grid.columns, grid.rows};
+    start.surface.positions = grid_positions(grid);
+    start.surface.faces = grid_faces(grid.columns, grid.rows);
+    start.surface.texture_coordinates = grid_texture_coordinates(grid.columns, grid.rows);
+    start.columns = grid.columns;
+    start.rows = grid.rows;
     auto id = solver.add_cloth(grid);
     return id ? id : error_at(scene, entry.location, id.error().message);
+}
+
+bool has_seams(const voile::engine::Mesh& mesh)
+{
+    const voile::engine::TextureMap& map = mesh.texture_map;
+    for (size_t i = 0; i < map.triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner)
+            if (map.coordinates[map.triangles[i][corner]] != mesh.texture_coordinates[mesh.triangles[i][corner]])
+                return true;
+    return false;
+}
+
+Surface mesh_surface(const voile::engine::Mesh& mesh, const glm::mat4& transform)
+{
+    Surface surface;
+    for (const glm::vec3& p : mesh.positions)
+        surface.positions.emplace_back(transform * glm::vec4(p, 1));
+    surface.faces = triangle_faces(mesh.triangles);
+    if (mesh.texture_map.triangles.empty())
+        return surface;
+    const bool seams = has_seams(mesh);
+    surface.texture_coordinates = seams ? mesh.texture_map.coordinates : mesh.texture_coordinates;
+    if (seams)
+        surface.faces.texture_indices = triangle_faces(mesh.texture_map.triangles).indices;
+    return surface;
+}
+
+// The texture coordinates in meters: scaled by one factor, so that the areas of all triangles together agree. None if
+// there are seams, across which the warp would jump within a triangle.
+std::vector<glm::vec2> fabric_coordinates(const Surface& surface)
+{
+    const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+    if (!surface.faces.texture_indices.empty() || surface.texture_coordinates.empty())
+        return {};
+    double area = 0;         // twice that of the surface
+    double texture_area = 0; // twice that of its coordinates
+    for (size_t i = 0; i < surface.faces.indices.size(); i += 3)
+    {
+        const uint32_t* t = &surface.faces.indices[i];
+        const auto position = [&](int corner) { return glm::dvec3(surface.positions[t[corner]]); };
+        const auto texture = [&](int corner) { return glm::dvec2(surface.texture_coordinates[t[corner]]); };
+        area += glm::length(glm::cross(position(1) - position(0), position(2) - position(0)));
+        texture_area += std::abs(cross(texture(1) - texture(0), texture(2) - texture(0)));
+    }
+    if (!(texture_area > 0))
+        return {};
+    const auto scale = static_cast<float>(std::sqrt(area / texture_area));
+    std::vector<glm::vec2> coordinates;
+    coordinates.reserve(surface.texture_coordinates.size());
+    for (const glm::vec2& uv : surface.texture_coordinates)
+        coordinates.push_back(scale * uv);
+    return coordinates;
 }
 
 void note_irregularities(const voile::MeshReport& report, const std::string& name)
@@ -172,7 +230,7 @@ void note_irregularities(const voile::MeshReport& report, const std::string& nam
 }
 
 voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                       const std::filesystem::path& file, Vertices& vertices)
+                                       const std::filesystem::path& file, Start& start)
 {
     voile::engine::MeshReport changes;
     auto loaded = voile::engine::load_mesh(file, &changes, voile::engine::MeshVertices::positions);
@@ -190,9 +248,11 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
     cloth.velocity = entry.velocity;
     cloth.layers = entry.layers;
     cloth.integrator = entry.integrator;
+    cloth.self_collision = entry.self_collision;
     cloth.material = material.value();
-    for (const glm::vec3& p : mesh.positions)
-        vertices.start.emplace_back(cloth.transform * glm::vec4(p, 1));
+    start.surface = mesh_surface(mesh, cloth.transform);
+    const std::vector<glm::vec2> coordinates = fabric_coordinates(start.surface);
+    cloth.texture_coordinates = coordinates;
     auto id = solver.add_cloth(cloth);
     if (!id)
         return error_at(scene, entry.location, voile::engine::path_text(file) + ": " + id.error().message);
@@ -207,17 +267,17 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
 voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
                                     const Options& options)
 {
-    Vertices vertices;
+    Start start;
     const auto* form = std::get_if<GridEntry>(&entry.form);
-    auto id = form != nullptr ? add_grid(solver, scene, entry, *form, options, vertices)
-                              : add_mesh(solver, scene, entry, std::get<std::filesystem::path>(entry.form), vertices);
+    auto id = form != nullptr ? add_grid(solver, scene, entry, *form, options, start)
+                              : add_mesh(solver, scene, entry, std::get<std::filesystem::path>(entry.form), start);
     if (!id)
         return id.error();
     AddedCloth added;
     added.id = id.value();
-    if (auto pins = add_pins(solver, scene, entry, vertices, added); !pins)
+    if (auto pins = add_pins(solver, scene, entry, start, added); !pins)
         return pins.error();
-    added.start = std::move(vertices.start);
+    added.surface = std::move(start.surface);
     return added;
 }
 

@@ -3,6 +3,7 @@
 
 #include "samples/viewer/options.hpp"
 #include "samples/viewer/scene_file.hpp"
+#include "samples/viewer/surface.hpp"
 
 #include "voile/solver.hpp"
 
@@ -19,7 +20,7 @@ struct MovingPin
 struct AddedCloth
 {
     voile::ClothId id;
-    std::vector<glm::vec3> start; // m, where its vertices are before the first step
+    Surface surface; // before the first step, without normals
     std::vector<MovingPin> moving_pins;
 };
 

@@ -2,9 +2,6 @@
 #include "samples/viewer/frame_outputs.hpp"
 
 #include "voile/engine/assets/words.hpp"
-#include "voile/gpu/recorder.hpp"
-
-#include <cmath>
 
 namespace viewer
 {
@@ -35,15 +32,14 @@ std::filesystem::path picture_name(uint64_t frame)
 
 } // namespace
 
-voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, const Stage& stage, const SceneFile& scene,
-                                                 const Options& options)
+voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, double rate, const Options& options)
 {
     FrameOutputs outputs;
     outputs.app_ = &app;
     outputs.folder_ = options.out;
     outputs.every_ = options.every;
     outputs.film_path_ = options.video;
-    outputs.solver_ = &stage.world->solver();
+    outputs.png_.resize(app.slots());
     if (options.out)
     {
         if (auto made = make_folder(*options.out); !made)
@@ -51,120 +47,72 @@ voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, const 
     }
     if (options.video)
     {
-        auto film =
-            FilmWriter::create(*options.video, {options.width, options.height, static_cast<double>(scene.step.rate)});
+        auto film = FilmWriter::create(*options.video, {options.width, options.height, rate});
         if (!film)
             return film.error();
         outputs.film_.emplace(std::move(film.value()));
     }
     if (options.out || options.video)
         outputs.pictures_.emplace(app.device(), VkExtent2D{options.width, options.height}, app.slots());
-    if (options.export_file && options.export_format == ExportFormat::point_cache)
-    {
-        if (auto made = outputs.create_caches(app, stage, options); !made)
-            return made.error();
-    }
     return outputs;
 }
 
-voile::Result<void> FrameOutputs::create_caches(voile::engine::App& app, const Stage& stage, const Options& options)
+bool FrameOutputs::wants_png(const voile::engine::FrameInfo& frame) const
 {
-    std::vector<std::string> names;
-    for (const StageCloth& cloth : stage.cloths)
-        names.push_back(cloth.name);
-    const std::vector<std::filesystem::path> paths = export_paths(*options.export_file, names);
-    for (size_t i = 0; i < paths.size(); ++i)
-    {
-        auto writer = PointCacheWriter::create(paths[i], static_cast<uint32_t>(stage.cloths[i].start.size()));
-        if (!writer)
-            return writer.error();
-        caches_.push_back({std::move(writer.value()), paths[i], stage.cloths[i].id});
-    }
-    for (uint32_t slot = 0; slot < app.slots(); ++slot)
-    {
-        auto buffer = voile::gpu::create_buffer(app.device().context(), "positions readback",
-                                                solver_->vertex_count() * sizeof(glm::vec4),
-                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, voile::Memory::readback);
-        if (!buffer)
-            return buffer.error();
-        positions_.push_back(std::move(buffer.value()));
-    }
-    return {};
+    return folder_ && (frame.index % every_ == 0 || next_is_last_);
 }
 
 bool FrameOutputs::wants_picture(const voile::engine::FrameInfo& frame) const
 {
-    return film_ || (folder_ && frame.index % every_ == 0);
+    return film_ || wants_png(frame);
 }
 
-void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) const
+void FrameOutputs::record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
 {
+    png_[frame.slot] = wants_png(frame);
     if (wants_picture(frame))
         pictures_->record(cmd, app_->renderer().color(), frame.slot);
-    if (caches_.empty())
-        return;
-    const voile::gpu::Context& context = app_->device().context();
-    const voile::gpu::LabelScope scope(context, cmd, "positions readback");
-    const voile::VertexStreams streams = solver_->vertices(caches_.front().cloth);
-    const VkBufferCopy region{0, 0, positions_[frame.slot].size()};
-    context.fn.vkCmdCopyBuffer(cmd, streams.positions, positions_[frame.slot].handle(), 1, &region);
-    voile::gpu::Recorder(context, cmd)
-        .barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, VK_PIPELINE_STAGE_2_HOST_BIT_KHR,
-                 VK_ACCESS_2_HOST_READ_BIT_KHR);
+}
+
+voile::Result<void> FrameOutputs::save(uint64_t frame, const voile::engine::Picture& picture)
+{
+    if (auto saved = voile::engine::save_png(*folder_ / picture_name(frame), picture); !saved)
+        return saved;
+    ++pictures_written_;
+    last_saved_ = true;
+    return {};
 }
 
 voile::Result<void> FrameOutputs::write(const voile::engine::FrameInfo& frame)
 {
-    if (wants_picture(frame))
-    {
-        const voile::engine::Picture picture = pictures_->picture(frame.slot);
-        if (folder_ && frame.index % every_ == 0)
-        {
-            if (auto saved = voile::engine::save_png(*folder_ / picture_name(frame.index), picture); !saved)
-                return saved;
-            ++pictures_written_;
-        }
-        if (film_)
-        {
-            if (auto added = film_->add(picture.rgba); !added)
-                return added;
-        }
-    }
-    for (Cache& cache : caches_)
-    {
-        const voile::VertexStreams streams = solver_->vertices(cache.cloth);
-        const voile::gpu::Buffer& buffer = positions_[frame.slot];
-        buffer.invalidate();
-        const auto* values = reinterpret_cast<const glm::vec4*>(buffer.mapped().data() + streams.offset);
-        const std::vector<glm::vec3> positions(values, values + streams.vertices);
-        if (auto appended = cache.writer.append(positions); !appended)
-            return appended;
-    }
-    return {};
+    last_ = frame.index;
+    last_saved_ = false;
+    if (png_[frame.slot])
+        if (auto saved = save(frame.index, pictures_->picture(frame.slot)); !saved)
+            return saved;
+    return film_ ? film_->add(pictures_->picture(frame.slot).rgba) : voile::Result<void>();
 }
 
-void Outcome::add(const voile::Result<void>& result, std::string what)
+// The renderer still has the picture of the last frame that it drew, and in a window it draws every frame.
+voile::Result<void> FrameOutputs::save_last()
 {
-    if (result)
-        written.push_back(std::move(what));
-    else if (!failure)
-        failure = result.error();
+    voile::engine::FrameRing ring(app_->device(), 1);
+    const voile::engine::FrameRing::Frame frame = ring.begin();
+    pictures_->record(frame.cmd, app_->renderer().color(), 0);
+    ring.submit(frame);
+    ring.wait_all();
+    return save(*last_, pictures_->picture(0));
 }
 
 void FrameOutputs::finish(Outcome& outcome)
 {
-    if (folder_ && pictures_written_ > 0)
-        outcome.add({}, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
+    voile::Result<void> saved;
+    if (folder_ && last_ && !last_saved_ && app_->has_window())
+        saved = save_last();
+    if (folder_ && (pictures_written_ > 0 || !saved))
+        outcome.add(saved, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
     if (film_)
         outcome.add(film_->finish(), written_name(*film_path_));
-    for (Cache& cache : caches_)
-        outcome.add(cache.writer.finish(), written_name(cache.path));
-}
-
-std::string written_name(const std::filesystem::path& path)
-{
-    constexpr size_t k_longest = 4096; // bytes: scripts may read it, and no path is longer
-    return voile::engine::path_text(path, k_longest);
 }
 
 } // namespace viewer

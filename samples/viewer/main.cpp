@@ -1,5 +1,7 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
+#include "samples/viewer/animation_exports.hpp"
 #include "samples/viewer/debug_view.hpp"
+#include "samples/viewer/exports.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/output_check.hpp"
 #include "samples/viewer/progress.hpp"
@@ -10,6 +12,7 @@
 #include "voile/engine/gpu/capture.hpp"
 #include "voile/gpu/printable.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -22,6 +25,7 @@ using namespace viewer;
 constexpr int k_done = 0;
 constexpr int k_failed = 1;
 constexpr int k_invalid = 2; // validation messages, or values that are not finite
+constexpr int k_interrupted = 130;
 
 void print_devices()
 {
@@ -38,8 +42,8 @@ void check_targets(const Options& options)
 {
     if (options.stats)
         (void)voile::engine::take(voile::engine::AtomicFile::create(*options.stats));
-    if (options.export_file)
-        (void)voile::engine::take(voile::engine::AtomicFile::create(*options.export_file));
+    for (const ExportTarget& target : options.exports)
+        (void)voile::engine::take(voile::engine::AtomicFile::create(target.path));
 }
 
 voile::engine::AppOptions app_options(const Options& options, const SceneFile& scene)
@@ -71,16 +75,31 @@ bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* 
     return open;
 }
 
-void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
-                voile::engine::Capture* capture, const Options& options)
+// The files that grow with every frame.
+struct Outputs
 {
+    FrameOutputs pictures;
+    AnimationExports animations;
+};
+
+// Returns the simulated time, s.
+double run_frames(voile::engine::App& app, Stage& stage, Outputs& outputs, RunStatistics& statistics,
+                  voile::engine::Capture* capture, const voile::engine::EarlyFinish& early, const Options& options)
+{
+    double seconds = 0;
     app.draws = [&](const voile::engine::FrameInfo& frame)
-    { return options.stats || options.capture == frame.index || outputs.wants_picture(frame); };
-    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { outputs.record(cmd, frame); };
+    { return options.stats || options.capture == frame.index || outputs.pictures.wants_picture(frame); };
+    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
+    {
+        outputs.pictures.record(cmd, frame);
+        outputs.animations.record(cmd, frame);
+    };
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {
+        seconds = frame.time + static_cast<double>(frame.time_step);
         statistics.completed(stage, frame);
-        voile::engine::take(outputs.write(frame));
+        voile::engine::take(outputs.pictures.write(frame));
+        voile::engine::take(outputs.animations.write(frame));
     };
     const bool endless = app.has_window() && !options.frames;
     const uint32_t frames = endless ? UINT32_MAX : voile::engine::take(headless_frames(options));
@@ -88,8 +107,12 @@ void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, Ru
     std::optional<Progress> progress;
     if (!app.has_window())
         progress.emplace(frames);
-    for (uint32_t i = 0; i < frames; ++i)
+    bool last = false;
+    for (uint32_t i = 0; i < frames && !last; ++i)
     {
+        last = early.requested() || i + 1 == frames;
+        if (last && !app.has_window())
+            outputs.pictures.announce_last();
         if (!run_frame(app, i, capture, options))
             break;
         softening.check(stage, app.time_step());
@@ -100,21 +123,24 @@ void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, Ru
     app.finish();
     if (progress)
         progress->finish();
+    return seconds;
 }
 
-void export_state(const Options& options, const std::vector<FinalCloth>& state, Outcome& outcome)
+void export_states(const Options& options, std::vector<Surface> surfaces, size_t cloths, Outcome& outcome)
 {
-    if (!options.export_file || options.export_format == ExportFormat::point_cache)
-        return;
-    std::vector<ClothSurface> surfaces;
-    surfaces.reserve(state.size());
-    for (const FinalCloth& cloth : state)
-        surfaces.push_back({cloth.name, cloth.positions, cloth.normals, cloth.triangles});
-    const auto exported = export_surfaces(*options.export_file, surfaces);
-    if (!exported)
-        return outcome.add(exported.error(), "");
-    for (const auto& path : exported.value())
-        outcome.add({}, written_name(path));
+    if (!options.export_colliders)
+        surfaces.resize(cloths);
+    for (const ExportTarget& target : options.exports)
+    {
+        if (is_animation(target.format))
+            continue;
+        const auto exported = export_surfaces(target.path, surfaces);
+        if (!exported)
+            outcome.add(exported.error(), "");
+        else
+            for (const auto& path : exported.value())
+                outcome.add({}, written_name(path));
+    }
 }
 
 unsigned long long number(std::optional<uint64_t> count)
@@ -133,10 +159,10 @@ void add_verification(const Verification& verification, const PairCounts& pairs,
 {
     StatisticsSummary& summary = statistics.summary;
     summary.verified = true;
-    summary.penetrating_vertices = verification.penetrating_vertices;
-    summary.deepest_penetration = verification.deepest_penetration;
     summary.self_intersections = verification.self_intersections;
-    summary.intersections = pairs;
+    summary.last.penetrating_vertices = verification.penetrating_vertices;
+    summary.last.deepest_penetration = verification.deepest_penetration;
+    summary.last.intersections = pairs;
     std::printf("verified: %llu penetrating vertices, deepest %.3g mm, %llu self-intersections\n",
                 static_cast<unsigned long long>(verification.penetrating_vertices),
                 1000 * verification.deepest_penetration,
@@ -148,7 +174,7 @@ int exit_code(voile::engine::App& app, const Statistics& statistics)
     const uint32_t messages = app.device().validation().count();
     if (messages > 0)
         std::fprintf(stderr, "viewer: %u validation messages\n", messages);
-    const uint64_t broken = statistics.summary.nan_vertices.value_or(0);
+    const uint64_t broken = statistics.summary.last.nan_vertices.value_or(0);
     if (broken > 0)
         std::fprintf(stderr, "viewer: %llu vertices are not finite\n", static_cast<unsigned long long>(broken));
     return messages > 0 || broken > 0 ? k_invalid : k_done;
@@ -170,28 +196,37 @@ int run_scene(const Options& options)
     Stage stage = voile::engine::take(set_stage(app, scene, solids, options));
     if (options.debug.any())
         app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
-    FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, stage, scene, options));
+    const bool animated =
+        std::ranges::any_of(options.exports, [](const ExportTarget& target) { return is_animation(target.format); });
+    const ExportScene exported(stage, solids,
+                               animated ? download_state(app.device(), stage) : std::vector<FinalCloth>{},
+                               2 * app.scene().focus_radius, options);
+    Outputs outputs{voile::engine::take(FrameOutputs::create(app, static_cast<double>(scene.step.rate), options)),
+                    voile::engine::take(AnimationExports::create(app, stage, exported, scene, options))};
     RunStatistics measured;
     const voile::engine::IdleGuard idle(app.device());
-    run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
+    const voile::engine::EarlyFinish early;
+    const double seconds = run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, early, options);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
-    outputs.finish(outcome);
+    outputs.pictures.finish(outcome);
+    outputs.animations.finish(outcome);
     const std::vector<FinalCloth> state = download_state(app.device(), stage);
-    export_state(options, state, outcome);
+    export_states(options, exported.surfaces(state, seconds), state.size(), outcome);
     Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
     if (options.verify)
         add_verification(voile::engine::take(verify(stage, solids, state)),
                          pair_counts(count_intersections(app.device(), stage)), statistics);
-    print_intersections(statistics.summary.intersections);
+    print_intersections(statistics.summary.last.intersections);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
     for (const std::string& line : outcome.written)
         std::printf("wrote %s\n", line.c_str());
     if (outcome.failure)
         throw voile::engine::StartupError(outcome.failure->message);
-    return exit_code(app, statistics);
+    const int code = exit_code(app, statistics);
+    return early.requested() ? k_interrupted : code;
 }
 
 int run(int count, char** arguments)
@@ -218,7 +253,11 @@ int main(int count, char** arguments)
     try
     {
         voile::engine::end_cleanly_on_signals("viewer");
-        return run(count, arguments);
+        const int code = run(count, arguments);
+        if (code != k_interrupted)
+            return code;
+        (void)std::fflush(nullptr);
+        voile::engine::end_by_interrupt();
     }
     catch (const std::bad_alloc&)
     {

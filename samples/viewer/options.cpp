@@ -14,6 +14,7 @@
 #include <exception>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace viewer
 {
@@ -41,14 +42,15 @@ public:
 struct Typed
 {
     std::vector<std::string> scenes;
-    std::vector<std::string> frames, size, out, every, video, stats, export_file, resolution, colliders, device,
-        capture, debug;
+    std::vector<std::string> frames, size, out, every, video, stats, exports, resolution, colliders, device, capture,
+        debug;
 };
 
 constexpr const char* k_description = "Simulates cloth on the GPU and shows it, in a window or as files.";
 
 constexpr const char* k_footer = R"(
 Exit codes: 0 done; 1 bad input or no device; 2 validation messages, or values that are not finite.
+Ctrl-C finishes all files with the frames so far; a second one ends at once.
 
 Examples:
   viewer                                              the reference scene in a window
@@ -56,6 +58,7 @@ Examples:
   viewer flag --headless --frames 600 --video flag.mp4
   viewer my_scene.json --headless --stats run.json --export cloth.obj
   viewer drape --collider bunny.obj --headless --out frames --every 10
+  viewer curtains --headless --frames 240 --export curtains.usda
 )";
 
 void declare_simulation(CLI::App& app, Typed& typed, Options& options)
@@ -91,10 +94,15 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
         ->group(group);
     app.add_option("--video", typed.video, "Writes a film; needs ffmpeg")->type_name("FILE.mp4")->group(group);
     app.add_option("--stats", typed.stats, "Writes statistics")->type_name("FILE.json")->group(group);
-    app.add_option("--export", typed.export_file,
-                   "Writes the last state as OBJ or PLY, or every frame as a PC2 point cache;\n"
-                   "one file a cloth, with its name added when there are several")
-        ->type_name("FILE.obj|.ply|.pc2")
+    app.add_option("--export", typed.exports,
+                   "Writes the last state as OBJ or PLY, or the start and every frame as a PC2 point\n"
+                   "cache, one file per cloth, with its name added when there are several; or all of\n"
+                   "them with the colliders as USD; repeatable")
+        ->type_name("FILE.obj|.ply|.pc2|.usda")
+        ->group(group);
+    app.add_flag("--export-colliders", options.export_colliders,
+                 "Colliders as OBJ and PLY, too, and as PC2 those that move")
+        ->disable_flag_override()
         ->group(group);
     app.add_option("--debug", typed.debug,
                    "Draws over the picture the boxes of the meshes' hierarchies (level 4 where\n"
@@ -202,20 +210,23 @@ void convert_size(Converter& convert, const std::vector<std::string>& values, Op
     options.height = height;
 }
 
-void convert_export(Converter& convert, const std::vector<std::string>& values, Options& options)
+void convert_exports(Converter& convert, const std::vector<std::string>& values, Options& options)
 {
-    options.export_file = convert.path("--export", values);
-    if (!options.export_file)
-        return;
-    const std::string extension = lower_extension(*options.export_file);
-    if (extension == ".obj")
-        options.export_format = ExportFormat::obj;
-    else if (extension == ".ply")
-        options.export_format = ExportFormat::ply;
-    else if (extension == ".pc2")
-        options.export_format = ExportFormat::point_cache;
-    else
-        convert.fail("--export", path_in_quotes(*options.export_file) + " does not end in .obj, .ply or .pc2");
+    constexpr std::pair<const char*, ExportFormat> k_formats[] = {{".obj", ExportFormat::obj},
+                                                                  {".ply", ExportFormat::ply},
+                                                                  {".pc2", ExportFormat::point_cache},
+                                                                  {".usda", ExportFormat::usd}};
+    for (const std::string& value : values)
+    {
+        convert.check_value("--export", value);
+        const std::string extension = lower_extension(value);
+        const auto format = std::ranges::find_if(k_formats, [&](const auto& f) { return extension == f.first; });
+        if (format == std::end(k_formats))
+            convert.fail("--export", path_in_quotes(value) + " does not end in .obj, .ply, .pc2 or .usda" +
+                                         suggestion(extension, {".obj", ".ply", ".pc2", ".usda"}));
+        else
+            options.exports.push_back({value, format->second});
+    }
 }
 
 void convert_colliders(Converter& convert, const std::vector<std::string>& values, Options& options)
@@ -254,8 +265,9 @@ void convert_debug(Converter& convert, const std::vector<std::string>& values, D
         else if (value.starts_with(boxes))
             debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
         else
-            convert.fail("--debug",
-                         in_quotes(value) + " is not boxes, boxes:LEVEL, contacts, normals or intersections");
+            convert.fail("--debug", in_quotes(value) +
+                                        " is not boxes, boxes:LEVEL, contacts, normals or intersections" +
+                                        suggestion(value, {"boxes", "contacts", "normals", "intersections"}));
     }
 }
 
@@ -263,6 +275,8 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
 {
     if (!typed.every.empty() && !options.out)
         convert.fail("--every", "has no effect without --out");
+    if (options.export_colliders && options.exports.empty())
+        convert.fail("--export-colliders", "has no effect without --export");
     if (options.capture && (options.frames || options.headless))
     {
         if (const auto frames = headless_frames(options); !frames && !convert.error)
@@ -288,7 +302,7 @@ voile::Result<Options> convert_all(const Typed& typed, Options options)
     if (options.video && lower_extension(*options.video) != ".mp4")
         convert.fail("--video", path_in_quotes(*options.video) + " does not end in .mp4");
     options.stats = convert.path("--stats", typed.stats);
-    convert_export(convert, typed.export_file, options);
+    convert_exports(convert, typed.exports, options);
     options.cloth_resolution =
         convert.integer("--cloth-resolution", typed.resolution, k_least_grid_vertices, k_most_grid_vertices);
     convert_colliders(convert, typed.colliders, options);

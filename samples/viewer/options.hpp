@@ -16,9 +16,21 @@ constexpr uint32_t k_headless_frames = 300; // where --frames is not given
 
 enum class ExportFormat
 {
-    obj,
+    obj, // the last state
     ply,
-    point_cache
+    point_cache, // every frame, as the next
+    usd
+};
+
+constexpr bool is_animation(ExportFormat format)
+{
+    return format == ExportFormat::point_cache || format == ExportFormat::usd;
+}
+
+struct ExportTarget
+{
+    std::filesystem::path path;
+    ExportFormat format = ExportFormat::obj;
 };
 
 // What is drawn over the picture.
@@ -43,8 +55,8 @@ struct Options
     uint32_t every = 1;                         // PNG frames are written for 0, every, 2 every, ...
     std::optional<std::filesystem::path> video{};
     std::optional<std::filesystem::path> stats{};
-    std::optional<std::filesystem::path> export_file{};
-    ExportFormat export_format = ExportFormat::obj; // of export_file
+    std::vector<ExportTarget> exports{};
+    bool export_colliders = false;                  // as OBJ, PLY and PC2; USD always has them
     std::optional<uint32_t> cloth_resolution{};     // 2..8192
     std::vector<std::filesystem::path> colliders{}; // files that exist, .obj or .ply
     std::optional<std::string> device{};            // an index or (a part of) a name

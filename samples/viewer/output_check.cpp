@@ -1,5 +1,6 @@
 #include "samples/viewer/output_check.hpp"
 
+#include "samples/viewer/point_cache.hpp"
 #include "samples/viewer/text.hpp"
 
 #include <utility>
@@ -28,16 +29,23 @@ bool is_same_file(const fs::path& one, const fs::path& other)
 
 voile::Result<void> check(const Options& options, std::vector<UsedFile> used)
 {
-    const std::pair<const char*, const std::optional<fs::path>&> outputs[] = {
-        {"--video", options.video}, {"--stats", options.stats}, {"--export", options.export_file}};
+    std::vector<std::pair<const char*, fs::path>> outputs;
+    if (options.video)
+        outputs.emplace_back("--video", *options.video);
+    if (options.stats)
+        outputs.emplace_back("--stats", *options.stats);
+    for (const ExportTarget& target : options.exports)
+    {
+        outputs.emplace_back("--export", target.path);
+        if (target.format == ExportFormat::point_cache)
+            outputs.emplace_back("--export", sidecar_path(target.path));
+    }
     for (const auto& [name, path] : outputs)
     {
-        if (!path)
-            continue;
         for (const UsedFile& file : used)
-            if (is_same_file(*path, file.path))
-                return voile::Error{std::string(name) + ": " + path_in_quotes(*path) + " is " + file.what + ", too"};
-        used.push_back({name + std::string("'s file"), *path});
+            if (is_same_file(path, file.path))
+                return voile::Error{std::string(name) + ": " + path_in_quotes(path) + " is " + file.what + ", too"};
+        used.push_back({name + std::string("'s file"), path});
     }
     return {};
 }

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double k_redraw_seconds = 0.1;
-constexpr double k_silent_seconds = 30; // at most, where frames come
+constexpr double k_line_seconds = 10;
 constexpr uint32_t k_bar_cells = 30;
 
 double steady_seconds()
@@ -85,10 +85,8 @@ void Progress::update(uint32_t done)
         drawn_ = now;
         draw_bar(done_, now - start_);
     }
-    else if (const uint32_t tenths = parts_done(done_, frames_, 10);
-             tenths > tenths_ || now - drawn_ >= k_silent_seconds)
+    else if (now - drawn_ >= k_line_seconds)
     {
-        tenths_ = tenths;
         drawn_ = now;
         write_line(done_, now - start_);
     }

@@ -1,5 +1,4 @@
-// How far a long run is: a bar that is redrawn on a terminal, and elsewhere a plain line for every tenth of the run, or
-// after half a minute without one.
+// How far a long run is: a bar that is redrawn on a terminal, and elsewhere a plain line every ten seconds.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +41,6 @@ private:
     double start_ = 0;
     double drawn_ = 0; // when the bar or a line was written last
     uint32_t done_ = 0;
-    uint32_t tenths_ = 0;   // tenths of the run that were written
     size_t bar_length_ = 0; // characters of the line on the terminal, 0: none
 };
 

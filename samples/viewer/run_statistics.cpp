@@ -5,6 +5,7 @@
 #include "voile/engine/gpu/frames.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace viewer
 {
@@ -58,10 +59,11 @@ std::vector<FinalCloth> download_state(const voile::engine::Device& device, cons
     for (const StageCloth& cloth : stage.cloths)
     {
         const voile::VertexStreams streams = solver.vertices(cloth.id);
-        result.push_back({cloth.name, download_vectors(device, streams.positions, streams),
-                          download_vectors(device, streams.velocities, streams),
-                          at_start ? std::vector<glm::vec3>{} : download_vectors(device, streams.normals, streams),
-                          solver.triangles(cloth.id)});
+        std::vector<glm::vec3> positions = download_vectors(device, streams.positions, streams);
+        std::vector<glm::vec3> normals =
+            at_start ? surface_normals(positions, cloth.faces) : download_vectors(device, streams.normals, streams);
+        result.push_back({cloth.name, std::move(positions), download_vectors(device, streams.velocities, streams),
+                          std::move(normals), solver.triangles(cloth.id)});
     }
     return result;
 }
@@ -151,17 +153,9 @@ Statistics RunStatistics::result(const Stage& stage, const SceneFile& scene, con
         summary.gpu_pass_ms.emplace_back(series.name, median(series.milliseconds));
     if (frames_.empty())
         return result;
-    const FrameStatistics& last = frames_.back();
-    summary.max_stretch = last.max_stretch;
-    summary.mean_stretch = last.mean_stretch;
-    summary.kinetic_energy = last.kinetic_energy;
-    summary.penetrating_vertices = last.penetrating_vertices;
-    summary.deepest_penetration = last.deepest_penetration;
-    summary.intersections = last.intersections;
-    summary.nan_vertices = last.nan_vertices;
-    summary.contacts = last.contacts;
-    summary.candidates = last.candidates;
-    summary.contact_overflows = last.contact_overflows;
+    summary.last = frames_.back();
+    for (const FrameStatistics& frame : frames_)
+        summary.maxima = larger_of(summary.maxima, frame);
     return result;
 }
 

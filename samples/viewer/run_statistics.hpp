@@ -13,7 +13,7 @@ struct FinalCloth
     std::string name;
     std::vector<glm::vec3> positions;  // m
     std::vector<glm::vec3> velocities; // m/s
-    std::vector<glm::vec3> normals;    // none before the first frame: a step makes them
+    std::vector<glm::vec3> normals;    // before the first step computed on the host
     std::vector<glm::uvec3> triangles;
 };
 

@@ -161,8 +161,9 @@ struct ClothEntry
     std::optional<float> tethers; // how far they let the cloth stretch, 0..10; absent: none
     glm::vec3 velocity{0.f};      // m/s at the start
     voile::Integrator integrator = voile::Integrator::rk4;
-    bool self_collision = true;
-    uint32_t layers = 1; // bits; it meets the colliders that share one
+    bool self_collision = false;
+    uint32_t layers = 1; // bits; it collides with colliders that share one, and with cloths that do if both have
+                         // self_collision
     Location location;
 };
 

@@ -16,7 +16,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-std::string known_scenes(const std::vector<fs::path>& folders)
+std::vector<std::string> known_scenes(const std::vector<fs::path>& folders)
 {
     std::set<std::string> names;
     for (const fs::path& folder : folders)
@@ -28,10 +28,18 @@ std::string known_scenes(const std::vector<fs::path>& folders)
                 names.insert(it->path().stem().string());
         }
     }
+    return {names.begin(), names.end()};
+}
+
+// "the scenes that ship are drape, flag", and the one that may be meant.
+std::string scene_list(const std::string& name, const std::vector<std::string>& known)
+{
     std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + voile::gpu::printable(name);
-    return list;
+    for (const std::string& each : known)
+        list += (list.empty() ? "" : ", ") + voile::gpu::printable(each);
+    if (list.empty())
+        return "no scenes were found to choose from";
+    return "the scenes that ship are " + list + suggestion(fs::path(name).stem().string(), known);
 }
 
 } // namespace
@@ -83,8 +91,7 @@ voile::Result<fs::path> find_scene(const std::string& name, const std::vector<fs
     if (fs::is_directory(name, problem))
         return voile::Error{voile::engine::path_text(name) + ": this is a folder, not a scene file"};
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
-    const std::string list = known_scenes(folders);
-    const std::string known = list.empty() ? "no scenes were found to choose from" : "the scenes that ship are " + list;
+    const std::string known = scene_list(name, known_scenes(folders));
     if (!fs::exists(name, problem) && problem)
         return voile::Error{voile::engine::path_text(name) + ": " + problem.message()};
     if (looks_like_path)

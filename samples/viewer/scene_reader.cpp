@@ -189,7 +189,8 @@ std::optional<size_t> SceneReader::read_word(const Field& field, const char* wha
     std::string list;
     for (const char* each : words)
         list += (list.empty() ? "" : ", ") + std::string(each);
-    fail(field, "is " + in_quotes(word) + ", which is not " + what + " (" + list + ")");
+    fail(field, "is " + in_quotes(word) + ", which is not " + what + " (" + list + ")" +
+                    suggestion(word, {words.begin(), words.end()}));
     return std::nullopt;
 }
 

@@ -184,7 +184,9 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
             return added.error();
         stage.motions->pins.insert(stage.motions->pins.end(), added.value().moving_pins.begin(),
                                    added.value().moving_pins.end());
-        stage.cloths.push_back({entry.name, added.value().id, std::move(added.value().start), entry.layers});
+        Surface& surface = added.value().surface;
+        stage.cloths.push_back({entry.name, added.value().id, std::move(surface.positions), entry.layers,
+                                std::move(surface.faces), std::move(surface.texture_coordinates)});
     }
     const voile::engine::Bounds box = stage_bounds(stage.cloths, solids);
     frame_scene(app.scene(), scene, box);

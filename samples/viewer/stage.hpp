@@ -17,6 +17,8 @@ struct StageCloth
     voile::ClothId id;
     std::vector<glm::vec3> start; // m, where its vertices are before the first step
     uint32_t layers = 1;
+    Faces faces{}; // for files
+    std::vector<glm::vec2> texture_coordinates{};
 };
 
 struct Stage

@@ -31,6 +31,22 @@ Json pair(const Percentiles& values)
     return {{"median", number(values.median)}, {"p95", number(values.p95)}};
 }
 
+Json measurements_json(const Measurements& values)
+{
+    return {{"max_stretch", number(values.max_stretch)},
+            {"mean_stretch", number(values.mean_stretch)},
+            {"kinetic_energy", number(values.kinetic_energy)},
+            {"penetrating_vertices", count(values.penetrating_vertices)},
+            {"deepest_penetration", number(values.deepest_penetration)},
+            {"intersecting_cloth_pairs", count(values.intersections.cloth)},
+            {"intersecting_collider_pairs", count(values.intersections.collider)},
+            {"uncertain_pairs", count(values.intersections.uncertain)},
+            {"nan_vertices", count(values.nan_vertices)},
+            {"contacts", count(values.contacts)},
+            {"candidates", count(values.candidates)},
+            {"contact_overflows", count(values.contact_overflows)}};
+}
+
 Json summary_json(const StatisticsSummary& summary)
 {
     Json passes = Json::object();
@@ -38,23 +54,14 @@ Json summary_json(const StatisticsSummary& summary)
         passes[name] = number(milliseconds);
     Json gpu = {{"frame", pair(summary.gpu_frame_ms)}, {"cloth", pair(summary.gpu_cloth_ms)}};
     gpu["passes"] = std::move(passes);
+    Json last = measurements_json(summary.last);
+    last["self_intersections"] = count(summary.self_intersections);
+    last["verified"] = summary.verified;
     Json result = {{"substeps_per_frame", summary.substeps_per_frame},
                    {"vertices", summary.vertices},
-                   {"triangles", summary.triangles},
-                   {"max_stretch", number(summary.max_stretch)},
-                   {"mean_stretch", number(summary.mean_stretch)},
-                   {"kinetic_energy", number(summary.kinetic_energy)},
-                   {"penetrating_vertices", count(summary.penetrating_vertices)},
-                   {"deepest_penetration", number(summary.deepest_penetration)},
-                   {"self_intersections", count(summary.self_intersections)},
-                   {"intersecting_cloth_pairs", count(summary.intersections.cloth)},
-                   {"intersecting_collider_pairs", count(summary.intersections.collider)},
-                   {"uncertain_pairs", count(summary.intersections.uncertain)},
-                   {"nan_vertices", count(summary.nan_vertices)},
-                   {"contacts", count(summary.contacts)},
-                   {"candidates", count(summary.candidates)},
-                   {"contact_overflows", count(summary.contact_overflows)},
-                   {"verified", summary.verified}};
+                   {"triangles", summary.triangles}};
+    result["last"] = std::move(last);
+    result["maxima"] = measurements_json(summary.maxima);
     result["gpu_ms"] = std::move(gpu);
     result["cpu_record_ms"] = pair(summary.cpu_record_ms);
     result["state_hash"] = hash_text(summary.state_hash);
@@ -63,23 +70,12 @@ Json summary_json(const StatisticsSummary& summary)
 
 Json frame_json(const FrameStatistics& frame)
 {
-    return {{"frame", frame.frame},
-            {"substeps", frame.substeps},
-            {"max_stretch", number(frame.max_stretch)},
-            {"mean_stretch", number(frame.mean_stretch)},
-            {"kinetic_energy", number(frame.kinetic_energy)},
-            {"penetrating_vertices", count(frame.penetrating_vertices)},
-            {"deepest_penetration", number(frame.deepest_penetration)},
-            {"intersecting_cloth_pairs", count(frame.intersections.cloth)},
-            {"intersecting_collider_pairs", count(frame.intersections.collider)},
-            {"uncertain_pairs", count(frame.intersections.uncertain)},
-            {"nan_vertices", count(frame.nan_vertices)},
-            {"contacts", count(frame.contacts)},
-            {"candidates", count(frame.candidates)},
-            {"contact_overflows", count(frame.contact_overflows)},
-            {"gpu_frame_ms", number(frame.gpu_frame_ms)},
-            {"gpu_cloth_ms", number(frame.gpu_cloth_ms)},
-            {"cpu_record_ms", number(frame.cpu_record_ms)}};
+    Json result = {{"frame", frame.frame}, {"substeps", frame.substeps}};
+    result.update(measurements_json(frame));
+    result["gpu_frame_ms"] = number(frame.gpu_frame_ms);
+    result["gpu_cloth_ms"] = number(frame.gpu_cloth_ms);
+    result["cpu_record_ms"] = number(frame.cpu_record_ms);
+    return result;
 }
 
 std::string dump(const Json& json, int indent)
@@ -114,6 +110,23 @@ double p95(std::span<const double> values)
         return k_not_measured;
     const size_t rank = (sorted.size() * 95 + 99) / 100; // rounded up, from 1
     return sorted[rank - 1];
+}
+
+Measurements larger_of(const Measurements& a, const Measurements& b)
+{
+    // fmax leaves out what was not measured, and an empty optional is below any number.
+    return {std::fmax(a.max_stretch, b.max_stretch),
+            std::fmax(a.mean_stretch, b.mean_stretch),
+            std::fmax(a.kinetic_energy, b.kinetic_energy),
+            std::max(a.penetrating_vertices, b.penetrating_vertices),
+            std::fmax(a.deepest_penetration, b.deepest_penetration),
+            {std::max(a.intersections.cloth, b.intersections.cloth),
+             std::max(a.intersections.collider, b.intersections.collider),
+             std::max(a.intersections.uncertain, b.intersections.uncertain)},
+            std::max(a.nan_vertices, b.nan_vertices),
+            std::max(a.contacts, b.contacts),
+            std::max(a.candidates, b.candidates),
+            std::max(a.contact_overflows, b.contact_overflows)};
 }
 
 Percentiles percentiles(std::span<const double> values)

@@ -41,44 +41,44 @@ struct PairCounts
     std::optional<uint64_t> uncertain;
 };
 
-struct StatisticsSummary
+// The state of all cloths after a frame.
+struct Measurements
 {
-    uint32_t substeps_per_frame = 0;
-    uint64_t vertices = 0;
-    uint64_t triangles = 0;
     double max_stretch = k_not_measured;    // l/L - 1 over structural and shear springs, or mesh edges
     double mean_stretch = k_not_measured;   // as above
     double kinetic_energy = k_not_measured; // J
     std::optional<uint64_t> penetrating_vertices;
     double deepest_penetration = k_not_measured; // m
-    std::optional<uint64_t> self_intersections;  // pairs of triangles; only --verify counts them
     PairCounts intersections;
     std::optional<uint64_t> nan_vertices;
     std::optional<uint64_t> contacts;          // vertices that touch a collider
     std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
     std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
-    bool verified = false;                     // the counts are those of --verify, on the CPU
-    Percentiles gpu_frame_ms;                  // the whole frame
-    Percentiles gpu_cloth_ms;                  // the cloth's passes
+};
+
+// The larger value of each; of one that was measured only once, that one.
+Measurements larger_of(const Measurements& a, const Measurements& b);
+
+struct StatisticsSummary
+{
+    uint32_t substeps_per_frame = 0;
+    uint64_t vertices = 0;
+    uint64_t triangles = 0;
+    Measurements last;                          // after the last frame
+    std::optional<uint64_t> self_intersections; // pairs of triangles after the last frame; only --verify counts them
+    bool verified = false;                      // the counts of `last` are those of --verify, on the CPU
+    Measurements maxima;                        // over all frames
+    Percentiles gpu_frame_ms;                   // the whole frame
+    Percentiles gpu_cloth_ms;                   // the cloth's passes
     std::vector<std::pair<std::string, double>> gpu_pass_ms; // median a frame, by the pass's name
     Percentiles cpu_record_ms;
     uint64_t state_hash = 0; // written as 16 hexadecimal digits
 };
 
-struct FrameStatistics
+struct FrameStatistics : Measurements
 {
     uint32_t frame = 0;
     uint32_t substeps = 0;
-    double max_stretch = k_not_measured;
-    double mean_stretch = k_not_measured;
-    double kinetic_energy = k_not_measured; // J
-    std::optional<uint64_t> penetrating_vertices;
-    double deepest_penetration = k_not_measured; // m
-    PairCounts intersections;
-    std::optional<uint64_t> nan_vertices;
-    std::optional<uint64_t> contacts;          // vertices that touch a collider
-    std::optional<uint64_t> candidates;        // triangles of colliders that vertices keep as near
-    std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
     double gpu_frame_ms = k_not_measured;
     double gpu_cloth_ms = k_not_measured;
     double cpu_record_ms = k_not_measured;

@@ -164,6 +164,13 @@ TEST_CASE(
     CHECK(mesh.value().triangles[0] == glm::uvec3(3, 2, 0));
     CHECK(mesh.value().triangles[1] == glm::uvec3(0, 4, 3));
     CHECK(mesh.value().texture_coordinates[3] == glm::vec2(0, 0));
+    // The file's texture coordinates with their seam; none if a corner has none.
+    CHECK(mesh.value().texture_map.coordinates == std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}});
+    CHECK(mesh.value().texture_map.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {0, 1, 2}});
+    const std::string part = folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nvt 0 0\nf 1/1 3 2/1\n");
+    const auto partly = voile::engine::load_obj(part, nullptr, voile::engine::MeshVertices::positions);
+    REQUIRE(partly);
+    CHECK(partly.value().texture_map.triangles.empty());
     CHECK(std::abs(mesh.value().normals[0].y) == 1);
 }
 

@@ -1,6 +1,7 @@
 // physics_report: runs every case at two resolutions and writes FOLDER/physics.md with plots in FOLDER/physics.
 //
 //   physics_report FOLDER [CASE ...]    with cases: runs only these, to standard output
+//   physics_report --list               prints the names of all cases
 #include "physics/plot.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 namespace
 {
@@ -104,7 +106,7 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
     const std::vector<physics::Case>& cases = physics::all_cases();
     for (const std::string& name : only)
         if (std::none_of(cases.begin(), cases.end(), [&](const physics::Case& entry) { return entry.name == name; }))
-            throw std::runtime_error("there is no case \"" + name + "\"; docs/physics.md has them as headings");
+            throw std::runtime_error("there is no case \"" + name + "\"; --list prints all");
     std::ostringstream out;
     const std::filesystem::path plots = only.empty() ? folder / "physics" : "";
     if (only.empty())
@@ -130,9 +132,15 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
 
 int main(int argc, char** argv)
 {
-    if (argc < 2 || argv[1][0] == '-') // there are no options
+    if (argc == 2 && std::string_view(argv[1]) == "--list")
     {
-        std::cerr << "usage: physics_report FOLDER [CASE ...]\n";
+        for (const physics::Case& entry : physics::all_cases())
+            std::cout << entry.name << "\n";
+        return 0;
+    }
+    if (argc < 2 || argv[1][0] == '-')
+    {
+        std::cerr << "usage: physics_report FOLDER [CASE ...] | --list\n";
         return 1;
     }
     try

@@ -1,5 +1,6 @@
-// Exported cloths: every byte of a small one, and that a reader gets back the same bits.
+// Exported surfaces: every byte of a small one, and that a reader gets back the same bits.
 #include "samples/viewer/exports.hpp"
+#include "samples/viewer/point_cache.hpp"
 #include "support/test_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -21,22 +22,22 @@ namespace fs = std::filesystem;
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
-viewer::ClothSurface triangle(const std::string& name)
+viewer::Surface triangle(const std::string& name)
 {
-    return {name, {{0, 0, 0}, {1, 0, 0}, {0, 0.5f, -1}}, {}, {{0, 1, 2}}};
+    return {name, {{0, 0, 0}, {1, 0, 0}, {0, 0.5f, -1}}, {}, {}, {3, {0, 1, 2}, {}}};
 }
 
 // Values whose decimal text is long, tiny, huge or signed.
-viewer::ClothSurface awkward()
+viewer::Surface awkward()
 {
-    viewer::ClothSurface surface;
+    viewer::Surface surface;
     surface.name = "awkward";
     surface.positions = {{0.1f, 1.f / 3.f, -0.f},
                          {1e-45f, 3.4028235e38f, 1.17549435e-38f},
                          {16777217.f, -123456.789f, 2.7182817f},
                          {1e10f, -1e-10f, 100000.f}};
     surface.normals = {{0, 1, 0}, {0, 0, -1}, {0.57735026f, 0.57735026f, 0.57735026f}, {1, 0, 0}};
-    surface.triangles = {{0, 1, 2}, {3, 2, 1}};
+    surface.faces.indices = {0, 1, 2, 3, 2, 1};
     return surface;
 }
 
@@ -45,9 +46,9 @@ bool same_bits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec3)) == 0;
 }
 
-viewer::ClothSurface read_obj(const std::string& text)
+viewer::Surface read_obj(const std::string& text)
 {
-    viewer::ClothSurface surface;
+    viewer::Surface surface;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
     {
@@ -63,7 +64,7 @@ viewer::ClothSurface read_obj(const std::string& text)
                               std::strtof(c.c_str(), nullptr));
         }
         if (keyword == "f")
-            surface.triangles.emplace_back(index(a), index(b), index(c));
+            surface.faces.indices.insert(surface.faces.indices.end(), {index(a), index(b), index(c)});
     }
     return surface;
 }
@@ -78,9 +79,9 @@ T take(std::string& bytes)
     return value;
 }
 
-viewer::ClothSurface read_ply(std::string bytes)
+viewer::Surface read_ply(std::string bytes)
 {
-    viewer::ClothSurface surface;
+    viewer::Surface surface;
     size_t vertices = 0;
     size_t faces = 0;
     bool normals = false;
@@ -105,7 +106,8 @@ viewer::ClothSurface read_ply(std::string bytes)
     for (size_t i = 0; i < faces; ++i)
     {
         REQUIRE(take<uint8_t>(bytes) == 3);
-        surface.triangles.push_back(take<glm::uvec3>(bytes));
+        for (int corner = 0; corner < 3; ++corner)
+            surface.faces.indices.push_back(take<uint32_t>(bytes));
     }
     CHECK(bytes.empty());
     return surface;
@@ -122,7 +124,7 @@ std::string error_of(const T& result)
 TEST_CASE("an OBJ, byte for byte")
 {
     const TestFolder folder;
-    viewer::ClothSurface surface = triangle("sheet");
+    viewer::Surface surface = triangle("sheet");
     REQUIRE(viewer::save_surface_obj(folder / "a.obj", surface));
     CHECK(folder.read("a.obj") == "# meters, y up\no sheet\nv 0 0 0\nv 1 0 0\nv 0 0.5 -1\nf 1 2 3\n");
     surface.normals.assign(3, {0, 0, 1});
@@ -144,25 +146,74 @@ TEST_CASE("a PLY, byte for byte")
     CHECK(folder.read("a.ply") == expected);
 }
 
+TEST_CASE("a grid is written as quads that keep the winding, with texture coordinates and normals")
+{
+    const TestFolder folder;
+    viewer::Surface grid{"g", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, 0, 1}}, {}, {}, {}};
+    grid.faces = viewer::grid_faces(3, 2);
+    grid.texture_coordinates = viewer::grid_texture_coordinates(3, 2);
+    grid.normals = viewer::surface_normals(grid.positions, grid.faces);
+    REQUIRE(viewer::save_surface_obj(folder / "a.obj", grid));
+    CHECK(folder.read("a.obj").ends_with("vt 0 1\nvt 0.5 1\nvt 1 1\nvt 0 0\nvt 0.5 0\nvt 1 0\n"
+                                         "vn 0 1 0\nvn 0 1 0\nvn 0 1 0\nvn 0 1 0\nvn 0 1 0\nvn 0 1 0\n"
+                                         "f 1/1/1 4/4/4 5/5/5 2/2/2\nf 2/2/2 5/5/5 6/6/6 3/3/3\n"));
+    REQUIRE(viewer::save_surface_ply(folder / "a.ply", grid));
+    std::string ply = folder.read("a.ply");
+    CHECK(ply.find("property float nz\nproperty float s\nproperty float t\nelement face 2\n") != std::string::npos);
+    ply.erase(0, ply.find("end_header\n") + 11);
+    for (size_t i = 0; i < 6; ++i)
+    {
+        CHECK(take<glm::vec3>(ply) == grid.positions[i]);
+        CHECK(take<glm::vec3>(ply) == glm::vec3(0, 1, 0));
+        CHECK(take<glm::vec2>(ply) == grid.texture_coordinates[i]);
+    }
+    for (const uint32_t index : {0u, 3u, 4u, 1u, 1u, 4u, 5u, 2u})
+    {
+        if (index == 0 || ply.size() == 17)
+            REQUIRE(take<uint8_t>(ply) == 4);
+        CHECK(take<uint32_t>(ply) == index);
+    }
+    CHECK(ply.empty());
+}
+
+TEST_CASE("texture coordinates keep their seams")
+{
+    const TestFolder folder;
+    viewer::Surface surface = triangle("t");
+    surface.texture_coordinates = {{0, 0}, {0.25f, 1}, {1, 0.5f}, {9, 9}};
+    surface.faces.texture_indices = {2, 0, 1};
+    REQUIRE(viewer::save_surface_obj(folder / "a.obj", surface));
+    CHECK(folder.read("a.obj").ends_with("vt 0 0\nvt 0.25 1\nvt 1 0.5\nvt 9 9\nf 1/3 2/1 3/2\n"));
+    REQUIRE(viewer::save_surface_ply(folder / "a.ply", surface));
+    std::string ply = folder.read("a.ply");
+    CHECK(ply.find("property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n") !=
+          std::string::npos);
+    ply.erase(0, ply.size() - 25);
+    CHECK(take<uint8_t>(ply) == 6);
+    CHECK(take<glm::vec2>(ply) == glm::vec2(1, 0.5f));
+    CHECK(take<glm::vec2>(ply) == glm::vec2(0, 0));
+    CHECK(take<glm::vec2>(ply) == glm::vec2(0.25f, 1));
+}
+
 TEST_CASE("OBJ and PLY preserve all bits and the order")
 {
     const TestFolder folder;
-    const viewer::ClothSurface surface = awkward();
+    const viewer::Surface surface = awkward();
     REQUIRE(viewer::save_surface_obj(folder / "a.obj", surface));
     REQUIRE(viewer::save_surface_ply(folder / "a.ply", surface));
-    for (const viewer::ClothSurface& read : {read_obj(folder.read("a.obj")), read_ply(folder.read("a.ply"))})
+    for (const viewer::Surface& read : {read_obj(folder.read("a.obj")), read_ply(folder.read("a.ply"))})
     {
         CHECK(same_bits(read.positions, surface.positions));
         CHECK(same_bits(read.normals, surface.normals));
-        CHECK(read.triangles == surface.triangles);
+        CHECK(read.faces.indices == surface.faces.indices);
     }
 }
 
-TEST_CASE("a point cache, byte for byte")
+TEST_CASE("a point cache and the file beside it, byte for byte")
 {
     const TestFolder folder;
     const fs::path path = folder / "a.pc2";
-    auto cache = viewer::PointCacheWriter::create(path, 2, 1.f, 0.5f);
+    auto cache = viewer::PointCacheWriter::create(path, {2, 24, 1.f, 0.5f});
     REQUIRE(cache);
     const std::vector<std::vector<glm::vec3>> samples = {
         {{1, 2, 3}, {4, 5, 6}}, {{-1, 0.1f, 1e-45f}, {7, 8, 9}}, {{0, -0.f, 0}, {1, 1, 1}}};
@@ -186,7 +237,9 @@ TEST_CASE("a point cache, byte for byte")
         const std::vector<glm::vec3> read = {take<glm::vec3>(bytes), take<glm::vec3>(bytes)};
         CHECK(same_bits(read, sample));
     }
-    CHECK(folder.entries() == 1);
+    CHECK(folder.read("a.pc2.json") ==
+          "{\"frames_per_second\": 24, \"start_frame\": 1, \"samples\": 3, \"vertices\": 2}\n");
+    CHECK(folder.entries() == 2);
 }
 
 TEST_CASE("an unfinished or refused point cache leaves nothing behind")
@@ -194,7 +247,7 @@ TEST_CASE("an unfinished or refused point cache leaves nothing behind")
     const TestFolder folder;
     const fs::path path = folder / "a.pc2";
     {
-        auto cache = viewer::PointCacheWriter::create(path, 1);
+        auto cache = viewer::PointCacheWriter::create(path, {1});
         REQUIRE(cache);
         REQUIRE(cache.value().append(std::vector<glm::vec3>{{1, 2, 3}}));
         CHECK(error_of(cache.value().append(std::vector<glm::vec3>(2))) ==
@@ -206,7 +259,7 @@ TEST_CASE("an unfinished or refused point cache leaves nothing behind")
         REQUIRE(moved.append(std::vector<glm::vec3>{{1, 2, 3}}));
     }
     CHECK(folder.entries() == 0);
-    auto cache = viewer::PointCacheWriter::create(path, 0);
+    auto cache = viewer::PointCacheWriter::create(path, {0});
     REQUIRE(cache);
     REQUIRE(cache.value().finish());
     CHECK_FALSE(cache.value().finish()); // it is finished already
@@ -239,13 +292,13 @@ TEST_CASE("unsound surfaces are refused, and no cloth is written")
 {
     const TestFolder folder;
     const std::string file = (folder / "a.obj").string();
-    const auto refused = [&](const viewer::ClothSurface& surface)
+    const auto refused = [&](const viewer::Surface& surface)
     {
         CHECK_FALSE(viewer::save_surface_ply(folder / "a.ply", surface));
         return error_of(viewer::save_surface_obj(file, surface));
     };
-    const std::string cloth = file + ": cloth \"sheet\" ";
-    viewer::ClothSurface surface = triangle("sheet");
+    const std::string cloth = file + ": \"sheet\" ";
+    viewer::Surface surface = triangle("sheet");
     for (const float value : {k_nan, k_infinity, -k_infinity})
     {
         surface.positions[2].z = value;
@@ -259,8 +312,15 @@ TEST_CASE("unsound surfaces are refused, and no cloth is written")
     surface.normals.pop_back();
     CHECK(refused(surface) == cloth + "has 2 normals for 3 vertices");
     surface = triangle("sheet");
-    surface.triangles.push_back({0, 3, 1});
-    CHECK(refused(surface) == cloth + "has triangle 1 with an index beyond its 3 vertices");
+    surface.faces.indices.insert(surface.faces.indices.end(), {0, 3, 1});
+    CHECK(refused(surface) == cloth + "has face 1 with an index beyond its 3 vertices");
+    surface = triangle("sheet");
+    surface.texture_coordinates.resize(2);
+    CHECK(refused(surface) == cloth + "has 2 texture coordinates for 3 vertices");
+    surface.faces.texture_indices = {0, 1, 2};
+    CHECK(refused(surface) == cloth + "has face 0 with an index beyond its 2 texture coordinates");
+    surface.faces.texture_indices = {0};
+    CHECK(refused(surface) == cloth + "has texture coordinates for 1 corners of 3");
     CHECK(folder.entries() == 0);
 }
 
@@ -270,7 +330,7 @@ TEST_CASE("a file that cannot be written is named with the reason, and nothing i
     const fs::path missing = folder / "missing" / "a.obj";
     CHECK(error_of(viewer::save_surface_obj(missing, triangle("a"))) ==
           missing.string() + ": cannot be written: there is no folder " + missing.parent_path().string());
-    CHECK_FALSE(viewer::PointCacheWriter::create(missing, 1));
+    CHECK_FALSE(viewer::PointCacheWriter::create(missing, {1}));
     CHECK(error_of(viewer::save_surface_obj(folder.path(), triangle("a"))) ==
           folder.path().string() + ": cannot be written: it is a folder");
     CHECK(folder.entries() == 0);
@@ -294,7 +354,7 @@ TEST_CASE("a full disk is reported, and the old file is kept")
               "/dev/full: cannot be written: No space left on device");
     const TestFolder folder;
     folder.write("a.obj", "before");
-    viewer::ClothSurface bad = triangle("a");
+    viewer::Surface bad = triangle("a");
     bad.positions[0].x = k_nan;
     CHECK_FALSE(viewer::save_surface_obj(folder / "a.obj", bad));
     CHECK(folder.read("a.obj") == "before");

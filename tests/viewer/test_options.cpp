@@ -67,7 +67,8 @@ TEST_CASE("every option is read")
     const std::string file = (folder / "ball.obj").string();
     const auto result =
         parse_line("drape --headless --frames 90 --size 64x48 --out frames --every 10 --video a.mp4 --stats=s.json "
-                   "--export e.PC2 --cloth-resolution 2 --device 1 --list-devices --validate --capture 89 --verify "
+                   "--export e.PC2 --export e.usda --export-colliders --cloth-resolution 2 --device 1 --list-devices "
+                   "--validate --capture 89 --verify "
                    "--collider " +
                    file + " --collider " + file);
     REQUIRE_MESSAGE(result, result.error().message);
@@ -81,8 +82,12 @@ TEST_CASE("every option is read")
     CHECK(options.every == 10);
     CHECK(options.video == "a.mp4");
     CHECK(options.stats == "s.json");
-    CHECK(options.export_file == "e.PC2");
-    CHECK(options.export_format == viewer::ExportFormat::point_cache);
+    REQUIRE(options.exports.size() == 2);
+    CHECK(options.exports[0].path == "e.PC2");
+    CHECK(options.exports[0].format == viewer::ExportFormat::point_cache);
+    CHECK(options.exports[1].path == "e.usda");
+    CHECK(options.exports[1].format == viewer::ExportFormat::usd);
+    CHECK(options.export_colliders);
     CHECK(options.cloth_resolution == 2u);
     CHECK(options.colliders.size() == 2);
     CHECK(options.device == "1");
@@ -118,6 +123,9 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--size", "1x1", "--size", "2x2"}) == "--size: given 2 times; once at most");
     CHECK(message({"s.json", "--stats", "./s.json"}) == "--stats: \"./s.json\" is the scene's file, too");
     CHECK(message({"--export", "a.obj", "--stats", "a.obj"}) == "--export: \"a.obj\" is --stats's file, too");
+    CHECK(message({"--export", "a.obj", "--export", "./a.obj"}) == "--export: \"./a.obj\" is --export's file, too");
+    CHECK(message({"--export", "a.pc2", "--stats", "a.pc2.json"}) == "--export: \"a.pc2.json\" is --stats's file, too");
+    CHECK(message({"--export-colliders"}) == "--export-colliders: has no effect without --export");
     CHECK(message({"--video", "a.mp4", "--stats", "b/../a.mp4"}) == "--stats: \"b/../a.mp4\" is --video's file, too");
     CHECK(message({"--export", "a.obj", "--stats", "a.json"}) == "accepted");
     CHECK(message({"--frames", "-1"}) == "--frames: \"-1\" is not within 0 to 100000000");
@@ -132,7 +140,7 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--cloth-resolution", "8193"}) == "--cloth-resolution: \"8193\" is not within 2 to 8192");
     CHECK(message({"--every", "0", "--out", "d"}) == "--every: \"0\" is not within 1 to 100000000");
     CHECK(message({"--every", "2"}) == "--every: has no effect without --out");
-    CHECK(message({"--export", "cloth.stl"}) == "--export: \"cloth.stl\" does not end in .obj, .ply or .pc2");
+    CHECK(message({"--export", "cloth.stl"}) == "--export: \"cloth.stl\" does not end in .obj, .ply, .pc2 or .usda");
     CHECK(message({"--video", "a.avi"}) == "--video: \"a.avi\" does not end in .mp4");
     CHECK(message({"--collider", "gone.obj"}) == "--collider: \"gone.obj\" does not exist");
     const TestFolder folder;
@@ -178,8 +186,8 @@ TEST_CASE("help and version are printed, not errors")
     const auto help = parse({"--help"});
     REQUIRE(help);
     for (const char* word : {"--headless", "--frames", "--size", "--out", "--every", "--video", "--stats", "--export",
-                             "--cloth-resolution", "--collider", "--device", "--list-devices", "--validate",
-                             "--capture", "--verify", "Examples:", "1280x720"})
+                             "--export-colliders", "--cloth-resolution", "--collider", "--device", "--list-devices",
+                             "--validate", "--capture", "--verify", "Examples:", "1280x720"})
         CHECK_MESSAGE(help.value().message.find(word) != std::string::npos, word);
     const auto version = parse({"--version"});
     REQUIRE(version);
@@ -200,7 +208,11 @@ TEST_CASE("--debug accepts every mode")
     CHECK(level.value().debug.boxes == 0u);
     CHECK_FALSE(level.value().debug.contacts);
     CHECK(level.value().scene == "drape");
-    CHECK(message({"--debug", "boxen"}) == "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections");
+    CHECK(message({"--debug", "boxen"}) ==
+          "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections; did you mean "
+          "\"boxes\"?");
+    CHECK(message({"--export", "a.objj"}) ==
+          "--export: \"a.objj\" does not end in .obj, .ply, .pc2 or .usda; did you mean \".obj\"?");
     CHECK(message({"--debug", "boxes:49"}) == "--debug boxes: \"49\" is not within 0 to 48");
     CHECK(message({"--debug", "boxes:"}) == "--debug boxes: the value is empty");
     CHECK(message({"--debug", "boxes:deep"}) == "--debug boxes: \"deep\" is not a whole number");
@@ -221,14 +233,14 @@ TEST_CASE("an output cannot replace a mesh of the scene")
         return result ? "accepted" : result.error().message;
     };
     const std::string cape = (folder / "cape.obj").string();
-    CHECK(check({.export_file = cape}) == "--export: \"" + cape + "\" is the mesh of cloth \"cape\", too");
+    CHECK(check({.exports = {{cape}}}) == "--export: \"" + cape + "\" is the mesh of cloth \"cape\", too");
     const std::string ground = (folder / "." / "ground.ply").string();
-    CHECK(check({.export_file = ground}) == "--export: \"" + ground + "\" is a collider's mesh, too");
+    CHECK(check({.exports = {{ground}}}) == "--export: \"" + ground + "\" is a collider's mesh, too");
     const std::string frame = (folder / "walk1.obj").string();
-    CHECK(check({.export_file = frame}) == "--export: \"" + frame + "\" is a frame of a collider's mesh, too");
+    CHECK(check({.exports = {{frame}}}) == "--export: \"" + frame + "\" is a frame of a collider's mesh, too");
     const std::string scene_file = (folder / "s.json").string();
     CHECK(check({.stats = scene_file}) == "--stats: \"" + scene_file + "\" is the scene's file, too");
-    CHECK(check({.stats = folder / "stats.json", .export_file = folder / "cape.ply"}) == "accepted");
+    CHECK(check({.stats = folder / "stats.json", .exports = {{folder / "cape.ply"}}}) == "accepted");
 }
 
 TEST_CASE("a link to itself is distinguished from a missing file")

@@ -7,22 +7,19 @@
 #include <sstream>
 #include <string>
 
-TEST_CASE("without a terminal a plain line is written for every tenth")
+TEST_CASE("without a terminal a plain line is written every ten seconds")
 {
     std::ostringstream out;
     double now = 100;
     viewer::Progress progress(300, {&out, false, [&] { return now; }});
     for (uint32_t done = 1; done <= 300; ++done)
     {
-        now += 0.1;
+        now += 0.125;
         progress.update(done);
     }
     progress.finish();
-    const std::string text = out.str();
-    CHECK(std::count(text.begin(), text.end(), '\n') == 11);
-    CHECK(text.starts_with("frame 30 of 300 (10 %), 0:03 elapsed\nframe 60 of 300 (20 %), 0:06 elapsed\n"));
-    CHECK(text.ends_with("frame 300 of 300 (100 %), 0:30 elapsed\n300 frames in 0:30 (10.0 frames/s)\n"));
-    CHECK(text.find('\r') == std::string::npos);
+    CHECK(out.str() == "frame 80 of 300 (26 %), 0:10 elapsed\nframe 160 of 300 (53 %), 0:20 elapsed\n"
+                       "frame 240 of 300 (80 %), 0:30 elapsed\n300 frames in 0:38 (8.0 frames/s)\n");
 }
 
 TEST_CASE("a bar is redrawn in place, at most ten times per second, and covers the old one")
@@ -57,12 +54,12 @@ TEST_CASE("a slow run is not silent")
     }
     out.str("");
     viewer::Progress lines(100000, {&out, false, [&] { return now; }});
-    for (uint32_t done = 1; done <= 10; ++done)
+    for (uint32_t done = 1; done <= 5; ++done)
     {
         now += 8;
         lines.update(done);
     }
-    CHECK(out.str() == "frame 4 of 100000 (0 %), 0:32 elapsed\nframe 8 of 100000 (0 %), 1:04 elapsed\n");
+    CHECK(out.str() == "frame 2 of 100000 (0 %), 0:16 elapsed\nframe 4 of 100000 (0 %), 0:32 elapsed\n");
 }
 
 TEST_CASE("a run without frames ends as well")

@@ -30,6 +30,9 @@ TEST_CASE("an unknown key is named with its line, its path and the likely key")
     CHECK(scene_message("\"zzzzzz\": 1") == "dir/s.json:1: unknown key \"zzzzzz\" in the scene");
     CHECK(cloth_message("\"pins\": [{\"bxo\": 1}]") ==
           "dir/s.json:1: unknown key \"bxo\" in cloths[0].pins[0]; did you mean \"box\"?");
+    CHECK(cloth_message("\"material\": \"coton\"") ==
+          "dir/s.json:1: cloths[0].material is \"coton\", which is not a material (silk, cotton, wool, denim, leather, "
+          "reference); did you mean \"cotton\"?");
     CHECK(scene_message("\"a\\nb\": 1") == "dir/s.json:1: unknown key \"a?b\" in the scene");
 }
 

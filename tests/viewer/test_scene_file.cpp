@@ -42,7 +42,7 @@ constexpr const char* k_full_scene = R"({
              {"at": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}}],
     "velocity": [0, 0, -1],
     "integrator": "verlet",
-    "self_collision": false,
+    "self_collision": true,
     "layers": [0, 3]
   }, {"mesh": "m/shirt.PLY", "material": "silk"}],
   "colliders": [
@@ -98,7 +98,7 @@ TEST_CASE("every key of a cloth is read")
     CHECK(sheet.transform.scale == 2.f);
     CHECK(sheet.velocity == glm::vec3(0, 0, -1));
     CHECK(sheet.integrator == voile::Integrator::verlet);
-    CHECK_FALSE(sheet.self_collision);
+    CHECK(sheet.self_collision);
     CHECK(sheet.layers == 9u);
     CHECK(scene.cloths[1].layers == 1u);
 
@@ -234,6 +234,7 @@ TEST_CASE("missing keys have the defaults of the format")
     CHECK_FALSE(result.value().step.substeps.has_value());
     CHECK_FALSE(result.value().camera.has_value());
     CHECK(result.value().cloths[0].integrator == voile::Integrator::rk4);
+    CHECK_FALSE(result.value().cloths[0].self_collision);
     CHECK_FALSE(result.value().cloths[0].material.preset.has_value());
     CHECK(parse("{\"step\": {\"substeps\": \"auto\"}, \"cloths\": [{" + k_grid + "}]}").has_value());
 }
@@ -252,6 +253,8 @@ TEST_CASE("scenes are found by path, then by name")
     const auto unknown = viewer::find_scene("curtain", folders);
     REQUIRE_FALSE(unknown);
     CHECK(unknown.error().message == "scene \"curtain\" is unknown; the scenes that ship are drape, flag");
+    CHECK(viewer::find_scene("drap", folders).error().message ==
+          "scene \"drap\" is unknown; the scenes that ship are drape, flag; did you mean \"drape\"?");
     const auto missing = viewer::find_scene("some/where.json", folders);
     REQUIRE_FALSE(missing);
     CHECK(missing.error().message == "some/where.json: the file does not exist; the scenes that ship are drape, flag");

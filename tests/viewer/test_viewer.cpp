@@ -175,18 +175,25 @@ TEST_CASE("a run writes its requested files, the same every time, without a vali
                                    " --export " + (folder / (name + ".obj")).string());
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
-        CHECK(run.errors.find("60 of 60") != std::string::npos);
-        for (const std::string file : {"frame_0000.png", "frame_0020.png", "frame_0040.png"})
+        CHECK(run.errors.find("60 frames in ") != std::string::npos);
+        for (const std::string file : {"frame_0000.png", "frame_0020.png", "frame_0040.png", "frame_0059.png"})
             CHECK(fs::file_size(folder / (name + "/" + file)) > 500);
-        CHECK_FALSE(fs::exists(folder / (name + "/frame_0060.png")));
+        CHECK(std::distance(fs::directory_iterator(folder / name), {}) == 4); // each 20th, and the last
         const auto statistics = viewer::parse_json(text_of(folder / (name + ".json")), name);
         REQUIRE(statistics);
         const viewer::JsonNode* summary = statistics.value().find("summary");
         REQUIRE(summary != nullptr);
         CHECK(summary->find("vertices")->number == 24 * 24);
-        CHECK(summary->find("nan_vertices")->number == 0);
-        CHECK(summary->find("deepest_penetration")->number < 1e-3);
-        CHECK(summary->find("kinetic_energy")->number > 0);
+        const viewer::JsonNode* last = summary->find("last");
+        CHECK(last->find("nan_vertices")->number == 0);
+        CHECK(last->find("deepest_penetration")->number < 1e-3);
+        CHECK(last->find("kinetic_energy")->number > 0);
+        // It has stretched when it landed.
+        double most = 0;
+        for (const viewer::JsonNode& frame : statistics.value().find("per_frame")->items)
+            most = std::max(most, frame.find("max_stretch")->number);
+        CHECK(summary->find("maxima")->find("max_stretch")->number == most);
+        CHECK(most >= last->find("max_stretch")->number);
         CHECK(statistics.value().find("per_frame")->items.size() == 60);
         hashes[i] = summary->find("state_hash")->text;
     }
@@ -195,7 +202,7 @@ TEST_CASE("a run writes its requested files, the same every time, without a vali
     CHECK(text_of(folder / "0.obj") == text_of(folder / "1.obj"));
 }
 
-TEST_CASE("a point cache holds every frame, and each of several cloths gets a file")
+TEST_CASE("a point cache holds the start and every frame, and each of several cloths gets a file")
 {
     const TestFolder folder;
     const std::string two =
@@ -209,8 +216,8 @@ TEST_CASE("a point cache holds every frame, and each of several cloths gets a fi
                                (folder / "c.pc2").string());
     CAPTURE(run.errors);
     REQUIRE(run.exit_code == 0);
-    CHECK(fs::file_size(folder / "c_a.pc2") == 32 + 7 * 8 * 8 * 12);
-    CHECK(fs::file_size(folder / "c_b.pc2") == 32 + 7 * 5 * 4 * 12);
+    CHECK(fs::file_size(folder / "c_a.pc2") == 32 + 8 * 8 * 8 * 12);
+    CHECK(fs::file_size(folder / "c_b.pc2") == 32 + 8 * 5 * 4 * 12);
 }
 
 TEST_CASE("devices are listed with index, name and driver")

@@ -89,7 +89,9 @@ TEST_CASE("a run without frames has the state of the start")
     const Run run = run_viewer(file.string() + " --headless --frames 0 --size 64x36 --verify --validate --export " +
                                (folder / "c.obj").string() + " --stats " + (folder / "t.json").string());
     CHECK(run.exit_code == 0);
-    CHECK(folder.read("c.obj").find("v -1 1 -2\nv 1 1 -2\nv -1 1 2\nv 1 1 2\nf 1 3 2\n") != std::string::npos);
+    CHECK(folder.read("c.obj").find("v -1 1 -2\nv 1 1 -2\nv -1 1 2\nv 1 1 2\nvt 0 1\nvt 1 1\nvt 0 0\nvt 1 0\n"
+                                    "vn 0 1 0\nvn 0 1 0\nvn 0 1 0\nvn 0 1 0\nf 1/1/1 3/3/3 4/4/4 2/2/2\n") !=
+          std::string::npos);
     CHECK(folder.read("t.json").find("\"verified\": true") != std::string::npos);
 }
 

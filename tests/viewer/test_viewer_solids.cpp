@@ -5,6 +5,7 @@
 
 #include "voile/engine/assets/obj.hpp"
 #include "voile/engine/assets/shapes.hpp"
+#include "voile/mesh_checks.hpp"
 
 #include <array>
 
@@ -217,6 +218,41 @@ TEST_CASE("--debug intersections paints and counts the vertices around a mesh th
         CHECK(run.output.find(" 0 of cloth and collider") == std::string::npos);
     }
     CHECK(run_viewer(base).output.find("intersections") == std::string::npos);
+}
+
+TEST_CASE("a cloth with self_collision does not pass through itself, and statistics count what does")
+{
+    SceneRuns runs;
+    const auto fallen = [&](const std::string& self_collision)
+    {
+        // It lands on its edge.
+        const std::string cloth = R"({"grid": {"vertices": [16, 16], "size": [0.6, 0.6]},
+"material": {"preset": "silk", "stretch_stiffness": 100, "shear_stiffness": 10},
+"transform": {"translate": [0, 0.35, 0], "rotate": [87, 0, 0]})" +
+                                  self_collision + "}";
+        const auto file = runs.folder().write("s.json", tests::scene_of(cloth, R"({"plane": {"y": 0}})"));
+        const auto path = [&](const char* name) { return (runs.folder() / name).string(); };
+        const Run run =
+            run_viewer(file.string() + " --headless --size 64x36 --frames 30 --validate --verify --export " +
+                       path("s.obj") + " --stats " + path("s.stats"));
+        CAPTURE(run.errors);
+        REQUIRE(run.exit_code == 0);
+        const auto statistics = voile::engine::take(viewer::parse_json(runs.folder().read("s.stats"), "s.stats"));
+        const viewer::JsonNode* last = statistics.find("summary")->find("last");
+        const std::vector<glm::vec3> positions =
+            voile::engine::take(
+                voile::engine::load_mesh(path("s.obj"), nullptr, voile::engine::MeshVertices::positions))
+                .positions;
+        std::vector<glm::uvec3> triangles; // of the solver: the file has quads
+        for (uint32_t row = 0; row < 15; ++row)
+            for (uint32_t i = 16 * row; i < 16 * row + 15; ++i)
+                triangles.insert(triangles.end(), {{i, i + 16, i + 1}, {i + 1, i + 16, i + 17}});
+        CHECK(last->find("self_intersections")->number ==
+              static_cast<double>(voile::count_self_intersections(positions, triangles)));
+        return glm::dvec2(last->find("self_intersections")->number, last->find("intersecting_cloth_pairs")->number);
+    };
+    CHECK(fallen(R"(, "self_collision": true)") == glm::dvec2(0));
+    CHECK(glm::all(glm::greaterThan(fallen(""), glm::dvec2(100)))); // only cloth that asks for it
 }
 
 TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay outside")

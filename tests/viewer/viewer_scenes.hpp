@@ -115,7 +115,7 @@ private:
         const auto statistics = voile::engine::take(viewer::parse_json(text_of(folder_ / "s.stats"), "s.stats"));
         const viewer::JsonNode* summary = statistics.find("summary");
         REQUIRE(summary != nullptr);
-        return summary->find("deepest_penetration")->number;
+        return summary->find("last")->find("deepest_penetration")->number;
     }
 
     TestFolder folder_;

@@ -136,8 +136,9 @@ void App::record(const FrameRing::Frame& frame, const FrameInfo& info, const Win
 
 void App::finish()
 {
-    for (uint32_t slot = 0; slot < frames_.slots(); ++slot)
+    for (uint32_t i = 0; i < frames_.slots(); ++i)
     {
+        const auto slot = static_cast<uint32_t>((next_index_ + i) % frames_.slots()); // the oldest first
         frames_.wait(slot);
         complete(slot);
     }

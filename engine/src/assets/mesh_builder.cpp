@@ -182,6 +182,19 @@ Mesh assemble(const Polygons& polygons, const std::vector<Triangle>& triangles)
     return mesh;
 }
 
+TextureMap texture_map(const Polygons& polygons, const std::vector<Triangle>& triangles)
+{
+    TextureMap map;
+    for (const Triangle& t : triangles)
+    {
+        if (std::any_of(t.begin(), t.end(), [](const Corner& corner) { return corner.texture_coordinate < 0; }))
+            return {};
+        map.triangles.emplace_back(t[0].texture_coordinate, t[1].texture_coordinate, t[2].texture_coordinate);
+    }
+    map.coordinates = polygons.texture_coordinates;
+    return map;
+}
+
 Mesh assemble_positions(const Polygons& polygons, const std::vector<Triangle>& triangles)
 {
     Mesh mesh;
@@ -201,6 +214,7 @@ Mesh assemble_positions(const Polygons& polygons, const std::vector<Triangle>& t
         }
     for (const Triangle& t : triangles)
         mesh.triangles.emplace_back(t[0].position, t[1].position, t[2].position);
+    mesh.texture_map = texture_map(polygons, triangles);
     return mesh;
 }
 

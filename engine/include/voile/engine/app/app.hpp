@@ -59,7 +59,7 @@ public:
     // a window a frame begins no sooner than one time step after the last one, so that fast displays show real time.
     bool frame();
 
-    // Waits for all frames in flight and calls `completed` for each.
+    // Waits for all frames in flight and calls `completed` for each, in their order.
     void finish();
 
     // Runs until the window is closed, or, headless, for `headless_frames`.

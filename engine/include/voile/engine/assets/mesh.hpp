@@ -9,12 +9,20 @@
 namespace voile::engine
 {
 
+// Texture coordinates as a file has them: a position at a seam has several.
+struct TextureMap
+{
+    std::vector<glm::vec2> coordinates;
+    std::vector<glm::uvec3> triangles; // indices into coordinates, parallel to the mesh's triangles
+};
+
 struct Mesh
 {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;             // one per position, unit length
     std::vector<glm::vec2> texture_coordinates; // one per position; all zero when the file has none
     std::vector<glm::uvec3> triangles;          // indices into positions, counter-clockwise seen from outside
+    TextureMap texture_map;                     // MeshVertices::positions alone; empty if a corner has no coordinate
 };
 
 // How the vertices of a loaded mesh are formed.
