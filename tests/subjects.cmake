@@ -34,7 +34,7 @@ if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
     voile_add_test(test_frame SOURCES engine/test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()
 voile_add_test(test_hazards SOURCES solver/test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_renderer SOURCES engine/test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
+voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
 
 # A captured frame, read with RenderDoc's Python module (Debian's, hence its Python).
 if(EXISTS /usr/bin/python3)
@@ -50,6 +50,15 @@ if(XVFB_RUN)
              COMMAND ${XVFB_RUN} -a $<TARGET_FILE:viewer> reference --frames 10 --validate --cloth-resolution 16
                      --size 320x180)
     set_tests_properties("window: frames on a virtual display" PROPERTIES TIMEOUT 120)
+endif()
+
+# The window as its users use it: keys and mouse by the XTEST extension.
+find_program(XVFB Xvfb)
+find_package(X11 QUIET)
+if(XVFB AND X11_FOUND AND X11_XTest_FOUND)
+    voile_add_test(test_window SOURCES viewer/test_window.cpp viewer/x_display.cpp
+                   LIBRARIES voile_viewer_parts voile::engine X11::X11 X11::Xtst)
+    add_dependencies(test_window viewer scene_meshes)
 endif()
 
 # A separate project that uses the installed package.

@@ -1,5 +1,5 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
-#include "samples/viewer/debug_view.hpp"
+#include "samples/viewer/controls.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/output_check.hpp"
 #include "samples/viewer/progress.hpp"
@@ -56,14 +56,13 @@ voile::engine::AppOptions app_options(const Options& options, const SceneFile& s
     return result;
 }
 
-// One frame, captured if it is the one that was asked for. False when the window was closed.
-bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* capture, const Options& options)
+// One frame, captured if that was asked for. False when the window was closed.
+bool run_frame(voile::engine::App& app, voile::engine::Capture* capture)
 {
-    const bool capturing = capture != nullptr && options.capture == index;
-    if (capturing)
+    if (capture != nullptr)
         capture->begin();
     const bool open = app.frame();
-    if (capturing)
+    if (capture != nullptr)
     {
         app.finish();
         std::printf("capture: %s\n", capture->end().c_str());
@@ -71,31 +70,62 @@ bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* 
     return open;
 }
 
-void run_frames(voile::engine::App& app, Stage& stage, FrameOutputs& outputs, RunStatistics& statistics,
-                voile::engine::Capture* capture, const Options& options)
+// What a run measures.
+struct Measured
 {
+    RunStatistics statistics;
+    SofteningNotes softening;
+    bool simulated = false; // in the last frame
+};
+
+void connect(voile::engine::App& app, LoadedScene& scene, FrameOutputs& outputs, Measured& measured, Controls& controls)
+{
+    const Options& options = scene.options;
     app.draws = [&](const voile::engine::FrameInfo& frame)
     { return options.stats || options.capture == frame.index || outputs.wants_picture(frame); };
-    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { outputs.record(cmd, frame); };
+    app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
+    {
+        measured.simulated = frame.simulates;
+        if (frame.simulates)
+            outputs.record(cmd, frame);
+        controls.record(cmd, frame);
+    };
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {
-        statistics.completed(stage, frame);
+        controls.completed(frame);
+        if (!frame.simulates)
+            return;
+        measured.statistics.completed(scene.stage, frame);
         voile::engine::take(outputs.write(frame));
     };
+    app.on_input = [&](const voile::engine::Input& input, float seconds) { controls.handle(input, seconds); };
+    controls.restarted = [&] { measured = {}; };
+}
+
+void run_frames(voile::engine::App& app, LoadedScene& scene, Controls& controls, Measured& measured,
+                voile::engine::Capture* capture)
+{
+    const Options& options = scene.options;
     const bool endless = app.has_window() && !options.frames;
-    const uint32_t frames = endless ? UINT32_MAX : voile::engine::take(headless_frames(options));
-    SofteningNotes softening;
+    const uint64_t frames = endless ? UINT64_MAX : voile::engine::take(headless_frames(options));
     std::optional<Progress> progress;
     if (!app.has_window())
-        progress.emplace(frames);
-    for (uint32_t i = 0; i < frames; ++i)
+        progress.emplace(static_cast<uint32_t>(frames));
+    uint64_t captured = UINT64_MAX; // the frame that --capture named is captured once
+    while (app.frame_count() < frames)
     {
-        if (!run_frame(app, i, capture, options))
+        const uint64_t before = app.frame_count();
+        const bool due = options.capture == before && captured != before;
+        captured = due ? before : captured;
+        measured.simulated = false;
+        if (!run_frame(app, due || controls.take_capture() ? capture : nullptr))
             break;
-        softening.check(stage, app.time_step());
-        statistics.recorded(app.record_milliseconds());
+        if (!measured.simulated)
+            continue;
+        measured.softening.check(scene.stage, app.time_step());
+        measured.statistics.recorded(app.record_milliseconds());
         if (progress)
-            progress->update(i + 1);
+            progress->update(static_cast<uint32_t>(app.frame_count()));
     }
     app.finish();
     if (progress)
@@ -156,34 +186,37 @@ int exit_code(voile::engine::App& app, const Statistics& statistics)
 
 int run_scene(const Options& options)
 {
-    const SceneFile scene = voile::engine::take(load_scene(voile::engine::take(find_scene(options.scene))));
-    voile::engine::take(check_outputs(options, scene));
-    const std::vector<Solid> solids = voile::engine::take(load_solids(scene, options));
+    LoadedScene scene = voile::engine::take(load(options));
+    voile::engine::take(check_outputs(options, scene.file));
     check_targets(options);
     std::optional<voile::engine::Capture> capture; // before the instance
-    if (options.capture)
-        capture.emplace((options.out.value_or(".") / ("voile_frame" + std::to_string(*options.capture))).string());
+    if (options.capture || options.capture_key)
+    {
+        const std::string name = options.capture ? "voile_frame" + std::to_string(*options.capture) : "voile";
+        capture.emplace((options.out.value_or(".") / name).string());
+    }
 
-    voile::engine::App app(app_options(options, scene));
+    voile::engine::App app(app_options(options, scene.file));
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
-    Stage stage = voile::engine::take(set_stage(app, scene, solids, options));
-    if (options.debug.any())
-        app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
-    FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, stage, scene, options));
-    RunStatistics measured;
+    voile::engine::take(set_up(app, scene));
+    FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, scene.stage, scene.file, options));
+    Measured measured;
+    Controls controls(app, scene);
     const voile::engine::IdleGuard idle(app.device());
-    run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, options);
+    connect(app, scene, outputs, measured, controls);
+    run_frames(app, scene, controls, measured, capture ? &*capture : nullptr);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
     outputs.finish(outcome);
-    const std::vector<FinalCloth> state = download_state(app.device(), stage);
+    const std::vector<FinalCloth> state = download_state(app.device(), scene.stage);
     export_state(options, state, outcome);
-    Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
+    Statistics statistics =
+        measured.statistics.result(scene.stage, scene.file, app.device().info(), state, app.time_step());
     if (options.verify)
-        add_verification(voile::engine::take(verify(stage, solids, state)),
-                         pair_counts(count_intersections(app.device(), stage)), statistics);
+        add_verification(voile::engine::take(verify(scene.stage, scene.solids, state)),
+                         pair_counts(count_intersections(app.device(), scene.stage)), statistics);
     print_intersections(statistics.summary.intersections);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));

@@ -51,6 +51,8 @@ struct Options
     bool list_devices = false;
     bool validate = false;
     std::optional<uint32_t> capture{}; // frame, from 0
+    bool capture_key = false;          // F12 in the window captures a frame
+    bool paused = false;               // the window opens paused
     bool verify = false;
     DebugOptions debug{};
 

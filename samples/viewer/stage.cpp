@@ -162,7 +162,7 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
 {
     Stage stage;
     voile::SolverOptions solver_options;
-    solver_options.intersections = options.debug.intersections || options.verify;
+    solver_options.intersections = options.debug.intersections || options.verify || app.has_window();
     auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots(), solver_options);
     stage.world = &world;
     world.step.gravity = scene.gravity;
@@ -174,8 +174,6 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
     if (const auto valid = voile::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
-    if (options.debug.intersections)
-        world.intersections = voile::Intersections::counted;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
     {
