@@ -1,7 +1,7 @@
 // Controls.
 #include "samples/viewer/controls.hpp"
 
-#include "samples/viewer/text.hpp"
+#include "samples/viewer/scene_writer.hpp"
 
 #include "voile/engine/app/camera_control.hpp"
 #include "voile/gpu/printable.hpp"
@@ -26,8 +26,11 @@ constexpr auto k_help = std::to_array<ControlHelp>({
     {"space", "pause and continue"},
     {".", "one step, while paused"},
     {"R", "start again at time 0"},
+    {"Tab", "show and hide the panel"},
     {"F1", "this help"},
     {"F2", "save the picture as PNG"},
+    {"control + S", "save the scene as JSON"},
+    {"a file dropped onto the window", "an OBJ or PLY becomes a collider, as --collider does"},
     {"F12", "RenderDoc capture (start with --capture key)"},
     {"Esc", "close"},
 });
@@ -83,6 +86,13 @@ void Controls::press(const voile::engine::KeyPress& key)
     case Key::home:
         show_all();
         break;
+    case Key::s:
+        if (key.control)
+            save_scene();
+        break;
+    case Key::tab:
+        show_panel = !show_panel;
+        break;
     case Key::f1:
         show_help = !show_help;
         break;
@@ -119,6 +129,13 @@ void Controls::show_all()
 void Controls::save_picture()
 {
     pictures_.request(unused_path(folder_of(scene_.options), scene_.file.name, ".png"));
+}
+
+void Controls::save_scene()
+{
+    const std::filesystem::path path = unused_path(folder_of(scene_.options), scene_.file.name, ".json");
+    const auto saved = viewer::save_scene(current_file(scene_, app_.scene().camera), path);
+    say(saved ? "wrote " + written_name(path) : saved.error().message);
 }
 
 void Controls::request_capture()

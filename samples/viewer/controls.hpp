@@ -19,6 +19,8 @@ struct ControlHelp
 };
 std::span<const ControlHelp> control_help();
 
+constexpr float k_slowest = 1.f / 16; // speed of time
+
 class Controls
 {
 public:
@@ -40,11 +42,13 @@ public:
     // What the panel changes, too.
     bool paused = false;
     bool show_help = false;
-    float speed = 1; // of time, 1/16..1
+    bool show_panel = true;
+    float speed = 1; // of time, k_slowest..1
 
     void step() { ++steps_; }
     void show_all();
     void save_picture();
+    void save_scene();
     void request_capture();
     // Each starts again at time 0. If it is not possible a message says why, and the run continues.
     void restart();

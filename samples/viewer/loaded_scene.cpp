@@ -1,6 +1,7 @@
 // Loading a scene, and replacing one by another.
 #include "samples/viewer/loaded_scene.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace viewer
@@ -15,6 +16,19 @@ voile::Result<void> load_meshes(LoadedScene& loaded)
         return solids.error();
     loaded.solids = std::move(solids.value());
     return {};
+}
+
+// A mesh that load_solids fitted into the scene: scaled and moved.
+ColliderEntry entry_of(const Solid& solid)
+{
+    ColliderEntry entry;
+    entry.shape = MeshShape{solid.file};
+    entry.placed = true;
+    entry.transform.translate = solid.transform[3];
+    entry.transform.scale = solid.transform[0][0];
+    entry.motion = solid.motion;
+    entry.layers = solid.layers;
+    return entry;
 }
 
 } // namespace
@@ -70,6 +84,25 @@ voile::Result<void> restart(voile::engine::App& app, LoadedScene& loaded)
     auto done = replace(app, loaded, std::move(next));
     app.scene().camera = camera;
     return done;
+}
+
+SceneFile current_file(const LoadedScene& loaded, const voile::engine::Camera& camera)
+{
+    SceneFile file = loaded.file;
+    file.camera = CameraEntry{camera.position, camera.target, camera.fov};
+    for (ClothEntry& cloth : file.cloths)
+        if (auto* grid = std::get_if<GridEntry>(&cloth.form); grid != nullptr && loaded.options.cloth_resolution)
+            grid->columns = grid->rows = *loaded.options.cloth_resolution;
+    std::erase_if(file.colliders,
+                  [&](const ColliderEntry& entry)
+                  {
+                      return std::ranges::none_of(loaded.solids, [&](const Solid& solid)
+                                                  { return solid.location.path == entry.location.path; });
+                  });
+    for (const Solid& solid : loaded.solids)
+        if (!solid.file.empty())
+            file.colliders.push_back(entry_of(solid));
+    return file;
 }
 
 } // namespace viewer

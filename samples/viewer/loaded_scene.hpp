@@ -28,4 +28,7 @@ voile::Result<void> replace(voile::engine::App& app, LoadedScene& loaded, Loaded
 // Starts again with the scene as its file and `loaded.options` are now. Keeps the camera.
 voile::Result<void> restart(voile::engine::App& app, LoadedScene& loaded);
 
+// The scene file of what runs: with the resolution and the colliders of the options, and this camera.
+SceneFile current_file(const LoadedScene& loaded, const voile::engine::Camera& camera);
+
 } // namespace viewer

@@ -2,6 +2,7 @@
 #include "samples/viewer/controls.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/output_check.hpp"
+#include "samples/viewer/panel.hpp"
 #include "samples/viewer/progress.hpp"
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
@@ -78,7 +79,8 @@ struct Measured
     bool simulated = false; // in the last frame
 };
 
-void connect(voile::engine::App& app, LoadedScene& scene, FrameOutputs& outputs, Measured& measured, Controls& controls)
+void connect(voile::engine::App& app, LoadedScene& scene, FrameOutputs& outputs, Measured& measured, Controls& controls,
+             Panel& panel)
 {
     const Options& options = scene.options;
     app.draws = [&](const voile::engine::FrameInfo& frame)
@@ -93,12 +95,18 @@ void connect(voile::engine::App& app, LoadedScene& scene, FrameOutputs& outputs,
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {
         controls.completed(frame);
+        panel.completed(frame);
         if (!frame.simulates)
             return;
         measured.statistics.completed(scene.stage, frame);
         voile::engine::take(outputs.write(frame));
     };
-    app.on_input = [&](const voile::engine::Input& input, float seconds) { controls.handle(input, seconds); };
+    app.on_input = [&](voile::engine::Input input, float seconds)
+    {
+        panel.update(input, seconds);
+        controls.handle(input, seconds);
+    };
+    app.draw_overlay = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { panel.record(cmd, frame); };
     controls.restarted = [&] { measured = {}; };
 }
 
@@ -203,8 +211,9 @@ int run_scene(const Options& options)
     FrameOutputs outputs = voile::engine::take(FrameOutputs::create(app, scene.stage, scene.file, options));
     Measured measured;
     Controls controls(app, scene);
+    Panel panel(app, scene, controls);
     const voile::engine::IdleGuard idle(app.device());
-    connect(app, scene, outputs, measured, controls);
+    connect(app, scene, outputs, measured, controls, panel);
     run_frames(app, scene, controls, measured, capture ? &*capture : nullptr);
 
     // What cannot be written keeps nothing else from being so.

@@ -18,6 +18,16 @@ namespace fs = std::filesystem;
 
 std::string known_scenes(const std::vector<fs::path>& folders)
 {
+    std::string list;
+    for (const std::string& name : scene_names(folders))
+        list += (list.empty() ? "" : ", ") + voile::gpu::printable(name);
+    return list;
+}
+
+} // namespace
+
+std::vector<std::string> scene_names(const std::vector<fs::path>& folders)
+{
     std::set<std::string> names;
     for (const fs::path& folder : folders)
     {
@@ -28,13 +38,8 @@ std::string known_scenes(const std::vector<fs::path>& folders)
                 names.insert(it->path().stem().string());
         }
     }
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + voile::gpu::printable(name);
-    return list;
+    return {names.begin(), names.end()};
 }
-
-} // namespace
 
 std::vector<fs::path> scene_folders()
 {
