@@ -18,7 +18,8 @@ namespace
 using voile::engine::Key;
 
 constexpr auto k_help = std::to_array<ControlHelp>({
-    {"left drag", "orbit"},
+    {"left drag on the cloth", "pull at it"},
+    {"left drag beside it, or with Alt", "orbit"},
     {"middle drag, shift + left drag", "pan"},
     {"wheel", "zoom"},
     {"right drag", "look around; with W A S D Q E fly, with shift faster"},
@@ -49,7 +50,7 @@ std::span<const ControlHelp> control_help()
 }
 
 Controls::Controls(voile::engine::App& app, LoadedScene& scene)
-    : paused(scene.options.paused), app_(app), scene_(scene), pictures_(app)
+    : paused(scene.options.paused), app_(app), scene_(scene), pictures_(app), grab_(app, scene.stage)
 {
 }
 
@@ -59,13 +60,24 @@ void Controls::handle(const voile::engine::Input& input, float seconds)
         press(key);
     if (!input.dropped.empty())
         add_colliders(input.dropped);
-    voile::engine::steer(app_.scene().camera, input, seconds, app_.scene().focus_radius);
+    follow_mouse(input, seconds);
     const float time_step = speed / scene_.file.step.rate;
     if (time_step != app_.time_step())
         app_.set_time_step(time_step);
     app_.set_simulating(!paused || steps_ > 0);
     steps_ -= steps_ > 0 ? 1 : 0;
     update_title();
+}
+
+// The left button pulls at the cloth where it was pressed on it, and else steers.
+void Controls::follow_mouse(const voile::engine::Input& input, float seconds)
+{
+    if (input.left.pressed && !input.shift && !input.alt)
+        (void)grab_.begin(input.left.at);
+    grab_.move(input.cursor);
+    if (!input.left.held)
+        grab_.end();
+    voile::engine::steer(app_.scene().camera, input, seconds, app_.scene().focus_radius, !grab_.active());
 }
 
 void Controls::press(const voile::engine::KeyPress& key)
@@ -161,7 +173,13 @@ void Controls::restart()
 {
     if (!may_restart())
         return;
-    if (const auto done = viewer::restart(app_, scene_); !done)
+    started_again(viewer::restart(app_, scene_));
+}
+
+void Controls::started_again(const voile::Result<void>& done)
+{
+    grab_.forget();
+    if (!done)
         say(done.error().message);
     if (restarted)
         restarted();
@@ -171,11 +189,7 @@ void Controls::replace_scene(voile::Result<LoadedScene> next)
 {
     if (!next)
         return say(next.error().message);
-    const auto done = replace(app_, scene_, std::move(next.value()));
-    if (!done)
-        say(done.error().message);
-    if (restarted)
-        restarted();
+    started_again(replace(app_, scene_, std::move(next.value())));
 }
 
 void Controls::open_scene(const std::string& name)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "samples/viewer/frame_outputs.hpp"
+#include "samples/viewer/grab.hpp"
 #include "samples/viewer/loaded_scene.hpp"
 #include "samples/viewer/picture_saver.hpp"
 
@@ -62,12 +63,15 @@ public:
 private:
     void press(const voile::engine::KeyPress& key);
     [[nodiscard]] bool may_restart();
+    void follow_mouse(const voile::engine::Input& input, float seconds);
+    void started_again(const voile::Result<void>& done);
     void replace_scene(voile::Result<LoadedScene> next);
     void update_title();
 
     voile::engine::App& app_;
     LoadedScene& scene_;
     PictureSaver pictures_;
+    Grab grab_;
     uint32_t steps_ = 0; // to take while paused
     bool capture_ = false;
     std::string message_;

@@ -79,7 +79,10 @@ void take_used(const ImGuiIO& io, Input& input)
     if (io.WantCaptureMouse)
     {
         for (voile::engine::MouseButton* button : {&input.left, &input.right, &input.middle})
+        {
             button->held = button->pressed = false;
+            button->dragged = {};
+        }
         input.wheel = 0;
     }
     if (io.WantTextInput)
@@ -153,7 +156,7 @@ Panel::Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls)
     io.IniFilename = nullptr; // the viewer leaves no files behind
     io.LogFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.85f;
+    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.93f;
     state_->overlay = create_overlay(app);
     state_->contents.scene_names = scene_names();
 }

@@ -8,9 +8,11 @@
 #include <X11/keysym.h>
 
 #include <doctest/doctest.h>
+#include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdlib>
-#include <optional>
+#include <cstring>
 
 namespace
 {
@@ -20,14 +22,19 @@ using tests::ViewerProcess;
 using tests::XServer;
 using tests::XWindow;
 
-const std::vector<std::string> k_small{"reference", "--cloth-resolution", "16", "--validate"};
+const std::vector<std::string> k_reference{"reference", "--cloth-resolution", "16"};
 
-// The viewer in a window, paused.
+// The viewer in a window, paused, with validation. It runs in `folder`.
 class Session
 {
 public:
-    explicit Session(std::vector<std::string> more, const std::string& size = "320x180")
-        : process_(arguments(std::move(more), size), [&] { ::setenv("DISPLAY", server_.name().c_str(), 1); }),
+    explicit Session(const TestFolder& folder, std::vector<std::string> arguments, const std::string& size = "320x180")
+        : process_(complete(std::move(arguments), size),
+                   [&]
+                   {
+                       ::setenv("DISPLAY", server_.name().c_str(), 1);
+                       (void)!::chdir(folder.path().c_str());
+                   }),
           window(server_, "voile: ")
     {
         REQUIRE(!server_.name().empty());
@@ -69,12 +76,10 @@ public:
     Ending wait() { return process_.wait(); }
 
 private:
-    static std::vector<std::string> arguments(std::vector<std::string> more, const std::string& size)
+    static std::vector<std::string> complete(std::vector<std::string> arguments, const std::string& size)
     {
-        std::vector<std::string> all = k_small;
-        all.insert(all.end(), {"--size", size, "--paused"});
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
+        arguments.insert(arguments.end(), {"--size", size, "--paused", "--validate"});
+        return arguments;
     }
 
     XServer server_;
@@ -98,13 +103,80 @@ Statistics read_statistics(const std::filesystem::path& path)
 }
 
 // The same run without a window.
-Statistics headless(const TestFolder& folder, int frames)
+Statistics headless(const TestFolder& folder, std::vector<std::string> arguments, int frames)
 {
     const std::filesystem::path file = folder / "headless.json";
-    ViewerProcess process({"reference", "--cloth-resolution", "16", "--headless", "--frames", std::to_string(frames),
-                           "--stats", file.string()});
-    REQUIRE(process.wait().exit_code == 0);
+    arguments.insert(arguments.end(), {"--headless", "--frames", std::to_string(frames), "--stats", file.string()});
+    ViewerProcess process(arguments);
+    const Ending ending = process.wait();
+    CAPTURE(ending.errors);
+    REQUIRE(ending.exit_code == 0);
     return read_statistics(file);
+}
+
+std::vector<std::string> with(std::vector<std::string> list, std::initializer_list<std::string> more)
+{
+    list.insert(list.end(), more);
+    return list;
+}
+
+// A sheet that hangs from its rear corners, its middle vertex in the middle of the picture.
+constexpr const char* k_sheet = R"({
+  "cloths": [{"grid": {"vertices": [17, 17], "size": [1, 1]}, "pins": ["corner:0", "corner:1"],
+              "transform": {"translate": [0, 1, 0]}}],
+  "camera": {"position": [0, 3, 2], "target": [0, 1, 0], "fov": 60}
+})";
+constexpr uint32_t k_vertices = 17 * 17;
+constexpr uint32_t k_middle = 8 * 17 + 8;
+
+// The positions of the middle vertex, one per frame, from a point cache.
+std::vector<glm::vec3> middle_positions(const std::filesystem::path& path)
+{
+    constexpr size_t k_header = 32;
+    const std::string bytes = tests::text_of(path);
+    std::vector<glm::vec3> positions;
+    for (size_t at = k_header + k_middle * sizeof(glm::vec3); at + sizeof(glm::vec3) <= bytes.size();
+         at += k_vertices * sizeof(glm::vec3))
+        std::memcpy(&positions.emplace_back(), bytes.data() + at, sizeof(glm::vec3));
+    return positions;
+}
+
+// How much two pictures differ in a rectangle: the mean over its channels, 0..255.
+double difference(const voile::engine::Picture& a, const voile::engine::Picture& b, uint32_t left, uint32_t right)
+{
+    REQUIRE(a.rgba.size() == b.rgba.size());
+    double sum = 0;
+    for (uint32_t y = 0; y < a.height; ++y)
+        for (uint32_t x = left; x < right; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+            {
+                const size_t i = 4 * (size_t{y} * a.width + x) + c;
+                sum += std::abs(static_cast<double>(a.rgba[i]) - static_cast<double>(b.rgba[i]));
+            }
+    return sum / (3.0 * a.height * (right - left));
+}
+
+// The window once it shows the same for a quarter of a second. The panel, which shows the time of a frame, never does.
+voile::engine::Picture settled_picture(XWindow& window)
+{
+    voile::engine::Picture picture;
+    int equal = 0;
+    CHECK(ViewerProcess::wait_until(
+        [&]
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            voile::engine::Picture next = window.picture();
+            equal = next.rgba == picture.rgba ? equal + 1 : 0;
+            picture = std::move(next);
+            return equal == 5;
+        }));
+    return picture;
+}
+
+voile::engine::Picture hide_panel(XWindow& window)
+{
+    window.press(XK_Tab);
+    return settled_picture(window);
 }
 
 } // namespace
@@ -113,7 +185,7 @@ TEST_CASE("a period takes one step while paused, and R starts again")
 {
     const TestFolder folder;
     const std::string stats = (folder / "stats.json").string();
-    Session session({"--stats", stats});
+    Session session(folder, with(k_reference, {"--stats", stats}));
     session.step(3);
     session.window.press(XK_r);
     REQUIRE(session.window.wait_for_title("at frame 0"));
@@ -121,12 +193,13 @@ TEST_CASE("a period takes one step while paused, and R starts again")
     session.close();
     const Statistics statistics = read_statistics(stats);
     CHECK(statistics.frames == 2);
-    CHECK(statistics.hash == headless(folder, 2).hash);
+    CHECK(statistics.hash == headless(folder, k_reference, 2).hash);
 }
 
 TEST_CASE("space pauses and continues, and nothing is simulated while paused or minimized")
 {
-    Session session({});
+    const TestFolder folder;
+    Session session(folder, k_reference);
     XWindow& window = session.window;
     window.press(XK_space);
     REQUIRE(window.wait_for_title("paused", false));
@@ -146,7 +219,8 @@ TEST_CASE("space pauses and continues, and nothing is simulated while paused or 
 
 TEST_CASE("a window is resized, and Escape closes it")
 {
-    Session session({});
+    const TestFolder folder;
+    Session session(folder, k_reference);
     session.step(1);
     for (const unsigned int width : {500u, 200u})
     {
@@ -156,4 +230,112 @@ TEST_CASE("a window is resized, and Escape closes it")
     }
     session.window.press(XK_Escape);
     CHECK(session.wait().exit_code == 0);
+}
+
+TEST_CASE("the mouse grabs a vertex, which follows the cursor until it is released")
+{
+    const TestFolder folder;
+    const std::filesystem::path scene = folder.write("sheet.json", k_sheet);
+    Session session(folder, {scene.string(), "--export", (folder / "sheet.pc2").string()});
+    XWindow& window = session.window;
+    (void)hide_panel(window);
+    window.move(160, 90);
+    window.button(1, true);
+    window.move(160, 70);
+    session.step(30);
+    window.button(1, false);
+    session.step(20);
+    session.close();
+
+    // The cursor's point in the plane through the vertex that faces the camera.
+    const float pixel = 2 * std::sqrt(8.f) * std::tan(std::acos(-1.f) / 6) / 180; // m
+    const glm::vec3 up(0, std::sqrt(0.5f), -std::sqrt(0.5f));
+    const glm::vec3 start(0, 1, 0);
+    const glm::vec3 target = start + 20 * pixel * up;
+    const std::vector<glm::vec3> positions = middle_positions(folder / "sheet.pc2");
+    REQUIRE(positions.size() == 50);
+    const float held = glm::distance(positions[29], target);
+    const float released = glm::distance(positions[49], target);
+    CAPTURE(held);
+    CAPTURE(released);
+    CHECK(held < 0.2f * glm::distance(start, target));
+    CHECK(released > 3 * held);
+}
+
+TEST_CASE("dragging beside the cloth orbits, and the cloth is left alone")
+{
+    const TestFolder folder;
+    const std::filesystem::path scene = folder.write("sheet.json", k_sheet);
+    const std::string stats = (folder / "stats.json").string();
+    Session session(folder, {scene.string(), "--stats", stats});
+    XWindow& window = session.window;
+    (void)hide_panel(window);
+    session.step(1);
+    const voile::engine::Picture before = settled_picture(window);
+    window.move(300, 10);
+    window.button(1, true);
+    window.move(200, 40);
+    window.button(1, false);
+    const voile::engine::Picture turned = settled_picture(window);
+    CHECK(difference(before, turned, 0, 320) > 1);
+    window.press(XK_Home);
+    CHECK(difference(settled_picture(window), turned, 0, 320) > 1);
+    session.step(1);
+    session.close();
+    CHECK(read_statistics(stats).hash == headless(folder, {scene.string()}, 2).hash);
+}
+
+TEST_CASE("a dropped mesh becomes a collider, and the saved scene is what runs")
+{
+    const TestFolder folder;
+    const std::string box =
+        folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").string();
+    const std::string scene =
+        folder
+            .write("fast.json",
+                   R"({"cloths": [{"grid": {"vertices": [9, 9], "size": [1, 1]}}], "gravity": [0, -100, 0]})")
+            .string();
+    const std::string stats = (folder / "stats.json").string();
+    Session session(folder, {scene, "--stats", stats});
+    session.step(1);
+    session.window.drop(box);
+    REQUIRE(session.window.wait_for_title("at frame 0"));
+    session.window.press(XK_s, true);
+    const std::filesystem::path saved = folder / "fast_1.json";
+    REQUIRE(ViewerProcess::wait_until([&] { return std::filesystem::exists(saved); }));
+    session.step(8);
+    session.close();
+    const std::string hash = read_statistics(stats).hash;
+    CHECK(hash == headless(folder, {scene, "--collider", box}, 8).hash);
+    CHECK(hash == headless(folder, {saved.string()}, 8).hash);
+    CHECK(hash != headless(folder, {scene}, 8).hash); // it has touched the mesh
+}
+
+TEST_CASE("the panel shows and hides, and a picture is saved without it")
+{
+    const TestFolder folder;
+    Session session(folder, k_reference, "640x400");
+    XWindow& window = session.window;
+    session.step(2);
+    window.press(XK_F2);
+    const std::filesystem::path saved = folder / "reference_1.png";
+    REQUIRE(ViewerProcess::wait_until([&] { return std::filesystem::exists(saved); }));
+    const voile::engine::Picture shown = window.picture();
+    const voile::engine::Picture hidden = hide_panel(window);
+    const auto file = voile::engine::load_png(saved);
+    REQUIRE(file);
+    CHECK(difference(file.value(), hidden, 0, 640) < 1);
+    if (const char* pictures = std::getenv("VOILE_WINDOW_PICTURES"))
+    {
+        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "panel.png", shown));
+        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "hidden.png", hidden));
+        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "saved.png", file.value()));
+    }
+    const double panel = difference(shown, hidden, 8, 358);
+    if (panel == 0)
+        MESSAGE("skipped: the viewer was built without Dear ImGui");
+    else
+        CHECK(panel > 20);
+    CHECK(difference(shown, hidden, 400, 640) < 1);
+    session.close();
 }

@@ -3,7 +3,6 @@
 
 #include "voile/engine/app/camera_control.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -172,10 +171,10 @@ void App::keep_pace()
 void App::follow_user()
 {
     using Clock = std::chrono::steady_clock;
-    constexpr float k_longest = 0.1f; // s: a stall is no long flight
     const Input input = window_->take_input();
     const Clock::time_point now = Clock::now();
-    const float seconds = std::min(std::chrono::duration<float>(now - last_input_).count(), k_longest);
+    const float seconds =
+        last_input_ == Clock::time_point{} ? 0 : std::chrono::duration<float>(now - last_input_).count();
     last_input_ = now;
     if (on_input)
         on_input(input, seconds);

@@ -87,15 +87,17 @@ void steer(Camera& camera, const Input& input, float seconds, float radius, bool
 {
     constexpr float k_speed = 0.5f; // radii per second
     constexpr float k_fast = 2;
-    const bool panning = input.middle.held || (left && input.left.held && input.shift);
-    if (panning)
-        pan(camera, input.moved / input.height);
-    else if (left && input.left.held)
-        orbit(camera, input.moved);
-    else if (input.right.held)
-        look(camera, input.moved);
+    constexpr float k_longest = 0.1f; // s: a stall is no long flight
+    const glm::vec2 left_drag = left ? input.left.dragged : glm::vec2(0);
+    const glm::vec2 panned = input.middle.dragged + (input.shift ? left_drag : glm::vec2(0));
+    if (panned != glm::vec2(0))
+        pan(camera, panned / input.height);
+    if (left_drag != glm::vec2(0) && !input.shift)
+        orbit(camera, left_drag);
+    if (input.right.dragged != glm::vec2(0))
+        look(camera, input.right.dragged);
     if (input.right.held)
-        fly(camera, (input.shift ? k_fast : k_speed) * radius * seconds *
+        fly(camera, (input.shift ? k_fast : k_speed) * radius * std::min(seconds, k_longest) *
                         glm::vec3(key_axis(input, Key::d, Key::a), key_axis(input, Key::e, Key::q),
                                   key_axis(input, Key::w, Key::s)));
     if (input.wheel != 0)

@@ -66,7 +66,9 @@ void on_cursor(GLFWwindow* window, double x, double y)
     glfwGetWindowSize(window, &width, &height);
     const glm::vec2 size(std::max(width, 1), std::max(height, 1));
     const glm::vec2 cursor = glm::vec2(x, y) / size;
-    input.moved += (cursor - input.cursor) * size;
+    for (MouseButton* button : {&input.left, &input.right, &input.middle})
+        if (button->held)
+            button->dragged += (cursor - input.cursor) * size;
     input.cursor = cursor;
     input.height = size.y;
 }
@@ -91,10 +93,12 @@ void on_focus(GLFWwindow* window, int focused)
 
 void Input::begin_frame()
 {
-    moved = {};
     wheel = 0;
     for (MouseButton* button : {&left, &right, &middle})
+    {
         button->pressed = button->released = false;
+        button->dragged = {};
+    }
     keys.clear();
     text.clear();
     dropped.clear();

@@ -50,19 +50,19 @@ struct KeyPress
 
 struct MouseButton
 {
-    bool held = false;     // now
-    bool pressed = false;  // since the last frame; `held` may be false again
-    bool released = false; // since the last frame
-    glm::vec2 at{0.f};     // the cursor when it was pressed last
+    bool held = false;      // now
+    bool pressed = false;   // since the last frame; `held` may be false again
+    bool released = false;  // since the last frame
+    glm::vec2 at{0.f};      // the cursor when it was pressed last
+    glm::vec2 dragged{0.f}; // pixels that the cursor has moved since the last frame while it was held
 };
 
 // Cursor positions are fractions of the window: (0, 0) is its upper left corner, (1, 1) its lower right one.
 struct Input
 {
     glm::vec2 cursor{0.f};
-    glm::vec2 moved{0.f}; // pixels since the last frame
-    float height = 1;     // of the window, pixels
-    float wheel = 0;      // turns away from the user
+    float height = 1; // of the window, pixels
+    float wheel = 0;  // turns away from the user
     MouseButton left;
     MouseButton right;
     MouseButton middle;
