@@ -34,7 +34,7 @@ if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
     voile_add_test(test_frame SOURCES engine/test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()
 voile_add_test(test_hazards SOURCES solver/test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
+voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_overlay.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
 
 # A captured frame, read with RenderDoc's Python module (Debian's, hence its Python).
 if(EXISTS /usr/bin/python3)
@@ -58,6 +58,7 @@ find_package(X11 QUIET)
 if(XVFB AND X11_FOUND AND X11_XTest_FOUND)
     voile_add_test(test_window SOURCES viewer/test_window.cpp viewer/x_display.cpp
                    LIBRARIES voile_viewer_parts voile::engine X11::X11 X11::Xtst)
+    target_compile_definitions(test_window PRIVATE VOILE_HAS_PANEL=$<BOOL:${ImGui_FOUND}>)
     add_dependencies(test_window viewer scene_meshes)
 endif()
 

@@ -156,27 +156,26 @@ double difference(const voile::engine::Picture& a, const voile::engine::Picture&
     return sum / (3.0 * a.height * (right - left));
 }
 
-// The window once it shows the same for a quarter of a second. The panel, which shows the time of a frame, never does.
-voile::engine::Picture settled_picture(XWindow& window)
+// A dark bar where the panel has its title, and otherwise sky or ground.
+bool shows_panel(const voile::engine::Picture& picture)
+{
+    const uint8_t* p = &picture.rgba[size_t{4} * (size_t{14} * picture.width + 150)];
+    return p[0] + p[1] + p[2] < 330;
+}
+
+// The window once it fulfills the condition.
+template <typename Condition>
+voile::engine::Picture picture_when(XWindow& window, Condition condition)
 {
     voile::engine::Picture picture;
-    int equal = 0;
-    CHECK(ViewerProcess::wait_until(
-        [&]
-        {
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-            voile::engine::Picture next = window.picture();
-            equal = next.rgba == picture.rgba ? equal + 1 : 0;
-            picture = std::move(next);
-            return equal == 5;
-        }));
+    CHECK(ViewerProcess::wait_until([&] { return condition(picture = window.picture()); }));
     return picture;
 }
 
 voile::engine::Picture hide_panel(XWindow& window)
 {
     window.press(XK_Tab);
-    return settled_picture(window);
+    return picture_when(window, [](const voile::engine::Picture& picture) { return !shows_panel(picture); });
 }
 
 } // namespace
@@ -271,15 +270,16 @@ TEST_CASE("dragging beside the cloth orbits, and the cloth is left alone")
     XWindow& window = session.window;
     (void)hide_panel(window);
     session.step(1);
-    const voile::engine::Picture before = settled_picture(window);
+    const voile::engine::Picture before = window.picture();
+    const auto turned = [&](const voile::engine::Picture& picture) { return difference(before, picture, 0, 320) > 1; };
     window.move(300, 10);
     window.button(1, true);
     window.move(200, 40);
     window.button(1, false);
-    const voile::engine::Picture turned = settled_picture(window);
-    CHECK(difference(before, turned, 0, 320) > 1);
+    const voile::engine::Picture after = picture_when(window, turned);
     window.press(XK_Home);
-    CHECK(difference(settled_picture(window), turned, 0, 320) > 1);
+    (void)picture_when(window,
+                       [&](const voile::engine::Picture& picture) { return difference(after, picture, 0, 320) > 1; });
     session.step(1);
     session.close();
     CHECK(read_statistics(stats).hash == headless(folder, {scene.string()}, 2).hash);
@@ -311,6 +311,20 @@ TEST_CASE("a dropped mesh becomes a collider, and the saved scene is what runs")
     CHECK(hash != headless(folder, {scene}, 8).hash); // it has touched the mesh
 }
 
+#if VOILE_HAS_PANEL
+
+namespace
+{
+
+// For people who want to see what these tests see.
+void keep(const char* name, const voile::engine::Picture& picture)
+{
+    if (const char* folder = std::getenv("VOILE_WINDOW_PICTURES"))
+        CHECK(voile::engine::save_png(std::filesystem::path(folder) / name, picture));
+}
+
+} // namespace
+
 TEST_CASE("the panel shows and hides, and a picture is saved without it")
 {
     const TestFolder folder;
@@ -320,22 +334,53 @@ TEST_CASE("the panel shows and hides, and a picture is saved without it")
     window.press(XK_F2);
     const std::filesystem::path saved = folder / "reference_1.png";
     REQUIRE(ViewerProcess::wait_until([&] { return std::filesystem::exists(saved); }));
-    const voile::engine::Picture shown = window.picture();
+    const voile::engine::Picture shown = picture_when(window, shows_panel);
     const voile::engine::Picture hidden = hide_panel(window);
     const auto file = voile::engine::load_png(saved);
     REQUIRE(file);
     CHECK(difference(file.value(), hidden, 0, 640) < 1);
-    if (const char* pictures = std::getenv("VOILE_WINDOW_PICTURES"))
-    {
-        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "panel.png", shown));
-        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "hidden.png", hidden));
-        CHECK(voile::engine::save_png(std::filesystem::path(pictures) / "saved.png", file.value()));
-    }
-    const double panel = difference(shown, hidden, 8, 358);
-    if (panel == 0)
-        MESSAGE("skipped: the viewer was built without Dear ImGui");
-    else
-        CHECK(panel > 20);
+    keep("panel.png", shown);
+    CHECK(difference(shown, hidden, 8, 358) > 20);
     CHECK(difference(shown, hidden, 400, 640) < 1);
     session.close();
 }
+
+TEST_CASE("the panel has buttons and sliders that work")
+{
+    const TestFolder folder;
+    const std::string scene = folder.write("sheet.json", k_sheet).string();
+    Session session(folder, {scene}, "1000x760");
+    XWindow& window = session.window;
+    (void)picture_when(window, shows_panel);
+    const auto click = [&](int x, int y)
+    {
+        window.move(x, y);
+        window.button(1, true);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        window.button(1, false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    };
+    click(110, 45); // step
+    REQUIRE(window.wait_for_title("at frame 1"));
+    click(150, 154); // folds times and energy
+    const voile::engine::Picture plain = window.picture();
+    click(25, 200); // wireframe
+    keep("wires.png", picture_when(window, [&](const voile::engine::Picture& picture)
+                                   { return difference(picture, plain, 400, 1000) > 0.2; }));
+    click(150, 177); // folds the views
+    click(150, 223); // unfolds wind and step
+    click(62, 269);  // the upper end of the wind along x
+    keep("sliders.png", window.picture());
+    click(55, 131); // save scene
+    const std::filesystem::path saved = folder / "sheet_1.json";
+    REQUIRE(ViewerProcess::wait_until([&] { return std::filesystem::exists(saved); }));
+    const auto tree = viewer::parse_json(tests::text_of(saved), "scene");
+    REQUIRE(tree);
+    const viewer::JsonNode* wind = tree.value().find("wind");
+    REQUIRE(wind != nullptr);
+    CHECK(wind->find("velocity")->items[0].number > 100);
+    CHECK(wind->find("velocity")->items[1].number == 0);
+    session.close();
+}
+
+#endif
