@@ -164,9 +164,12 @@ void show_step(PanelContents& panel)
     bool changed = false;
     for (const StepParameter& parameter : k_step_parameters)
     {
-        changed |= ImGui::SliderScalarN(parameter.name, ImGuiDataType_Float, parameter.value(file),
+        const bool single = parameter.count == 1; // three are too narrow for a unit each
+        const std::string label = single ? parameter.name : std::string(parameter.name) + ", " + parameter.unit;
+        changed |= ImGui::SliderScalarN(label.c_str(), ImGuiDataType_Float, parameter.value(file),
                                         static_cast<int>(parameter.count), &parameter.min, &parameter.max,
-                                        format_of(parameter.unit).c_str(), flags_of(parameter.min, parameter.max));
+                                        (single ? format_of(parameter.unit) : "%.3g").c_str(),
+                                        flags_of(parameter.min, parameter.max));
         show_tip(parameter.meaning);
     }
     changed |= ImGui::SliderScalar("max_substeps", ImGuiDataType_U32, &file.step.max_substeps, &k_least_limit,
