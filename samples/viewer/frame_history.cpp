@@ -37,6 +37,19 @@ float FrameHistory::mean(size_t pass) const
     return samples_.empty() ? 0 : sum / static_cast<float>(samples_.size());
 }
 
+float FrameHistory::usual_most() const
+{
+    constexpr float k_least = 0.001f; // ms
+    std::vector<float> times;
+    for (const FrameSample& sample : samples_)
+        times.push_back(sample.frame_ms);
+    if (times.empty())
+        return k_least;
+    const auto usual = times.begin() + static_cast<std::ptrdiff_t>((times.size() - 1) * 19 / 20);
+    std::nth_element(times.begin(), usual, times.end());
+    return std::max(1.1f * *usual, k_least);
+}
+
 std::vector<size_t> FrameHistory::longest(size_t count) const
 {
     std::vector<float> means(names_.size());

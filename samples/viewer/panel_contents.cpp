@@ -22,9 +22,7 @@ void plot_passes(const FrameHistory& history)
 {
     const auto& samples = history.samples();
     const std::vector<size_t> passes = history.longest(k_colors.size());
-    float most = 0.001f; // ms
-    for (const FrameSample& sample : samples)
-        most = std::max(most, sample.frame_ms);
+    const float most = history.usual_most();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetContentRegionAvail().x, 80};
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -50,7 +48,7 @@ void plot_passes(const FrameHistory& history)
         stack(std::max(rest, 0.f), k_rest_color);
     }
     ImGui::Dummy(size);
-    ImGui::Text("GPU time per frame, up to %.3g ms:", static_cast<double>(most));
+    ImGui::Text("GPU time per frame, up to %.3g ms, and its mean:", static_cast<double>(most));
     for (size_t k = 0; k < passes.size(); ++k)
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(k_colors[k]), "%.3f ms %s",
                            static_cast<double>(history.mean(passes[k])), history.names()[passes[k]].c_str());

@@ -146,7 +146,13 @@ void show_materials(PanelContents& panel)
             if (std::visit([](auto& m) { return show_material(m); }, material))
             {
                 if (const auto set = solver.set_material(id, material); set)
-                    panel.scene.file.cloths[i].material = entry_of(material);
+                {
+                    MaterialEntry& entry = panel.scene.file.cloths[i].material;
+                    const std::optional<std::string> preset = entry.preset; // which gives the cloth its look
+                    entry = entry_of(material);
+                    if (std::holds_alternative<voile::Fabric>(material))
+                        entry.preset = preset;
+                }
                 else
                     panel.controls.say(set.error().message);
             }

@@ -143,6 +143,10 @@ struct PinEntry
     Location location;
 };
 
+// The names of weaves and patterns, in the order of their values.
+inline constexpr const char* k_weaves[] = {"plain", "twill", "satin", "grain", "none"};
+inline constexpr const char* k_patterns[] = {"check", "stripes", "none"};
+
 // How a cloth is drawn. What is absent follows from the material's preset.
 struct LookEntry
 {

@@ -129,6 +129,28 @@ Json pin(const PinEntry& entry)
     return json;
 }
 
+Json look(const LookEntry& entry)
+{
+    Json json = Json::object();
+    const auto add_number = [&](const char* key, const std::optional<float>& value)
+    {
+        if (value)
+            json[key] = number(*value);
+    };
+    if (entry.color)
+        json["color"] = vector(*entry.color);
+    if (entry.back_color)
+        json["back_color"] = vector(*entry.back_color);
+    if (entry.weave)
+        json["weave"] = k_weaves[static_cast<size_t>(*entry.weave)];
+    if (entry.pattern)
+        json["pattern"] = k_patterns[static_cast<size_t>(*entry.pattern)];
+    add_number("roughness", entry.roughness);
+    add_number("sheen", entry.sheen);
+    add_number("translucency", entry.translucency);
+    return json;
+}
+
 Json cloth(const ClothEntry& entry, const fs::path& folder)
 {
     const ClothEntry plain;
@@ -150,6 +172,8 @@ Json cloth(const ClothEntry& entry, const fs::path& folder)
     add(json, "integrator", entry.integrator, plain.integrator, "verlet");
     add(json, "self_collision", entry.self_collision, plain.self_collision, entry.self_collision);
     add(json, "layers", entry.layers, plain.layers, layers(entry.layers));
+    if (const Json drawn = look(entry.look); !drawn.empty())
+        json["look"] = drawn;
     return json;
 }
 

@@ -34,7 +34,9 @@ constexpr const char* k_all = R"({
     "velocity": [0, 0, -1],
     "integrator": "verlet",
     "self_collision": false,
-    "layers": [0, 3]
+    "layers": [0, 3],
+    "look": {"color": [0.5, 0.25, 0.125], "back_color": [0, 0, 1], "weave": "twill", "pattern": "stripes",
+             "roughness": 0.5, "sheen": 0.25, "translucency": 0.75}
   }, {"name": "shirt", "mesh": "m/shirt.PLY", "material": "silk"}, {"name": "towel", "mesh": "towel.obj"}],
   "colliders": [
     {"mesh": "../heart.obj", "transform": {"rotate": [0, 90, 0]}, "friction": {"static": 0.5, "kinetic": 0.4},
