@@ -229,6 +229,7 @@ void Overlay::record(VkCommandBuffer cmd, const Image& target, uint32_t slot, co
         return;
     State& state = *state_;
     const gpu::Context& context = state.context;
+    const gpu::LabelScope scope(context, cmd, "overlay");
     state.upload_coverage(cmd);
     State::Slot& buffers = state.slots[slot];
     write(context, buffers.vertices, std::as_bytes(std::span(triangles.vertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
