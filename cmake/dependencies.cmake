@@ -41,6 +41,7 @@ if(VOILE_BUILD_ENGINE)
     find_package(nlohmann_json 3 REQUIRED)
     find_package(CLI11 REQUIRED)
     find_path(STB_INCLUDE_DIR NAMES stb_image.h PATH_SUFFIXES stb REQUIRED)
+    find_package(ImGui QUIET) # the viewer's panel
     find_path(RENDERDOC_INCLUDE_DIR NAMES renderdoc_app.h)
     add_library(voile_stb INTERFACE)
     target_include_directories(voile_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})

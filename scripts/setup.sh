@@ -23,6 +23,7 @@ packages=(
   build-essential cmake ninja-build git ca-certificates
   libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools
   libglm-dev libglfw3-dev libtinyobjloader-dev libstb-dev nlohmann-json3-dev libcli11-dev doctest-dev
+  libimgui-dev libxtst-dev
   mesa-vulkan-drivers vulkan-validationlayers
   renderdoc librenderdoc-dev python3-renderdoc
   ffmpeg xvfb xauth
@@ -44,7 +45,7 @@ as_root() {
 installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
 
 # A release may lack a package such as RenderDoc. That is no reason to fail.
-optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc | xvfb | xauth) true ;; *) false ;; esac; }
+optional() { case "$1" in renderdoc | librenderdoc-dev | python3-renderdoc | libimgui-dev | libxtst-dev | xvfb | xauth) true ;; *) false ;; esac; }
 
 available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
 
@@ -100,7 +101,8 @@ if ! command -v apt-get >/dev/null 2>&1; then
 setup: this system has no apt. Install with its package manager, then run the command again:
   a C++20 compiler, CMake 3.25, Ninja, git, ffmpeg (for films)
   Vulkan headers and loader, volk, VulkanMemoryAllocator 3, glslangValidator, spirv-val
-  GLM, GLFW 3, tinyobjloader, stb, nlohmann-json 3, CLI11, doctest
+  GLM, GLFW 3, tinyobjloader, stb, nlohmann-json 3, CLI11, doctest, Dear ImGui (optional: the viewer's panel), libXtst
+  (optional: a test)
   a Vulkan driver (Mesa's lavapipe runs without a GPU), the Khronos validation layer, RenderDoc (optional)
 TEXT
   exit 1

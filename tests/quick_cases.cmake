@@ -154,6 +154,9 @@ quick(test_viewer
     "exports hold the start, every frame and the end, of cloths and colliders"
     "the jelly scene runs at a coarse resolution, and its cloth stays outside")
 quick(test_viewer_parts)
+quick(test_window
+    "a period takes one step while paused, and R starts again"
+    "a window is resized, and Escape closes it")
 
 get_cmake_property(variables VARIABLES)
 foreach(variable IN LISTS variables)

@@ -13,7 +13,7 @@ voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SO
 voile_add_test(test_integration SOURCES integration/test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts
     SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_scene_syntax.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_usd.cpp viewer/test_statistics_file.cpp
-            viewer/test_film.cpp viewer/test_looks.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp
+            viewer/test_film.cpp viewer/test_looks.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp viewer/test_scene_writer.cpp viewer/test_picking.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
 voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES viewer/test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::engine)
@@ -34,7 +34,7 @@ if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
     voile_add_test(test_frame SOURCES engine/test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()
 voile_add_test(test_hazards SOURCES solver/test_hazards.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_renderer SOURCES engine/test_renderer.cpp LIBRARIES voile::cloth_component voile::engine)
+voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_overlay.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
 
 # A captured frame, read with RenderDoc's Python module (Debian's, hence its Python).
 if(EXISTS /usr/bin/python3)
@@ -67,6 +67,16 @@ if(XVFB_RUN)
              COMMAND ${XVFB_RUN} -a $<TARGET_FILE:viewer> reference --frames 10 --validate --cloth-resolution 16
                      --size 320x180)
     set_tests_properties("window: frames on a virtual display" PROPERTIES TIMEOUT 120)
+endif()
+
+# The window as its users use it: keys and mouse by the XTEST extension.
+find_program(XVFB Xvfb)
+find_package(X11 QUIET)
+if(XVFB AND X11_FOUND AND X11_XTest_FOUND)
+    voile_add_test(test_window SOURCES viewer/test_window.cpp viewer/x_display.cpp
+                   LIBRARIES voile_viewer_parts voile::engine X11::X11 X11::Xtst)
+    target_compile_definitions(test_window PRIVATE VOILE_HAS_PANEL=$<BOOL:${ImGui_FOUND}>)
+    add_dependencies(test_window viewer scene_meshes)
 endif()
 
 # A separate project that uses the installed package.

@@ -267,6 +267,7 @@ voile::Result<std::vector<Solid>> load_solids(const SceneFile& scene, const Opti
         solid.shape = std::move(mesh.value());
         solid.motion = motion;
         solid.layers = layers;
+        solid.file = options.colliders[i];
         solids.push_back(std::move(solid));
     }
     return solids;

@@ -22,7 +22,8 @@ struct Solid
     std::shared_ptr<const MeshSequence> frames{}; // of a mesh that deforms, whose shape is the first; else null
     std::optional<MeshSides> sides{};
     uint32_t layers = 1;
-    Location location{}; // in the scene file; line 0: of the command line
+    Location location{};          // in the scene file; line 0: of the command line
+    std::filesystem::path file{}; // of the command line
 
     // A mesh that is flat and level, and stays so: drawn as ground, and no part of the collider box.
     [[nodiscard]] bool is_ground() const;

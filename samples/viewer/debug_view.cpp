@@ -57,27 +57,38 @@ void tell_no_boxes(const Solid& solid)
 
 DebugView::DebugView(voile::engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
                      const DebugOptions& options)
-    : world_(*stage.world), motions_(*stage.motions), options_(options)
+    : app_(app), stage_(stage), solids_(solids), world_(*stage.world), motions_(*stage.motions)
 {
     for (const StageCloth& cloth : stage.cloths)
         cloths_.push_back({cloth.id, k_normal_length * longest_side(cloth.start)});
-    if (options.boxes)
-        for (size_t i = 0; i < solids.size(); ++i)
-            solids[i].frames ? tell_no_boxes(solids[i]) : add_boxes(app, stage, i, *options.boxes);
+    set_options(options);
 }
 
-void DebugView::add_boxes(voile::engine::App& app, const Stage& stage, size_t solid, uint32_t level)
+void DebugView::set_options(const DebugOptions& options)
+{
+    if (options.boxes != options_.boxes)
+    {
+        app_.finish(); // they draw the boxes
+        boxes_.clear();
+        for (size_t i = 0; options.boxes && i < solids_.size(); ++i)
+            solids_[i].frames ? tell_no_boxes(solids_[i]) : add_boxes(i, *options.boxes);
+    }
+    options_ = options;
+    world_.intersections = options.intersections ? voile::Intersections::counted : voile::Intersections::not_counted;
+}
+
+void DebugView::add_boxes(size_t solid, uint32_t level)
 {
     std::vector<glm::vec4> from;
     std::vector<glm::vec4> to;
-    for (const voile::BoundingBox& box : world_.solver().hierarchy_boxes(stage.colliders[solid], level))
+    for (const voile::BoundingBox& box : world_.solver().hierarchy_boxes(stage_.colliders[solid], level))
         add_edges(box, from, to);
     if (from.empty()) // no mesh
         return;
     Boxes& boxes = boxes_.emplace_back();
     boxes.solid = solid;
-    boxes.from = app.uploads().buffer("box edges, from", from, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    boxes.to = app.uploads().buffer("box edges, to", to, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    boxes.from = app_.uploads().buffer("box edges, from", from, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    boxes.to = app_.uploads().buffer("box edges, to", to, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     boxes.edges = static_cast<uint32_t>(from.size());
 }
 

@@ -15,6 +15,10 @@ public:
     DebugView(voile::engine::App& app, const Stage& stage, const std::vector<Solid>& solids,
               const DebugOptions& options);
 
+    [[nodiscard]] const DebugOptions& options() const { return options_; }
+    // What is drawn from the next frame on. Another level of boxes waits for the frames in flight.
+    void set_options(const DebugOptions& options);
+
     void record_draw(VkCommandBuffer cmd, voile::engine::View& view) override;
 
 private:
@@ -31,8 +35,11 @@ private:
         float normal_length = 0; // m
     };
 
-    void add_boxes(voile::engine::App& app, const Stage& stage, size_t solid, uint32_t level);
+    void add_boxes(size_t solid, uint32_t level);
 
+    voile::engine::App& app_;
+    const Stage& stage_;
+    const std::vector<Solid>& solids_;
     voile::component::ClothWorld& world_;
     const Motions& motions_;
     DebugOptions options_;

@@ -49,7 +49,7 @@ void apply_preset(const std::string& preset, Surface& surface)
         surface.weave = Surface::Weave::twill;
         surface.pattern = Surface::Pattern::none;
         surface.base_color = {0.02f, 0.05f, 0.17f}; // dyed warp
-        surface.back_color = {0.32f, 0.36f, 0.42f};  // plain weft
+        surface.back_color = {0.32f, 0.36f, 0.42f}; // plain weft
         surface.roughness = 0.85f;
         surface.sheen = 0.12f;
         surface.translucency = 0.02f;

@@ -1,9 +1,10 @@
 // viewer: simulates a scene and shows it, in a window or as files. The story of a run is run_scene.
 #include "samples/viewer/animation_exports.hpp"
-#include "samples/viewer/debug_view.hpp"
+#include "samples/viewer/controls.hpp"
 #include "samples/viewer/exports.hpp"
 #include "samples/viewer/frame_outputs.hpp"
 #include "samples/viewer/output_check.hpp"
+#include "samples/viewer/panel.hpp"
 #include "samples/viewer/progress.hpp"
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
@@ -60,14 +61,13 @@ voile::engine::AppOptions app_options(const Options& options, const SceneFile& s
     return result;
 }
 
-// One frame, captured if it is the one that was asked for. False when the window was closed.
-bool run_frame(voile::engine::App& app, uint64_t index, voile::engine::Capture* capture, const Options& options)
+// One frame, captured if that was asked for. False when the window was closed.
+bool run_frame(voile::engine::App& app, voile::engine::Capture* capture)
 {
-    const bool capturing = capture != nullptr && options.capture == index;
-    if (capturing)
+    if (capture != nullptr)
         capture->begin();
     const bool open = app.frame();
-    if (capturing)
+    if (capture != nullptr)
     {
         app.finish();
         std::printf("capture: %s\n", capture->end().c_str());
@@ -82,48 +82,87 @@ struct Outputs
     AnimationExports animations;
 };
 
-// Returns the simulated time, s.
-double run_frames(voile::engine::App& app, Stage& stage, Outputs& outputs, RunStatistics& statistics,
-                  voile::engine::Capture* capture, const voile::engine::EarlyFinish& early, const Options& options)
+// What a run measures.
+struct Measured
 {
-    double seconds = 0;
+    RunStatistics statistics;
+    SofteningNotes softening;
+    double seconds = 0;     // that were simulated
+    bool simulated = false; // in the last frame
+    bool interrupted = false;
+};
+
+void connect(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, Measured& measured, Controls& controls,
+             Panel& panel)
+{
+    const Options& options = scene.options;
     app.draws = [&](const voile::engine::FrameInfo& frame)
     { return options.stats || options.capture == frame.index || outputs.pictures.wants_picture(frame); };
     app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
     {
-        outputs.pictures.record(cmd, frame);
-        outputs.animations.record(cmd, frame);
+        measured.simulated = frame.simulates;
+        if (frame.simulates)
+        {
+            outputs.pictures.record(cmd, frame);
+            outputs.animations.record(cmd, frame);
+        }
+        controls.record(cmd, frame);
     };
     app.completed = [&](const voile::engine::FrameInfo& frame)
     {
-        seconds = frame.time + static_cast<double>(frame.time_step);
-        statistics.completed(stage, frame);
+        controls.completed(frame);
+        panel.completed(frame);
+        if (!frame.simulates)
+            return;
+        measured.seconds = frame.time + static_cast<double>(frame.time_step);
+        measured.statistics.completed(scene.stage, frame);
         voile::engine::take(outputs.pictures.write(frame));
         voile::engine::take(outputs.animations.write(frame));
     };
+    app.on_input = [&](voile::engine::Input input, float seconds)
+    {
+        panel.update(input, seconds);
+        controls.handle(input, seconds);
+    };
+    app.draw_overlay = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame) { panel.record(cmd, frame); };
+    controls.restarted = [&] { measured = {}; };
+}
+
+void run_frames(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, Controls& controls, Measured& measured,
+                voile::engine::Capture* capture)
+{
+    const voile::engine::EarlyFinish early;
+    const Options& options = scene.options;
     const bool endless = app.has_window() && !options.frames;
-    const uint32_t frames = endless ? UINT32_MAX : voile::engine::take(headless_frames(options));
-    SofteningNotes softening;
+    const uint64_t frames = endless ? UINT64_MAX : voile::engine::take(headless_frames(options));
     std::optional<Progress> progress;
     if (!app.has_window())
-        progress.emplace(frames);
-    bool last = false;
-    for (uint32_t i = 0; i < frames && !last; ++i)
+        progress.emplace(static_cast<uint32_t>(frames));
+    uint64_t captured = UINT64_MAX; // the frame that --capture named is captured once
+    while (app.frame_count() < frames)
     {
-        last = early.requested() || i + 1 == frames;
-        if (last && !app.has_window())
+        const uint64_t before = app.frame_count();
+        measured.interrupted = early.requested();
+        if (!app.has_window() && (measured.interrupted || before + 1 == frames))
             outputs.pictures.announce_last();
-        if (!run_frame(app, i, capture, options))
+        const bool due = options.capture == before && captured != before;
+        captured = due ? before : captured;
+        measured.simulated = false;
+        if (!run_frame(app, due || controls.take_capture() ? capture : nullptr))
             break;
-        softening.check(stage, app.time_step());
-        statistics.recorded(app.record_milliseconds());
-        if (progress)
-            progress->update(i + 1);
+        if (measured.simulated)
+        {
+            measured.softening.check(scene.stage, app.time_step());
+            measured.statistics.recorded(app.record_milliseconds());
+            if (progress)
+                progress->update(static_cast<uint32_t>(app.frame_count()));
+        }
+        if (measured.interrupted)
+            break;
     }
     app.finish();
     if (progress)
         progress->finish();
-    return seconds;
 }
 
 void export_states(const Options& options, std::vector<Surface> surfaces, size_t cloths, Outcome& outcome)
@@ -182,42 +221,46 @@ int exit_code(voile::engine::App& app, const Statistics& statistics)
 
 int run_scene(const Options& options)
 {
-    const SceneFile scene = voile::engine::take(load_scene(voile::engine::take(find_scene(options.scene))));
-    voile::engine::take(check_outputs(options, scene));
-    const std::vector<Solid> solids = voile::engine::take(load_solids(scene, options));
+    LoadedScene scene = voile::engine::take(load(options));
+    voile::engine::take(check_outputs(options, scene.file));
     check_targets(options);
     std::optional<voile::engine::Capture> capture; // before the instance
-    if (options.capture)
-        capture.emplace((options.out.value_or(".") / ("voile_frame" + std::to_string(*options.capture))).string());
+    if (options.capture || options.capture_key)
+    {
+        const std::string name = options.capture ? "voile_frame" + std::to_string(*options.capture) : "voile";
+        capture.emplace((options.out.value_or(".") / name).string());
+    }
 
-    voile::engine::App app(app_options(options, scene));
+    voile::engine::App app(app_options(options, scene.file));
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
-    Stage stage = voile::engine::take(set_stage(app, scene, solids, options));
-    if (options.debug.any())
-        app.scene().add("debug").add<DebugView>(app, stage, solids, options.debug);
-    const bool animated =
-        std::ranges::any_of(options.exports, [](const ExportTarget& target) { return is_animation(target.format); });
-    const ExportScene exported(stage, solids,
-                               animated ? download_state(app.device(), stage) : std::vector<FinalCloth>{},
+    voile::engine::take(set_up(app, scene));
+    // An animation rules out that another scene takes the place of this one.
+    const ExportScene animated(scene.stage, scene.solids,
+                               is_animated(options) ? download_state(app.device(), scene.stage)
+                                                    : std::vector<FinalCloth>{},
                                2 * app.scene().focus_radius, options);
-    Outputs outputs{voile::engine::take(FrameOutputs::create(app, static_cast<double>(scene.step.rate), options)),
-                    voile::engine::take(AnimationExports::create(app, stage, exported, scene, options))};
-    RunStatistics measured;
+    Outputs outputs{voile::engine::take(FrameOutputs::create(app, static_cast<double>(scene.file.step.rate), options)),
+                    voile::engine::take(AnimationExports::create(app, scene.stage, animated, scene.file, options))};
+    Measured measured;
+    Controls controls(app, scene);
+    Panel panel(app, scene, controls);
     const voile::engine::IdleGuard idle(app.device());
-    const voile::engine::EarlyFinish early;
-    const double seconds = run_frames(app, stage, outputs, measured, capture ? &*capture : nullptr, early, options);
+    connect(app, scene, outputs, measured, controls, panel);
+    run_frames(app, scene, outputs, controls, measured, capture ? &*capture : nullptr);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
     outputs.pictures.finish(outcome);
     outputs.animations.finish(outcome);
-    const std::vector<FinalCloth> state = download_state(app.device(), stage);
-    export_states(options, exported.surfaces(state, seconds), state.size(), outcome);
-    Statistics statistics = measured.result(stage, scene, app.device().info(), state, app.time_step());
+    const std::vector<FinalCloth> state = download_state(app.device(), scene.stage);
+    const ExportScene last(scene.stage, scene.solids, {}, 2 * app.scene().focus_radius, options);
+    export_states(options, last.surfaces(state, measured.seconds), state.size(), outcome);
+    Statistics statistics =
+        measured.statistics.result(scene.stage, scene.file, app.device().info(), state, app.time_step());
     if (options.verify)
-        add_verification(voile::engine::take(verify(stage, solids, state)),
-                         pair_counts(count_intersections(app.device(), stage)), statistics);
+        add_verification(voile::engine::take(verify(scene.stage, scene.solids, state)),
+                         pair_counts(count_intersections(app.device(), scene.stage)), statistics);
     print_intersections(statistics.summary.last.intersections);
     if (options.stats)
         outcome.add(save_statistics(*options.stats, statistics), written_name(*options.stats));
@@ -226,7 +269,7 @@ int run_scene(const Options& options)
     if (outcome.failure)
         throw voile::engine::StartupError(outcome.failure->message);
     const int code = exit_code(app, statistics);
-    return early.requested() ? k_interrupted : code;
+    return measured.interrupted ? k_interrupted : code;
 }
 
 int run(int count, char** arguments)

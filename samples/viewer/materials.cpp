@@ -57,7 +57,8 @@ std::string given_twice(const MaterialEntry& entry)
 {
     if (entry.find("vertex_mass") && entry.find("areal_density"))
         return "vertex_mass and areal_density both give the mass";
-    const bool bend_springs = entry.find("bending_stiffness") && entry.bending_model != voile::BendingModel::isometric;
+    const bool bend_springs = entry.preset != "reference" && entry.find("bending_stiffness") &&
+                              entry.bending_model != voile::BendingModel::isometric;
     if (entry.find("spring_stiffness") &&
         (entry.find("stretch_stiffness") || entry.find("shear_stiffness") || bend_springs))
         return "spring_stiffness gives the stiffness of all springs, as stretch_stiffness, shear_stiffness and "
@@ -65,6 +66,19 @@ std::string given_twice(const MaterialEntry& entry)
     if (entry.find("spring_damping") && entry.find("damping_ratio"))
         return "spring_damping and damping_ratio both give the damping of springs";
     return {};
+}
+
+template <typename M, size_t N>
+std::vector<MaterialValue> values_of(const M& material, const std::array<voile::MaterialParameter<M>, N>& parameters)
+{
+    std::vector<MaterialValue> values;
+    for (const voile::MaterialParameter<M>& parameter : parameters)
+    {
+        MaterialValue& value = values.emplace_back(MaterialValue{parameter.name, {}});
+        for (const auto& component : parameter.components())
+            value.numbers.push_back(component.member.get(material));
+    }
+    return values;
 }
 
 // The names of the parameters that Material has alone, for messages: "vertex_mass, ... and linear_drag".
@@ -125,6 +139,20 @@ voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, 
     if (const auto valid = std::visit([](const auto& m) { return voile::validate(m); }, result); !valid)
         return bad(valid.error().message);
     return result;
+}
+
+MaterialEntry entry_of(const voile::ClothMaterial& material)
+{
+    MaterialEntry entry;
+    if (const auto* fabric = std::get_if<voile::Fabric>(&material))
+    {
+        entry.values = values_of(*fabric, voile::k_fabric_parameters);
+        entry.bending_model = fabric->bending_model;
+        return entry;
+    }
+    entry.preset = "reference";
+    entry.values = values_of(std::get<voile::Material>(material), voile::k_material_parameters);
+    return entry;
 }
 
 } // namespace viewer

@@ -16,4 +16,7 @@ namespace viewer
 voile::Result<voile::ClothMaterial> make_cloth_material(const SceneFile& scene, const MaterialEntry& entry,
                                                         const std::optional<glm::vec2>& spacing);
 
+// The entry of which make_cloth_material makes this material.
+MaterialEntry entry_of(const voile::ClothMaterial& material);
+
 } // namespace viewer

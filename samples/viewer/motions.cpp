@@ -48,6 +48,8 @@ void Motions::deform(DeformingSolid& solid, const voile::engine::FrameInfo& fram
 
 void Motions::update(const voile::engine::FrameInfo& frame)
 {
+    if (!frame.simulates)
+        return;
     const double end = end_of(frame);
     for (const MovingPin& pin : pins)
         voile::engine::take(solver_.move_anchor(pin.anchor, matrix(pin.motion, end)));

@@ -72,6 +72,8 @@ void declare_simulation(CLI::App& app, Typed& typed, Options& options)
                    "Frames to simulate, as many per second as the scene's step says, else 60 (default: 300 without a "
                    "window, no end with one)")
         ->type_name("N");
+    app.add_flag("--paused", options.paused, "The window opens paused: space continues, a period takes one step")
+        ->disable_flag_override();
     app.add_option("--cloth-resolution", typed.resolution,
                    "Gives every grid of the scene N x N vertices (default: the scene's)")
         ->type_name("N");
@@ -129,8 +131,8 @@ void declare_device(CLI::App& app, Typed& typed, Options& options)
                  "Validation and synchronization validation; any message makes the exit code 2")
         ->disable_flag_override()
         ->group(group);
-    app.add_option("--capture", typed.capture, "A RenderDoc capture of that frame, when RenderDoc is there")
-        ->type_name("FRAME")
+    app.add_option("--capture", typed.capture, "A RenderDoc capture of that frame, or in the window with F12")
+        ->type_name("FRAME|key")
         ->group(group);
 }
 
@@ -307,7 +309,9 @@ voile::Result<Options> convert_all(const Typed& typed, Options options)
         convert.integer("--cloth-resolution", typed.resolution, k_least_grid_vertices, k_most_grid_vertices);
     convert_colliders(convert, typed.colliders, options);
     options.device = convert.single("--device", typed.device);
-    options.capture = convert.integer("--capture", typed.capture, 0, k_most_frames);
+    options.capture_key = typed.capture == std::vector<std::string>{"key"};
+    if (!options.capture_key)
+        options.capture = convert.integer("--capture", typed.capture, 0, k_most_frames);
     convert_debug(convert, typed.debug, options.debug);
     check_together(convert, typed, options);
     if (convert.error)
@@ -392,6 +396,11 @@ voile::Result<uint32_t> headless_frames(const Options& options)
         return voile::Error{"--capture: \"" + std::to_string(*options.capture) + "\" is beyond the last of " +
                             std::to_string(frames) + " frames, counted from 0"};
     return frames;
+}
+
+bool is_animated(const Options& options)
+{
+    return std::ranges::any_of(options.exports, [](const ExportTarget& target) { return is_animation(target.format); });
 }
 
 voile::Result<Options> parse_options(int argument_count, const char* const* arguments)

@@ -63,12 +63,17 @@ struct Options
     bool list_devices = false;
     bool validate = false;
     std::optional<uint32_t> capture{}; // frame, from 0
+    bool capture_key = false;          // F12 in the window captures a frame
+    bool paused = false;               // the window opens paused
     bool verify = false;
     DebugOptions debug{};
 
     // Not empty: print this on standard output and leave with exit code 0 (--help, --version).
     std::string message{};
 };
+
+// Whether an export holds every frame.
+bool is_animated(const Options& options);
 
 // Errors are one line that names the option, the value and the reason, without the program's name.
 voile::Result<Options> parse_options(int argument_count, const char* const* arguments);

@@ -36,9 +36,10 @@ voile::Result<std::string> read_text(const fs::path& path)
 
 void parse_step(SceneReader& reader, const Field& field, StepEntry& step)
 {
-    if (!reader.object(field, {"rate", "substeps"}))
+    if (!reader.object(field, {"rate", "substeps", "max_substeps"}))
         return;
     reader.read(SceneReader::child(field, "rate"), Range{1, 1000}, step.rate);
+    reader.read_integer(SceneReader::child(field, "max_substeps"), 1, voile::k_most_substeps, step.max_substeps);
     const Field substeps = SceneReader::child(field, "substeps");
     if (!substeps || reader.failed())
         return;
@@ -150,6 +151,8 @@ std::vector<StepKey> find_step_keys(const Field& root)
     add("wind", SceneReader::child(wind, "velocity"));
     add("gust", SceneReader::child(wind, "gust"));
     add("gust_length", SceneReader::child(wind, "gust_length"));
+    add("air_density", SceneReader::child(wind, "air_density"));
+    add("max_substeps", SceneReader::child(step, "max_substeps"));
     add("duration", SceneReader::child(step, "rate"));
     add("substeps", SceneReader::child(step, "substeps"));
     return keys;
@@ -205,12 +208,14 @@ voile::Result<SceneFile> parse_scene(std::string_view text, const fs::path& path
     {
         reader.read(SceneReader::child(root, "gravity"), within(voile::k_most_gravity), scene.gravity);
         if (const Field wind = SceneReader::child(root, "wind");
-            reader.object(wind, {"velocity", "gust", "gust_length"}))
+            reader.object(wind, {"velocity", "gust", "gust_length", "air_density"}))
         {
             reader.read(SceneReader::child(wind, "velocity"), within(voile::k_most_wind), scene.wind.velocity);
             reader.read(SceneReader::child(wind, "gust"), between(0, voile::k_most_gust), scene.wind.gust);
             reader.read(SceneReader::child(wind, "gust_length"),
                         between(voile::k_least_gust_length, voile::k_most_gust_length), scene.wind.gust_length);
+            reader.read(SceneReader::child(wind, "air_density"), between(0, voile::k_most_air_density),
+                        scene.wind.air_density);
         }
         parse_step(reader, SceneReader::child(root, "step"), scene.step);
         parse_cloths(context, root, scene.cloths);

@@ -65,15 +65,17 @@ struct FrameSequence
 
 struct WindEntry
 {
-    glm::vec3 velocity{0.f}; // m/s
-    float gust = 0.f;        // root mean square of the gusts as a fraction of the speed, 0..10
-    float gust_length = 4.f; // m, wavelength of the longest gusts, 0.01..1e6
+    glm::vec3 velocity{0.f};    // m/s
+    float gust = 0.f;           // root mean square of the gusts as a fraction of the speed, 0..10
+    float gust_length = 4.f;    // m, wavelength of the longest gusts, 0.01..1e6
+    float air_density = 1.225f; // kg/m³, 0..1e5
 };
 
 struct StepEntry
 {
     float rate = 60.f;                // frames per second of simulated time, 1..1000
     std::optional<uint32_t> substeps; // of a frame, 1..1000; absent: "auto", from stability
+    uint32_t max_substeps = 2000;     // with "auto", 1..1000000
 };
 
 enum class Edge
@@ -90,6 +92,9 @@ struct MaterialValue
     std::string name;
     std::vector<float> numbers; // one for all components, or one for each
 };
+
+// The names of presets.
+inline constexpr const char* k_presets[] = {"silk", "cotton", "wool", "denim", "leather", "reference"};
 
 // A preset, values, or a preset with some values replaced.
 struct MaterialEntry
@@ -137,6 +142,10 @@ struct PinEntry
     std::optional<float> max_distance;                      // m, >= 0, from the point
     Location location;
 };
+
+// The names of weaves and patterns, in the order of their values.
+inline constexpr const char* k_weaves[] = {"plain", "twill", "satin", "grain", "none"};
+inline constexpr const char* k_patterns[] = {"check", "stripes", "none"};
 
 // How a cloth is drawn. What is absent follows from the material's preset.
 struct LookEntry
@@ -269,6 +278,9 @@ glm::mat4 matrix(const MotionEntry& motion, double seconds);
 // Folders that are searched for scenes by name, in this order: those of the environment variable VOILE_SCENES
 // (separated by ':'), and beside the program ../scenes, scenes and ../share/voile/scenes.
 std::vector<std::filesystem::path> scene_folders();
+
+// The names of the scenes in the folders, each once, in alphabetical order.
+std::vector<std::string> scene_names(const std::vector<std::filesystem::path>& folders = scene_folders());
 
 // A scene by path, else by name in the folders. The error lists the names that there are.
 voile::Result<std::filesystem::path> find_scene(const std::string& name,

@@ -16,7 +16,20 @@ namespace
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> known_scenes(const std::vector<fs::path>& folders)
+// "the scenes that ship are drape, flag", and the one that may be meant.
+std::string scene_list(const std::string& name, const std::vector<std::string>& known)
+{
+    std::string list;
+    for (const std::string& each : known)
+        list += (list.empty() ? "" : ", ") + voile::gpu::printable(each);
+    if (list.empty())
+        return "no scenes were found to choose from";
+    return "the scenes that ship are " + list + suggestion(fs::path(name).stem().string(), known);
+}
+
+} // namespace
+
+std::vector<std::string> scene_names(const std::vector<fs::path>& folders)
 {
     std::set<std::string> names;
     for (const fs::path& folder : folders)
@@ -30,19 +43,6 @@ std::vector<std::string> known_scenes(const std::vector<fs::path>& folders)
     }
     return {names.begin(), names.end()};
 }
-
-// "the scenes that ship are drape, flag", and the one that may be meant.
-std::string scene_list(const std::string& name, const std::vector<std::string>& known)
-{
-    std::string list;
-    for (const std::string& each : known)
-        list += (list.empty() ? "" : ", ") + voile::gpu::printable(each);
-    if (list.empty())
-        return "no scenes were found to choose from";
-    return "the scenes that ship are " + list + suggestion(fs::path(name).stem().string(), known);
-}
-
-} // namespace
 
 std::vector<fs::path> scene_folders()
 {
@@ -91,7 +91,7 @@ voile::Result<fs::path> find_scene(const std::string& name, const std::vector<fs
     if (fs::is_directory(name, problem))
         return voile::Error{voile::engine::path_text(name) + ": this is a folder, not a scene file"};
     const bool looks_like_path = !plain || fs::path(name).extension() == ".json";
-    const std::string known = scene_list(name, known_scenes(folders));
+    const std::string known = scene_list(name, scene_names(folders));
     if (!fs::exists(name, problem) && problem)
         return voile::Error{voile::engine::path_text(name) + ": " + problem.message()};
     if (looks_like_path)

@@ -45,11 +45,9 @@ LookEntry parse_look(SceneReader& reader, const Field& field)
         return look;
     parse_color(reader, SceneReader::child(field, "color"), look.color);
     parse_color(reader, SceneReader::child(field, "back_color"), look.back_color);
-    if (const auto word = reader.read_word(SceneReader::child(field, "weave"), "a weave",
-                                           {"plain", "twill", "satin", "grain", "none"}))
+    if (const auto word = reader.read_word(SceneReader::child(field, "weave"), "a weave", k_weaves))
         look.weave = static_cast<voile::engine::Surface::Weave>(*word);
-    if (const auto word =
-            reader.read_word(SceneReader::child(field, "pattern"), "a pattern", {"check", "stripes", "none"}))
+    if (const auto word = reader.read_word(SceneReader::child(field, "pattern"), "a pattern", k_patterns))
         look.pattern = static_cast<voile::engine::Surface::Pattern>(*word);
     reader.read(SceneReader::child(field, "roughness"), Range{0.05, 1}, look.roughness);
     reader.read(SceneReader::child(field, "sheen"), Range{0, 1}, look.sheen);

@@ -12,7 +12,7 @@ namespace
 
 void parse_preset(SceneReader& reader, const Field& field, MaterialEntry& material)
 {
-    if (reader.read_word(field, "a material", {"silk", "cotton", "wool", "denim", "leather", "reference"}))
+    if (reader.read_word(field, "a material", k_presets))
         material.preset = field.node->text;
 }
 

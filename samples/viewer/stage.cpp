@@ -4,6 +4,7 @@
 #include "samples/viewer/cloths.hpp"
 #include "samples/viewer/looks.hpp"
 #include "samples/viewer/solid_meshes.hpp"
+#include "samples/viewer/step_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,20 +163,13 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
 {
     Stage stage;
     voile::SolverOptions solver_options;
-    solver_options.intersections = options.debug.intersections || options.verify;
+    solver_options.intersections = options.debug.intersections || options.verify || app.has_window();
     auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots(), solver_options);
     stage.world = &world;
-    world.step.gravity = scene.gravity;
-    world.step.wind = scene.wind.velocity;
-    world.step.gust = scene.wind.gust;
-    world.step.gust_length = scene.wind.gust_length;
-    world.step.substeps = scene.step.substeps.value_or(0);
-    world.step.duration = 1 / scene.step.rate;
+    apply_step(scene, world.step);
     if (const auto valid = voile::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
-    if (options.debug.intersections)
-        world.intersections = voile::Intersections::counted;
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
     {

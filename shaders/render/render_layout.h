@@ -32,7 +32,7 @@ struct FrameUniforms
     vec3 sun_irradiance;    // irradiance of a surface that faces the sun
     float focus_radius;     // m
     vec3 focus;             // m
-    float padding;
+    float full_strain;      // of fabric with the hottest color of the heat map; 0: no heat map
 };
 
 struct DrawPush
@@ -60,6 +60,11 @@ struct MarkPush
     vec2 pixel;   // its width and height in clip space
     float extent; // m, along the directions in the second stream; 0: it holds ends
     uint mask;    // of flags; 0: all are shown
+};
+
+struct OverlayPush
+{
+    vec2 scale; // clip space per pixel
 };
 
 VOILE_SHARED_END

@@ -6,6 +6,7 @@
 #include "frame.glsl"
 #include "shadow.glsl"
 #include "sky.glsl"
+#include "strain.glsl"
 #include "tone.glsl"
 
 layout(push_constant, std430) uniform Push { DrawPush push; };
@@ -105,7 +106,13 @@ void main()
     s.sheen = push.sheen;
     s.translucency = 0;
     if (push.kind == VOILE_SURFACE_FABRIC)
+    {
         apply_fabric(s);
+        if (frame.full_strain > 0)
+            s.albedo = heat_color(largest_stretch(dFdx(world), dFdy(world), dFdx(texture_coordinate),
+                                                  dFdy(texture_coordinate)) /
+                                  frame.full_strain);
+    }
     else if (push.kind == VOILE_SURFACE_GROUND)
         apply_ground(s);
 

@@ -1,8 +1,9 @@
 // App: the frame loop. One frame, from events to submission, is App::frame and App::record.
 #include "voile/engine/app/app.hpp"
 
+#include "voile/engine/app/camera_control.hpp"
+
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 namespace voile::engine
@@ -35,7 +36,7 @@ App::App(const AppOptions& options)
     : window_(open_window(options)), device_(device_options(options, window_ != nullptr)),
       frames_(device_, options.slots), renderer_(device_, {.extent = options.extent, .slots = options.slots}),
       uploads_in_flight_(options.slots), in_flight_(options.slots), time_step_(options.time_step),
-      fixed_extent_(options.fixed_extent)
+      frame_time_(options.time_step), fixed_extent_(options.fixed_extent)
 {
     constexpr uint32_t k_most_passes = 4096; // substeps times passes; beyond it, passes go untimed
     if (options.timestamps)
@@ -78,7 +79,9 @@ bool App::frame()
             return false;
         if (window_->minimized())
             return true;
-        steer_camera();
+        follow_user();
+        if (!window_->open())
+            return false;
         keep_pace();
     }
     const FrameRing::Frame frame = frames_.begin();
@@ -96,8 +99,10 @@ bool App::frame()
     }
 
     FrameInfo info;
-    info.index = next_index_++;
-    info.time = static_cast<double>(info.index) * static_cast<double>(time_step_);
+    info.index = next_index_;
+    info.time = time();
+    info.simulates = simulating_;
+    next_index_ += simulating_ ? 1 : 0;
     info.time_step = time_step_;
     info.slot = frame.slot;
     info.timestamps = timestamps();
@@ -127,6 +132,8 @@ void App::record(const FrameRing::Frame& frame, const FrameInfo& info, const Win
             renderer_.record(frame.cmd, scene_, info);
         if (after_render)
             after_render(frame.cmd, info);
+        if (window_ && draw_overlay)
+            draw_overlay(frame.cmd, info);
         if (target != nullptr)
             window_->record_blit(frame.cmd, renderer_.color(), *target);
     }
@@ -158,27 +165,43 @@ void App::keep_pace()
     std::this_thread::sleep_until(next_frame_);
     // Counts from the due time, not from now, so that oversleeping does not add up. A late frame restarts the count.
     const Clock::time_point now = Clock::now();
-    const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<float>(time_step_));
+    const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<float>(frame_time_));
     next_frame_ = next_frame_ + step < now ? now + step : next_frame_ + step;
 }
 
-// Dragging turns the camera around its target. The wheel moves it closer.
-void App::steer_camera()
+void App::follow_user()
 {
-    const Window::Input input = window_->take_input();
-    if (input.drag_x == 0 && input.drag_y == 0 && input.wheel == 0)
-        return;
-    constexpr float k_radians_per_pixel = 0.005f;
-    constexpr float k_steepest = 1.5f; // radians above or below the target
-    Camera& camera = scene_.camera;
-    const glm::vec3 offset = camera.position - camera.target;
-    const float distance = glm::length(offset) * std::pow(0.9f, static_cast<float>(input.wheel));
-    const float azimuth = std::atan2(offset.x, offset.z) - static_cast<float>(input.drag_x) * k_radians_per_pixel;
-    const float elevation = glm::clamp(std::asin(glm::clamp(offset.y / glm::length(offset), -1.f, 1.f)) +
-                                           static_cast<float>(input.drag_y) * k_radians_per_pixel,
-                                       -k_steepest, k_steepest);
-    camera.position = camera.target + distance * glm::vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                                                           std::cos(elevation) * std::cos(azimuth));
+    using Clock = std::chrono::steady_clock;
+    const Input input = window_->take_input();
+    const Clock::time_point now = Clock::now();
+    const float seconds =
+        last_input_ == Clock::time_point{} ? 0 : std::chrono::duration<float>(now - last_input_).count();
+    last_input_ = now;
+    if (on_input)
+        on_input(input, seconds);
+    else
+        steer(scene_.camera, input, seconds, scene_.focus_radius);
+}
+
+double App::time() const
+{
+    return step_time_ + static_cast<double>(next_index_ - step_index_) * static_cast<double>(time_step_);
+}
+
+void App::set_time_step(float time_step)
+{
+    step_time_ = time();
+    step_index_ = next_index_;
+    time_step_ = time_step;
+}
+
+void App::restart()
+{
+    finish();
+    scene_.clear();
+    uploads_.reset();
+    next_index_ = step_index_ = 0;
+    step_time_ = 0;
 }
 
 } // namespace voile::engine

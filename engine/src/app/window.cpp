@@ -1,6 +1,8 @@
 // Window: GLFW and the swapchain.
 #include "voile/engine/app/window.hpp"
 
+#include "app/input_events.hpp"
+
 #include <GLFW/glfw3.h>
 #include <volk.h>
 
@@ -64,21 +66,7 @@ Window::Window(const std::string& title, VkExtent2D extent)
                                nullptr);
     if (window_ == nullptr)
         throw StartupError("no window could be opened; use --headless");
-    glfwSetWindowUserPointer(window_, this);
-    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double turns)
-                          { static_cast<Window*>(glfwGetWindowUserPointer(window))->input_.wheel += turns; });
-    glfwSetCursorPosCallback(window_,
-                             [](GLFWwindow* window, double x, double y)
-                             {
-                                 auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
-                                 if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
-                                 {
-                                     self.input_.drag_x += x - self.cursor_x_;
-                                     self.input_.drag_y += y - self.cursor_y_;
-                                 }
-                                 self.cursor_x_ = x;
-                                 self.cursor_y_ = y;
-                             });
+    collect_input(window_, input_);
 }
 
 Window::~Window()
@@ -119,8 +107,27 @@ void Window::detach()
 
 bool Window::poll()
 {
-    glfwPollEvents();
+    constexpr double k_longest_wait = 0.1; // s
+    if (minimized())
+        glfwWaitEventsTimeout(k_longest_wait);
+    else
+        glfwPollEvents();
+    return open();
+}
+
+bool Window::open() const
+{
     return glfwWindowShouldClose(window_) == GLFW_FALSE;
+}
+
+void Window::close()
+{
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Window::set_title(const std::string& title)
+{
+    glfwSetWindowTitle(window_, title.c_str());
 }
 
 VkExtent2D Window::framebuffer_extent() const
@@ -133,8 +140,8 @@ VkExtent2D Window::framebuffer_extent() const
 
 bool Window::minimized() const
 {
-    const VkExtent2D extent = framebuffer_extent();
-    return extent.width == 0 || extent.height == 0;
+    const VkExtent2D extent = framebuffer_extent(); // X11 keeps it, Windows makes it 0
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || extent.width == 0 || extent.height == 0;
 }
 
 void Window::create_swapchain()
@@ -252,9 +259,11 @@ void Window::present(const Target& target)
         check(result, "presentation");
 }
 
-Window::Input Window::take_input()
+Input Window::take_input()
 {
-    return std::exchange(input_, {});
+    Input result = input_;
+    input_.begin_frame();
+    return result;
 }
 
 } // namespace voile::engine

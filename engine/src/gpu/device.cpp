@@ -294,6 +294,12 @@ void Device::create_device(const DeviceOptions& options)
     if (options.device_addresses)
         dynamic_rendering.pNext = &device_addresses;
 
+    VkPhysicalDeviceFeatures supported{};
+    vkGetPhysicalDeviceFeatures(physical_device_, &supported);
+    VkPhysicalDeviceFeatures features{};
+    features.fillModeNonSolid = supported.fillModeNonSolid;
+    draws_wires_ = features.fillModeNonSolid == VK_TRUE;
+
     const float priority = 1;
     VkDeviceQueueCreateInfo queue_info{};
     queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -307,6 +313,7 @@ void Device::create_device(const DeviceOptions& options)
     info.pQueueCreateInfos = &queue_info;
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
+    info.pEnabledFeatures = &features;
     check(vkCreateDevice(physical_device_, &info, nullptr, &device_), "device");
 }
 

@@ -80,7 +80,7 @@ struct FixedState
         viewport.viewportCount = 1;
         viewport.scissorCount = 1;
         raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-        raster.polygonMode = VK_POLYGON_MODE_FILL;
+        raster.polygonMode = description.wires ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
         raster.cullMode = VK_CULL_MODE_NONE; // cloth has two sides, and user meshes may be open or inside out
         raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1;
@@ -90,11 +90,16 @@ struct FixedState
         multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
         multisample.rasterizationSamples = description.samples;
         depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-        depth.depthTestEnable = VK_TRUE;
+        depth.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
         depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
         depth.depthCompareOp = description.depth_compare;
         attachment.colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+        attachment.blendEnable = description.blend ? VK_TRUE : VK_FALSE;
+        attachment.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        attachment.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         blend.attachmentCount = description.color_format != VK_FORMAT_UNDEFINED ? 1 : 0;
         blend.pAttachments = &attachment;

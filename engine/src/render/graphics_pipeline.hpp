@@ -1,4 +1,4 @@
-// Graphics pipelines for dynamic rendering: triangles, dynamic viewport and scissor, no blending.
+// Graphics pipelines for dynamic rendering: triangles, dynamic viewport and scissor.
 #pragma once
 
 #include "gpu/owned.hpp"
@@ -31,6 +31,8 @@ struct GraphicsPipelineDescription
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
     float depth_bias = 0; // constant factor; the slope factor is half of it
+    bool wires = false;   // the edges of the triangles alone; the device must draw wires (Device::draws_wires)
+    bool blend = false;   // over what is there, by the color's alpha
 };
 
 // StartupError when the driver refuses.

@@ -97,6 +97,10 @@ void PassView::draw(VkCommandBuffer cmd, const Drawable& drawable)
     context_.fn.vkCmdBindVertexBuffers(cmd, 0, streams, buffers.data(), offsets.data());
     context_.fn.vkCmdBindIndexBuffer(cmd, drawable.indices, drawable.index_offset, VK_INDEX_TYPE_UINT32);
     context_.fn.vkCmdDrawIndexed(cmd, drawable.index_count, 1, 0, 0, 0);
+    if (pass_.wires == VK_NULL_HANDLE || surface.kind == Surface::Kind::ground)
+        return;
+    bind(cmd, pass_.wires);
+    context_.fn.vkCmdDrawIndexed(cmd, drawable.index_count, 1, 0, 0, 0);
 }
 
 void PassView::draw_marks(VkCommandBuffer cmd, VkPipeline pipeline, const Marks& marks)

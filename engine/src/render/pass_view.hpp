@@ -44,7 +44,8 @@ public:
     {
         VkPipelineLayout layout = VK_NULL_HANDLE;
         VkPipeline surfaces = VK_NULL_HANDLE;
-        MarkPipelines* marks = nullptr; // null if the pass draws none
+        VkPipeline wires = VK_NULL_HANDLE; // drawn over surfaces other than the ground; null: none
+        MarkPipelines* marks = nullptr;    // null if the pass draws none
         VkExtent2D extent{};
     };
 

@@ -125,6 +125,7 @@ struct Renderer::State
     Owned<VkPipeline> shadow_pipeline;
     Owned<VkPipeline> surface_pipeline;
     Owned<VkPipeline> sky_pipeline;
+    Owned<VkPipeline> wire_pipeline; // made on first use
     MarkPipelines marks;
 
     State(const Device& on, const RendererOptions& wanted)
@@ -137,9 +138,11 @@ struct Renderer::State
     }
 
     void create_pipelines();
-    [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene) const;
+    VkPipeline wires();
+    [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene, const ViewModes& modes) const;
     void record_shadow_map(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
-    void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms);
+    void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
+                      const ViewModes& modes);
     void transition_targets(VkCommandBuffer cmd) const;
 };
 
@@ -170,7 +173,26 @@ void Renderer::State::create_pipelines()
                                                       .depth_write = false});
 }
 
-shared::FrameUniforms Renderer::State::uniforms(const Scene& scene) const
+// Slightly closer to the camera than the surface.
+VkPipeline Renderer::State::wires()
+{
+    if (wire_pipeline.get() == VK_NULL_HANDLE)
+        wire_pipeline = create_graphics_pipeline(context, {.name = "wires",
+                                                           .vertex = shaders::k_surface_vert,
+                                                           .fragment = shaders::k_wire_frag,
+                                                           .streams = k_streams,
+                                                           .layout = bindings.layout(),
+                                                           .color_format = k_color_format,
+                                                           .depth_format = k_depth_format,
+                                                           .samples = k_samples,
+                                                           .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                                           .depth_write = false,
+                                                           .depth_bias = -2,
+                                                           .wires = true});
+    return wire_pipeline.get();
+}
+
+shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewModes& modes) const
 {
     shared::FrameUniforms result{};
     result.clip_from_world = camera_matrix(scene.camera, options.extent, scene.focus_radius);
@@ -184,6 +206,7 @@ shared::FrameUniforms Renderer::State::uniforms(const Scene& scene) const
     result.sun_irradiance = scene.sun.irradiance;
     result.focus = scene.focus;
     result.focus_radius = scene.focus_radius;
+    result.full_strain = modes.full_strain;
     return result;
 }
 
@@ -224,7 +247,8 @@ void Renderer::State::transition_targets(VkCommandBuffer cmd) const
                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT_KHR, k_depth_stages, k_depth_access});
 }
 
-void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms)
+void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
+                                   const ViewModes& modes)
 {
     transition_targets(cmd);
     VkRenderingAttachmentInfoKHR color{};
@@ -246,9 +270,12 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     rendering.pDepthAttachment = &depth;
     context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
     set_viewport(context, cmd, options.extent);
-    PassView view(
-        View::Kind::camera, uniforms.clip_from_world, context,
-        {.layout = bindings.layout(), .surfaces = surface_pipeline.get(), .marks = &marks, .extent = options.extent});
+    PassView view(View::Kind::camera, uniforms.clip_from_world, context,
+                  {.layout = bindings.layout(),
+                   .surfaces = surface_pipeline.get(),
+                   .wires = modes.wires && device.draws_wires() ? wires() : VK_NULL_HANDLE,
+                   .marks = &marks,
+                   .extent = options.extent});
     scene.record_draw(cmd, view);
     {
         const gpu::LabelScope scope(context, cmd, "sky");
@@ -271,14 +298,14 @@ Renderer::~Renderer() = default;
 
 void Renderer::record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& frame)
 {
-    const shared::FrameUniforms uniforms = state_->uniforms(scene);
+    const shared::FrameUniforms uniforms = state_->uniforms(scene, modes);
     state_->bindings.bind(cmd, frame.slot, uniforms);
     {
         const gpu::LabelScope scope(state_->context, cmd, "shadow map", frame.timestamps);
         state_->record_shadow_map(cmd, scene, uniforms);
     }
     const gpu::LabelScope scope(state_->context, cmd, "scene", frame.timestamps);
-    state_->record_scene(cmd, scene, uniforms);
+    state_->record_scene(cmd, scene, uniforms, modes);
 }
 
 const Image& Renderer::color() const

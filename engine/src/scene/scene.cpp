@@ -10,6 +10,12 @@ Entity& Scene::add(std::string name)
     return *entities_.back();
 }
 
+void Scene::clear()
+{
+    while (!entities_.empty())
+        entities_.pop_back();
+}
+
 void Scene::update(const FrameInfo& frame) const
 {
     for (const auto& entity : entities_)

@@ -22,6 +22,8 @@ void ClothWorld::record_compute(VkCommandBuffer cmd, const engine::FrameInfo& fr
     uploads_[frame.slot] = Upload();
     if (solver_.needs_upload())
         uploads_[frame.slot] = engine::take(solver_.record_upload(cmd));
+    if (!frame.simulates)
+        return;
     step.duration = frame.time_step;
     step.time = frame.time;
     {

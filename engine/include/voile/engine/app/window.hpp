@@ -1,6 +1,7 @@
 // Window: a GLFW window with its swapchain. Survives resizing and minimizing.
 #pragma once
 
+#include "voile/engine/app/input.hpp"
 #include "voile/engine/gpu/device.hpp"
 #include "voile/engine/gpu/image.hpp"
 
@@ -32,8 +33,12 @@ public:
     // Destroys surface and swapchain. The device must be idle and still alive.
     void detach();
 
-    // Polls events. Returns false once the user has closed the window.
+    // Polls events and returns open(). While it is minimized it waits for events.
     bool poll();
+    // False once the user has closed it, or close() was called.
+    [[nodiscard]] bool open() const;
+    void close();
+    void set_title(const std::string& title);
     [[nodiscard]] bool minimized() const;
     [[nodiscard]] VkExtent2D framebuffer_extent() const;
 
@@ -54,13 +59,7 @@ public:
     void record_blit(VkCommandBuffer cmd, const Image& source, const Target& target) const;
     void present(const Target& target);
 
-    // Drags of the left button (pixels) and turns of the wheel since the last call.
-    struct Input
-    {
-        double drag_x = 0;
-        double drag_y = 0;
-        double wheel = 0;
-    };
+    // What the user has done since the last call.
     Input take_input();
 
 private:
@@ -76,8 +75,6 @@ private:
     std::vector<VkSemaphore> acquired_; // one per slot
     std::vector<VkSemaphore> rendered_; // one per image: presentation holds it until that image is acquired again
     Input input_;
-    double cursor_x_ = 0;
-    double cursor_y_ = 0;
     bool stale_ = false;
 };
 

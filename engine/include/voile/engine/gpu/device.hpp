@@ -58,6 +58,7 @@ public:
     [[nodiscard]] uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] ValidationLog& validation() { return validation_; }
     [[nodiscard]] bool is_cpu() const { return info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    [[nodiscard]] bool draws_wires() const { return draws_wires_; } // the feature fillModeNonSolid, which is on then
     void wait_idle() const; // start-up and shutdown only
 
 private:
@@ -77,6 +78,7 @@ private:
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
     DeviceInfo info_;
+    bool draws_wires_ = false;
     gpu::Context context_;
 };
 

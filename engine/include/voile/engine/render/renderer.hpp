@@ -18,6 +18,13 @@ struct RendererOptions
     uint32_t shadow_resolution = 2048;
 };
 
+// What is shown besides the shaded scene.
+struct ViewModes
+{
+    float full_strain = 0; // colors fabric by its largest stretch, l / L - 1: this is the hottest color. 0: does not
+    bool wires = false;    // the edges of triangles; needs Device::draws_wires
+};
+
 class Renderer
 {
 public:
@@ -29,6 +36,9 @@ public:
     // Records the shadow pass and the shaded pass of `scene`. Vertex data must already be visible to vertex input.
     // Ends with color() in TRANSFER_SRC_OPTIMAL, its writes available to a following copy or blit.
     void record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& frame);
+
+    // May be changed between frames.
+    ViewModes modes;
 
     // The finished picture: VK_FORMAT_R8G8B8A8_SRGB, one sample, of the renderer's extent.
     [[nodiscard]] const Image& color() const;

@@ -11,8 +11,9 @@ namespace voile::engine
 // The data of a frame for all components. The time step is fixed: no component reads a clock.
 struct FrameInfo
 {
-    uint64_t index = 0;                    // frames since the start
-    double time = 0;                       // s, at the start of this frame: index * time_step
+    uint64_t index = 0;                    // simulated frames since the start
+    double time = 0;                       // s, at the start of this frame: the sum of the time steps before
+    bool simulates = true;                 // false: the frame draws the state as it is; index and time do not advance
     float time_step = 1.f / 60;            // s
     uint32_t slot = 0;                     // index of the frame in flight, 0..slots-1; its previous use has completed
     gpu::Timestamps* timestamps = nullptr; // null when passes are not timed

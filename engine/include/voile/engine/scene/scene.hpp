@@ -57,6 +57,8 @@ public:
     float focus_radius = 3;
 
     Entity& add(std::string name);
+    // Destroys all entities, the last first. The device must not use them.
+    void clear();
     [[nodiscard]] const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 
     void update(const FrameInfo& frame) const;

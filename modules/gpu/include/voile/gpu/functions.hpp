@@ -52,6 +52,7 @@ namespace voile::gpu
     use(vkCmdBindIndexBuffer);                                                                                         \
     use(vkCmdBindVertexBuffers);                                                                                       \
     use(vkCmdBlitImage);                                                                                               \
+    use(vkCmdCopyBufferToImage);                                                                                       \
     use(vkCmdCopyImageToBuffer);                                                                                       \
     use(vkCmdDraw);                                                                                                    \
     use(vkCmdDrawIndexed);                                                                                             \

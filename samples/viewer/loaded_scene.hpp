@@ -1,0 +1,34 @@
+// LoadedScene: a scene file with its solids, on stage. In a window another one takes its place.
+#pragma once
+
+#include "samples/viewer/debug_view.hpp"
+
+namespace viewer
+{
+
+struct LoadedScene
+{
+    Options options;
+    SceneFile file;
+    std::vector<Solid> solids;
+    Stage stage;
+    DebugView* debug = nullptr; // owned by the scene; null: there is nothing to draw
+};
+
+// Reads the scene of the options and its meshes. Errors name the file and the position in it.
+voile::Result<LoadedScene> load(const Options& options);
+
+// Adds it to `app`, whose scene is empty. `loaded` must stay where it is: components refer to it.
+voile::Result<void> set_up(voile::engine::App& app, LoadedScene& loaded);
+
+// Starts again with `next` in place of `loaded`. If the solver refuses it, the former scene starts again. Errors of
+// both are StartupErrors.
+voile::Result<void> replace(voile::engine::App& app, LoadedScene& loaded, LoadedScene next);
+
+// Starts again with the scene as its file and `loaded.options` are now. Keeps the camera.
+voile::Result<void> restart(voile::engine::App& app, LoadedScene& loaded);
+
+// The scene file of what runs: with the resolution and the colliders of the options, and this camera.
+SceneFile current_file(const LoadedScene& loaded, const voile::engine::Camera& camera);
+
+} // namespace viewer

@@ -1,0 +1,33 @@
+// Panel: the user interface over the picture. Without Dear ImGui it shows nothing.
+#pragma once
+
+#include "samples/viewer/controls.hpp"
+
+#include <memory>
+
+namespace viewer
+{
+
+class Panel
+{
+public:
+    Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls);
+    ~Panel();
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    // Builds the next frame's panel. What it uses of the user's input it takes out of `input`.
+    void update(voile::engine::Input& input, float seconds);
+
+    // Draws it over the renderer's picture.
+    void record(VkCommandBuffer cmd, const voile::engine::FrameInfo& frame);
+
+    // Takes the measurements of a frame that the device has finished.
+    void completed(const voile::engine::FrameInfo& frame);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace viewer
