@@ -89,7 +89,6 @@ struct Measured
     SofteningNotes softening;
     double seconds = 0;     // that were simulated
     bool simulated = false; // in the last frame
-    bool interrupted = false;
 };
 
 void connect(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, Measured& measured, Controls& controls,
@@ -129,9 +128,8 @@ void connect(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, Meas
 }
 
 void run_frames(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, Controls& controls, Measured& measured,
-                voile::engine::Capture* capture)
+                voile::engine::Capture* capture, const voile::engine::EarlyFinish& early)
 {
-    const voile::engine::EarlyFinish early;
     const Options& options = scene.options;
     const bool endless = app.has_window() && !options.frames;
     const uint64_t frames = endless ? UINT64_MAX : voile::engine::take(headless_frames(options));
@@ -142,8 +140,8 @@ void run_frames(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, C
     while (app.frame_count() < frames)
     {
         const uint64_t before = app.frame_count();
-        measured.interrupted = early.requested();
-        if (!app.has_window() && (measured.interrupted || before + 1 == frames))
+        const bool last = early.requested() || before + 1 == frames;
+        if (last && !app.has_window())
             outputs.pictures.announce_last();
         const bool due = options.capture == before && captured != before;
         captured = due ? before : captured;
@@ -157,7 +155,7 @@ void run_frames(voile::engine::App& app, LoadedScene& scene, Outputs& outputs, C
             if (progress)
                 progress->update(static_cast<uint32_t>(app.frame_count()));
         }
-        if (measured.interrupted)
+        if (last && early.requested())
             break;
     }
     app.finish();
@@ -247,7 +245,8 @@ int run_scene(const Options& options)
     Panel panel(app, scene, controls);
     const voile::engine::IdleGuard idle(app.device());
     connect(app, scene, outputs, measured, controls, panel);
-    run_frames(app, scene, outputs, controls, measured, capture ? &*capture : nullptr);
+    const voile::engine::EarlyFinish early;
+    run_frames(app, scene, outputs, controls, measured, capture ? &*capture : nullptr, early);
 
     // What cannot be written keeps nothing else from being so.
     Outcome outcome;
@@ -269,7 +268,7 @@ int run_scene(const Options& options)
     if (outcome.failure)
         throw voile::engine::StartupError(outcome.failure->message);
     const int code = exit_code(app, statistics);
-    return measured.interrupted ? k_interrupted : code;
+    return early.requested() ? k_interrupted : code;
 }
 
 int run(int count, char** arguments)
