@@ -41,7 +41,7 @@ public:
     void record(VkCommandBuffer cmd, VkDescriptorSet a, VkDescriptorSet b, voile::gpu::Ordering ordering)
     {
         voile::gpu::Recorder recorder(tests::solver_context(), cmd);
-        const voile::shared::StatisticsReducePush push{1, 0};
+        const voile::shared::StatisticsReducePush push{1, 0, 0};
         recorder.dispatch(kernels_.statistics_reduce, a, 64, 64, push, ordering);
         recorder.dispatch(kernels_.statistics_reduce, b, 64, 64, push);
     }
@@ -176,7 +176,7 @@ TEST_CASE_FIXTURE(TwoDispatches, "a write that does not wait for a write is repo
         const auto messages = messages_of(
             [&](VkCommandBuffer)
             {
-                const voile::shared::StatisticsReducePush push{1, 0};
+                const voile::shared::StatisticsReducePush push{1, 0, 0};
                 const voile::Kernels kernels = voile::engine::take(voile::create_kernels(tests::solver_context(), {}));
                 recorder.dispatch(kernels.statistics_reduce, a, 64, 64, push, ordering);
                 recorder.dispatch(kernels.statistics_reduce, b, 64, 64, push);
