@@ -72,7 +72,8 @@ struct GridCloth
     // reset, teleport, a snapshot, a pin with a position elsewhere. Cloth that intersects is not pulled apart.
     //
     // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer. What it would
-    // move beyond is lost with its momentum.
+    // move beyond is lost with its momentum: two sheets that met at 1.5 m/s each lost 7 % of it, none at 0.5 m/s, and a
+    // crumpled cloth fell 1.4 % less far in half a second than freely.
     bool self_collision = false;
 };
 
