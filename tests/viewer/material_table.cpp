@@ -1,5 +1,5 @@
-// material_table README.md: writes the tables of material parameters into the README, between two marks.
-// material_table --check README.md: fails if they are out of date.
+// material_table docs/scenes.md: writes the tables of material parameters into the guide, between two marks.
+// material_table --check docs/scenes.md: fails if they are out of date.
 #include "voile/material_parameters.hpp"
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 namespace
 {
 
-constexpr std::string_view k_begin = "<!-- materials: written by build/release/bin/material_table README.md -->\n";
+constexpr std::string_view k_begin = "<!-- materials: written by build/release/bin/material_table docs/scenes.md -->\n";
 constexpr std::string_view k_end = "<!-- materials: end -->\n";
 
 std::string replaced(std::string text, std::string_view from, std::string_view to)
@@ -85,7 +85,7 @@ int main(int argc, char** argv)
     const bool check = argc == 3 && std::string_view(argv[1]) == "--check";
     if (argc != 2 && !check)
     {
-        std::cerr << "usage: material_table [--check] README.md\n";
+        std::cerr << "usage: material_table [--check] docs/scenes.md\n";
         return 1;
     }
     const std::string path = argv[argc - 1];
@@ -104,7 +104,7 @@ int main(int argc, char** argv)
     if (check)
     {
         std::cerr << path << ": the tables of materials are out of date; write them with "
-                  << "build/release/bin/material_table README.md\n";
+                  << "build/release/bin/material_table docs/scenes.md\n";
         return 1;
     }
     std::ofstream output(path);
