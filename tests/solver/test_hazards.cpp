@@ -27,15 +27,17 @@ class TwoDispatches : public tests::GpuFixture
 public:
     TwoDispatches()
         : kernels_(voile::engine::take(voile::create_kernels(tests::solver_context(), {}))), first_(buffer("first")),
-          second_(buffer("second")), third_(buffer("third")),
-          pool_(voile::engine::take(voile::gpu::BindingPool::create(context(), 4, 8)))
+          second_(buffer("second")), third_(buffer("third")), bounds_(buffer("bounds")),
+          pool_(voile::engine::take(voile::gpu::BindingPool::create(context(), 4, 12)))
     {
     }
 
     VkDescriptorSet bind(VkBuffer from, VkBuffer to)
     {
-        return voile::engine::take(pool_.bind(kernels_.statistics_reduce,
-                                              {{voile::binding::partials, from}, {voile::binding::statistics, to}}));
+        return voile::engine::take(
+            pool_.bind(kernels_.statistics_reduce, {{voile::binding::partials, from},
+                                                    {voile::binding::statistics, to},
+                                                    {voile::binding::pair_bounds, bounds_.handle()}}));
     }
 
     void record(VkCommandBuffer cmd, VkDescriptorSet a, VkDescriptorSet b, voile::gpu::Ordering ordering)
@@ -72,6 +74,7 @@ private:
     voile::gpu::Buffer first_;
     voile::gpu::Buffer second_;
     voile::gpu::Buffer third_;
+    voile::gpu::Buffer bounds_; // of pairs, read where a step had passes over them
     voile::gpu::BindingPool pool_;
 };
 

@@ -33,7 +33,7 @@ constexpr const char* k_all = R"({
     "tethers": {"stretch": 0.02},
     "velocity": [0, 0, -1],
     "integrator": "verlet",
-    "self_collision": false,
+    "self_collision": true,
     "layers": [0, 3],
     "look": {"color": [0.5, 0.25, 0.125], "back_color": [0, 0, 1], "weave": "twill", "pattern": "stripes",
              "roughness": 0.5, "sheen": 0.25, "translucency": 0.75}

@@ -102,7 +102,7 @@ bool enters_node(FeatureSearch search, Box node)
     return overlap(search.box, node) || (!search.found && overlap(search.sweep, node));
 }
 
-// The residual is far smaller than margins.
+// Without residuals (test_features.comp).
 vec3 position_in(Space space, uint vertex)
 {
     const vec3 offset = from_origin(space.collider, space.flags, FinePosition(positions[vertex].xyz, vec3(0)));

@@ -40,6 +40,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "colliders/collider_pose.glsl"
 #include "contact/feature_fan.glsl"
 #include "contact/friction.glsl"
+#include "contact/rounding.glsl"
 #include "integration/integrator.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
@@ -61,18 +62,20 @@ PatchVertex item_vertex(uint cloth, uint index)
 }
 
 // m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
-// the collider. Residuals are far smaller than margins.
+// the collider. Residuals are left out, here and in the lists, so rounding counts as motion: far from the origin lists
+// are not valid.
 float drift(uint index)
 {
     const vec3 center = feature_centers[index].xyz;
     const vec3 earlier = earlier_positions[index].xyz;
     const vec3 proposed = proposed_positions[index].xyz;
     if (!collider_moves)
-        return max(distance(center, earlier), distance(center, proposed));
+        return max(distance(center, earlier), distance(center, proposed)) + rounding(center);
     const vec3 origin = collider_motions[collider_index].origin;
     const vec3 listed = to_collider(pose_listed, center - origin);
     return max(distance(listed, to_collider(pose_from, earlier - origin)),
-               distance(listed, to_collider(pose_to, proposed - origin)));
+               distance(listed, to_collider(pose_to, proposed - origin))) +
+           rounding(center);
 }
 
 void check_guard(float margin)
