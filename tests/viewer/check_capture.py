@@ -134,9 +134,9 @@ def check_names(frame):
     kinds = {"shader": rd.ResourceType.Shader, "pipeline": rd.ResourceType.PipelineState}
     for kind, value in kinds.items():
         expect(value in named, f"no {kind} is named as the kernel of contact")
-    # The layouts of the pipeline and of its sets, and both sets.
+    # The layouts of the pipeline and of its sets, and two sets at least.
     bindings = named.count(rd.ResourceType.ShaderBinding)
-    expect(bindings == 4, f"{bindings} layouts and descriptor sets are named as the kernel of contact")
+    expect(bindings >= 4, f"{bindings} layouts and descriptor sets are named as the kernel of contact")
 
 
 def check(path):
