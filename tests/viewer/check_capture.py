@@ -18,7 +18,8 @@ except ImportError:
 
 SUBSTEP = ["cloth rk4 stage"] * 4 + ["cloth feature tests", "cloth feature contact", "cloth contact"]
 # Before the first substep, and between substeps, with cloth that collides with itself.
-SEARCH = ["cloth pair boxes", "cloth refit levels", "cloth refit levels", "cloth find pairs", "cloth index pairs"]
+SEARCH = ["cloth pair sweeps", "cloth pair boxes", "cloth refit levels", "cloth refit levels", "cloth find candidates",
+          "cloth find pairs", "cloth match pairs", "cloth index pairs"]
 PAIRS = ["cloth meet pairs", "cloth respond to pairs"]
 BUFFERS = pathlib.Path(__file__).parents[2] / "shaders/cloth/shared/buffers.h"
 

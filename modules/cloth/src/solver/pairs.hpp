@@ -8,9 +8,6 @@
 namespace voile
 {
 
-// The number of threads that share the search of a vertex.
-uint32_t lanes_per_search(const Tuning& tuning);
-
 // The number of substeps of level 0, each of so many s, from one pass to the next.
 uint32_t substeps_per_pass(float substep);
 
@@ -41,6 +38,7 @@ private:
     gpu::Recorder& recorder_;
     const Solver::State& solver_;
     uint32_t threads_; // for all patches
+    uint32_t leaves_;  // of the hierarchy
     uint32_t substeps_;
     float h_;         // s
     uint32_t period_; // substeps from one pass to the next
