@@ -15,9 +15,6 @@ namespace
 // s: contact between cloths needs no more passes than this has in a step.
 constexpr float k_interval = 0.4e-3f;
 
-// New lists are made at most every so many passes.
-constexpr uint32_t k_passes_per_search = 2;
-
 // s: lists that no vertex leaves last that long.
 constexpr float k_sweep_time = 3e-3f;
 
@@ -46,11 +43,6 @@ uint32_t substeps_per_pass(float substep)
     return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
 }
 
-uint32_t substeps_per_search(float substep)
-{
-    return k_passes_per_search * substeps_per_pass(substep);
-}
-
 uint32_t count_pair_passes(const Step& step, uint32_t substeps)
 {
     const uint32_t period = substeps_per_pass(step.duration / static_cast<float>(substeps));
@@ -69,7 +61,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
 {
     if (substep == 0)
         write_sizes();
-    else if (substep % substeps_per_search(h_) == 0)
+    else
         publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
@@ -83,11 +75,8 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
     push.capacity = solver_.options.tuning.pair_capacity;
-    if (substep % substeps_per_search(h_) == 0)
-    {
-        find(push, from);
-        publish_dispatch(recorder_);
-    }
+    find(push, from);
+    publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
     recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes, offset_of(VOILE_PAIR_MEET),
                                 push);

@@ -8,11 +8,8 @@
 namespace voile
 {
 
-// The number of substeps of level 0, each of so many s, from one pass to the next.
+// The number of substeps of level 0, each of so many s, from one pass to the next. Each pass can make new lists.
 uint32_t substeps_per_pass(float substep);
-
-// The number of substeps of level 0 between those in which new lists can be made.
-uint32_t substeps_per_search(float substep);
 
 // The number of passes in a step with so many substeps of level 0.
 uint32_t count_pair_passes(const Step& step, uint32_t substeps);

@@ -244,7 +244,7 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.after_pairs = after_pairs ? 1 : 0;
-    push.pair_ahead = static_cast<float>(substeps_per_search(h_));
+    push.pair_ahead = static_cast<float>(substeps_per_pass(h_));
     push.limited_only = substep == substeps_ ? 1 : 0;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
