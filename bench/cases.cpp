@@ -8,6 +8,7 @@
 #include "voile/engine/gpu/device.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 #include <string>
@@ -83,18 +84,12 @@ Cloths add_drape_sheet(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(drape_grid(side)))};
 }
 
+template <uint32_t side, bool self_collision>
 Cloths add_verlet_sheet(voile::Solver& solver)
 {
-    voile::GridCloth grid = drape_grid(128);
+    voile::GridCloth grid = drape_grid(side);
     grid.integrator = voile::Integrator::verlet;
-    return {voile::engine::take(solver.add_cloth(grid))};
-}
-
-Cloths add_self_colliding_sheet(voile::Solver& solver)
-{
-    voile::GridCloth grid = drape_grid(128);
-    grid.integrator = voile::Integrator::verlet;
-    grid.self_collision = true;
+    grid.self_collision = self_collision;
     return {voile::engine::take(solver.add_cloth(grid))};
 }
 
@@ -218,6 +213,8 @@ constexpr uint32_t k_contact_frames = 42; // 0.7 s: the cloth lies on the heart,
 constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart or the ground
 
 constexpr uint32_t k_sphere_frames = 90; // 1.5 s
+constexpr uint32_t k_fallen_frames = 30; // 0.5 s: 4.9 m/s
+constexpr uint32_t k_heap_frames = 90;
 
 constexpr auto k_nearest = voile::ContactMethod::nearest_point;
 // Capsules at rest 20 m and more away from a sheet.
@@ -231,6 +228,39 @@ Cloths add_far_capsules(voile::Solver& solver)
             solver.add_collider(voile::CapsuleCollider{.from = from, .to = from + glm::vec3(1, 1, 0)}));
     }
     return add_drape_sheet<128>(solver);
+}
+
+constexpr float k_ground = -0.4f; // m
+
+template <uint32_t side>
+Cloths add_sheet_over_ground(voile::Solver& solver)
+{
+    (void)voile::engine::take(solver.add_collider(voile::PlaneCollider{.offset = k_ground}));
+    return add_verlet_sheet<side, true>(solver);
+}
+
+// The sheet in 12 folds that stand upright on the ground. They lean, more at one end than at the other, and fall over
+// each other.
+template <uint32_t side>
+std::vector<glm::vec4> upright_folds()
+{
+    constexpr float k_size = 2.4f;  // m
+    constexpr float k_panel = 0.2f; // m, from fold to fold
+    constexpr float k_pitch = 0.03f;
+    const float height = std::sqrt(k_panel * k_panel - k_pitch * k_pitch);
+    std::vector<glm::vec4> positions;
+    positions.reserve(size_t{side} * side);
+    for (uint32_t row = 0; row < side; ++row)
+        for (uint32_t column = 0; column < side; ++column)
+        {
+            const float along = k_size * static_cast<float>(column) / (side - 1) / k_panel;
+            const float z = k_size * (static_cast<float>(row) / (side - 1) - 0.5f);
+            const float part = along - std::floor(along);
+            const bool down = static_cast<int>(along) % 2 != 0;
+            const float up = height * (down ? 1 - part : part);
+            positions.emplace_back(k_pitch * along + (0.3f + 0.1f * z) * up, k_ground + 0.02f + up, z, 0);
+        }
+    return positions;
 }
 
 constexpr auto k_interleaved = voile::MeshLayout::interleaved;
@@ -249,9 +279,14 @@ constexpr Case k_cases[] = {
     {"grid-512", "512 x 512", add_drape_sheet<512>},
     {"grid-1024", "1024 x 1024", add_drape_sheet<1024>},
     {"grid-128", "128 x 128; the next cases add one feature each", add_drape_sheet<128>},
-    {"verlet-128", "velocity Verlet instead of RK4", add_verlet_sheet, k_nearest, 0, false, k_interleaved, 0, 0, true},
-    {"flat-self", "the same, which collides with itself", add_self_colliding_sheet, k_nearest, 0, false, k_interleaved,
+    {"verlet-128", "velocity Verlet instead of RK4", add_verlet_sheet<128, false>, k_nearest, 0, false, k_interleaved,
      0, 0, true},
+    {"flat-self", "the same, which collides with itself, after a fall of 0.5 s", add_verlet_sheet<128, true>, k_nearest,
+     k_fallen_frames, false, k_interleaved, 0, 0, true},
+    {"verlet-512", "512 x 512 with velocity Verlet", add_verlet_sheet<512, false>, k_nearest, 0, false, k_interleaved,
+     0, 0, true},
+    {"flat-self-512", "the same, which collides with itself, after a fall of 0.5 s", add_verlet_sheet<512, true>,
+     k_nearest, k_fallen_frames, false, k_interleaved, 0, 0, true},
     {"isometric-128", "isometric bending instead of springs", add_changed_sheet<bend_isometrically>},
     {"air-128", "air drag", add_changed_sheet<feel_air>},
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,
@@ -283,6 +318,32 @@ constexpr Case k_cases[] = {
     {"capsules-1", "the drape scene's sheet falls freely, 20 m from a capsule", add_far_capsules<1>},
     {"capsules-100", "from 100", add_far_capsules<100>},
     {"capsules-1000", "from 1000", add_far_capsules<1000>},
+    {"heap-16384",
+     "the sheet of 128 x 128 in folds that fell over each other, 1.5 s ago",
+     add_sheet_over_ground<128>,
+     k_nearest,
+     k_heap_frames,
+     true,
+     k_interleaved,
+     0,
+     0,
+     true,
+     0,
+     {},
+     upright_folds<128>},
+    {"heap-262144",
+     "of 512 x 512",
+     add_sheet_over_ground<512>,
+     k_nearest,
+     k_heap_frames,
+     true,
+     k_interleaved,
+     0,
+     0,
+     true,
+     0,
+     {},
+     upright_folds<512>},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
 };

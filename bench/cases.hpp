@@ -28,6 +28,9 @@ struct Case
     bool verlet = false;
     uint32_t lists = 0;                  // entries of a mesh vertex's list of springs
     std::optional<uint32_t> icosphere{}; // subdivisions of the icosphere below the drape scene's sheet
+    // Where the vertices of the only cloth begin. No cloth may intersect itself at the measurement then; the case is an
+    // error otherwise. Such cases run on a GPU or by their name.
+    std::vector<glm::vec4> (*arrange)() = nullptr;
 };
 
 // The icosphere of a case, radius 0.8 m.

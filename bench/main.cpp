@@ -70,8 +70,8 @@ const bench::RealCase* find_real_case(std::span<const bench::RealCase> reals, co
     return found == reals.end() ? nullptr : &*found;
 }
 
-// All named cases. Without names all, but the drape scene and meshes from files only on a GPU: a CPU device would take
-// hours.
+// All named cases. Without names all, but the drape scene, heaps and meshes from files only on a GPU: a CPU device
+// would take hours.
 Chosen choose(const std::vector<std::string>& names, std::span<const bench::RealCase> reals, bool cpu)
 {
     Chosen chosen;
@@ -97,7 +97,8 @@ Chosen choose(const std::vector<std::string>& names, std::span<const bench::Real
     if (!names.empty())
         return chosen;
     for (const bench::Case& item : bench::cases())
-        chosen.cases.push_back(&item);
+        if (!cpu || item.arrange == nullptr)
+            chosen.cases.push_back(&item);
     for (const bench::RefitCase& item : bench::refit_cases())
         chosen.refits.push_back(&item);
     if (!cpu)

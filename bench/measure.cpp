@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <string>
 
 namespace bench
@@ -120,10 +121,37 @@ private:
     voile::gpu::Buffer velocities_;
 };
 
-voile::Statistics statistics(TimedQueue& queue, const voile::Solver& solver)
+// Keeps the inverse masses.
+void place(TimedQueue& queue, const voile::Solver& solver, voile::ClothId cloth, std::vector<glm::vec4> positions)
 {
-    queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_statistics(cmd, 0)); });
+    const voile::VertexStreams streams = solver.vertices(cloth);
+    const auto before =
+        voile::engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset, streams.vertices);
+    for (size_t i = 0; i < positions.size(); ++i)
+        positions[i].w = before[i].w;
+    const VkDeviceSize bytes = positions.size() * sizeof(glm::vec4);
+    const voile::gpu::Buffer staging = voile::engine::take(voile::gpu::create_buffer(
+        queue.context(), "positions", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, voile::Memory::upload));
+    std::memcpy(staging.mapped().data(), positions.data(), bytes);
+    staging.flush();
+    const VkBufferCopy region{0, streams.offset, bytes};
+    queue.run([&](VkCommandBuffer cmd)
+              { queue.context().fn.vkCmdCopyBuffer(cmd, staging.handle(), streams.positions, 1, &region); });
+}
+
+voile::Statistics statistics(TimedQueue& queue, const voile::Solver& solver,
+                             voile::Intersections intersections = voile::Intersections::not_counted)
+{
+    queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_statistics(cmd, 0, intersections)); });
     return solver.statistics(0);
+}
+
+void check_intersections(TimedQueue& queue, const voile::Solver& solver, const Case& item)
+{
+    const voile::Statistics state = statistics(queue, solver, voile::Intersections::counted);
+    if (const uint64_t pairs = state.intersections->cloth_pairs + state.intersections->uncertain_pairs; pairs > 0)
+        throw voile::engine::StartupError("case " + std::string(item.name) + ": " + std::to_string(pairs) +
+                                          " pairs of an edge and a triangle intersect");
 }
 
 void check_finite(const Case& item, const voile::Statistics& state, const char* when)
@@ -202,12 +230,16 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, c
     options.tuning.contact_method = item.method;
     options.tuning.workgroup_size = settings.workgroup_size;
     options.tuning.mesh_layout = item.layout;
+    options.intersections = item.arrange != nullptr;
     voile::Solver solver = voile::engine::take(voile::Solver::create(queue.context().handles, options));
     const std::vector<voile::ClothId> cloths = item.build(solver);
     {
         voile::Upload kept;
         queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
     }
+
+    if (item.arrange != nullptr)
+        place(queue, solver, cloths.front(), item.arrange());
 
     Measurement result;
     result.vertices = solver.vertex_count();
@@ -220,6 +252,8 @@ Measurement measure(TimedQueue& queue, const Case& item, uint32_t repetitions, c
 
     if (item.icosphere)
         result.visits = measure_visits(queue, solver, cloths.front(), *item.icosphere);
+    if (item.arrange != nullptr)
+        check_intersections(queue, solver, item);
     const Snapshot start(queue, solver, cloths);
     if (settings.passes)
         print_passes(queue, solver, {.duration = k_frame, .substeps = result.substeps},

@@ -288,6 +288,32 @@ TEST_CASE("a step with several levels of substeps has no hazard, each dispatch i
     CHECK(buffers.count() >= dispatches);
 }
 
+TEST_CASE("steps in which cloths collide with each other have no hazard, each dispatch in its own command buffer")
+{
+    ClothHarness harness;
+    for (const float height : {0.f, 0.003f})
+    {
+        voile::GridCloth grid;
+        grid.columns = grid.rows = 10;
+        grid.width = grid.depth = 0.2f;
+        grid.transform[3] = {0, height, 0, 1};
+        grid.integrator = voile::Integrator::verlet;
+        grid.self_collision = true;
+        const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(grid));
+        voile::engine::take(harness.solver.set_attachments(cloth, {voile::pin(0)}));
+    }
+    harness.upload();
+    const voile::Step step{.duration = 2e-3f};
+    const uint32_t dispatches = harness.solver.dispatches(step);
+    OneDispatchEach buffers(tests::device());
+    voile::gpu::Recorder recorder(tests::solver_context(), buffers.begin());
+    recorder.split_with(OneDispatchEach::next, &buffers);
+    for (int i = 0; i < 2; ++i)
+        voile::engine::take(harness.solver.record(recorder, step));
+    buffers.submit();
+    CHECK(buffers.count() > 2 * dispatches);
+}
+
 TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in its own command buffer")
 {
     const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context(), 16));

@@ -343,9 +343,10 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
-// The impulses of pairs act in the first substep after their pass.
-void respond_to_pairs(Hold hold, inout Motion motion)
+// The impulses of pairs act in the first substep after their pass. Whether the motion changes.
+bool respond_to_pairs(Hold hold, inout Motion motion)
 {
+    const vec3 before = motion.displacement;
     if (push.after_pairs != 0)
     {
         const vec3 change = hold.bound.impulse;
@@ -356,17 +357,19 @@ void respond_to_pairs(Hold hold, inout Motion motion)
     if (push.step > 0)
         motion.v += (along - motion.displacement) / push.step;
     motion.displacement = along;
+    return along != before;
 }
 
+// Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
 void ask_for_lists(Hold hold, vec3 displacement)
 {
-    if (wants_lists(hold, displacement))
+    if (wants_lists(hold, displacement) && pair_searches[VOILE_PAIR_OF_PLACES].wanted == 0)
         for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
-            pair_searches[k].wanted = k == VOILE_PAIR_SEARCH ? push.pair_lanes : 1;
+            pair_searches[k].wanted = 1;
 }
 
-// Cuts the motion where the guards of pairs end.
-void hold_within_guards(Hold hold, inout Motion motion)
+// Cuts the motion where the guards of pairs end. Whether it does.
+bool hold_within_guards(Hold hold, inout Motion motion)
 {
     const float part = held_part(hold, motion.displacement);
     if (part < 1)
@@ -375,6 +378,7 @@ void hold_within_guards(Hold hold, inout Motion motion)
         motion.displacement *= part;
     }
     ask_for_lists(hold, motion.displacement);
+    return part < 1;
 }
 
 // Nothing holds a vertex without mass.
@@ -408,8 +412,7 @@ void main()
         if (held)
         {
             hold = hold_of(i, motion.from);
-            respond_to_pairs(hold, motion);
-            changed = true;
+            changed = respond_to_pairs(hold, motion) || changed;
         }
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;
@@ -429,7 +432,7 @@ void main()
             changed = true;
         }
         if (held)
-            hold_within_guards(hold, motion);
+            changed = hold_within_guards(hold, motion) || changed;
     }
     if (changed)
         write_motion(i, motion, flags);

@@ -18,6 +18,7 @@ layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
 layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
@@ -28,7 +29,7 @@ layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
 layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
-layout(VOILE_BINDING(feature_centers)) writeonly buffer FeatureCenters { vec4 feature_centers[]; };
+layout(VOILE_BINDING(feature_centers)) writeonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
 layout(VOILE_BINDING(feature_cells)) writeonly buffer FeatureCells { FeatureCell cells[]; };
 layout(VOILE_BINDING(feature_items)) writeonly buffer FeatureItems { FeatureItem items[]; };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
@@ -102,10 +103,14 @@ bool enters_node(FeatureSearch search, Box node)
     return overlap(search.box, node) || (!search.found && overlap(search.sweep, node));
 }
 
-// Without residuals (test_features.comp).
+FinePosition position_of(uint vertex)
+{
+    return FinePosition(positions[vertex].xyz, unpack_residual(residuals[vertex]));
+}
+
 vec3 position_in(Space space, uint vertex)
 {
-    const vec3 offset = from_origin(space.collider, space.flags, FinePosition(positions[vertex].xyz, vec3(0)));
+    const vec3 offset = from_origin(space.collider, space.flags, position_of(vertex));
     return is_moved(space.flags) ? to_collider(space.pose, offset) : offset;
 }
 
@@ -193,7 +198,7 @@ Surrounding surrounding(PatchVertex self, uint c, uint flags)
         uint vertex;
         if (!find_around(self, i, vertex))
             continue;
-        vec3 from = from_origin(c, flags, FinePosition(positions[vertex].xyz, vec3(0)));
+        vec3 from = from_origin(c, flags, position_of(vertex));
         vec3 to = from + push.time * velocities[vertex].xyz;
         if (moves)
         {
@@ -400,7 +405,8 @@ void main()
         walked = grown(Box(position, position), reach);
         search.widest = find_margin(search.self, walked);
         if (lane == 0)
-            feature_centers[search.self.index] = vec4(position, 0);
+            feature_centers[search.self.index] =
+                FeatureCenter(position, 0, residuals[search.self.index], uvec2(0));
     }
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.

@@ -26,7 +26,7 @@ layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord coll
 layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
 layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
-layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { vec4 feature_centers[]; };
+layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
 layout(VOILE_BINDING(feature_items)) readonly buffer FeatureItems { FeatureItem items[]; };
 layout(VOILE_BINDING(feature_cells)) writeonly buffer FeatureCells { FeatureCell cells[]; };
 layout(VOILE_BINDING(feature_responses)) writeonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
@@ -40,7 +40,6 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "colliders/collider_pose.glsl"
 #include "contact/feature_fan.glsl"
 #include "contact/friction.glsl"
-#include "contact/rounding.glsl"
 #include "integration/integrator.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
@@ -62,20 +61,18 @@ PatchVertex item_vertex(uint cloth, uint index)
 }
 
 // m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
-// the collider. Residuals are left out, here and in the lists, so rounding counts as motion: far from the origin lists
-// are not valid.
+// the collider.
 float drift(uint index)
 {
-    const vec3 center = feature_centers[index].xyz;
-    const vec3 earlier = earlier_positions[index].xyz;
-    const vec3 proposed = proposed_positions[index].xyz;
+    const FeatureCenter listed = feature_centers[index];
+    const FinePosition center = FinePosition(listed.x, unpack_residual(listed.residual));
+    const FinePosition earlier = earlier_position(index);
+    const FinePosition proposed = proposed_position(index);
     if (!collider_moves)
-        return max(distance(center, earlier), distance(center, proposed)) + rounding(center);
-    const vec3 origin = collider_motions[collider_index].origin;
-    const vec3 listed = to_collider(pose_listed, center - origin);
-    return max(distance(listed, to_collider(pose_from, earlier - origin)),
-               distance(listed, to_collider(pose_to, proposed - origin))) +
-           rounding(center);
+        return max(length(displacement(center, earlier)), length(displacement(center, proposed)));
+    const vec3 at = to_collider(pose_listed, from_origin(collider_index, collider_flags, center));
+    return max(distance(at, to_collider(pose_from, from_origin(collider_index, collider_flags, earlier))),
+               distance(at, to_collider(pose_to, from_origin(collider_index, collider_flags, proposed))));
 }
 
 void check_guard(float margin)

@@ -5,6 +5,7 @@
 #ifndef VOILE_FAN_GLSL
 #define VOILE_FAN_GLSL
 
+#include "shared/grid.glsl"
 #include "shared/mesh.glsl"
 
 // The vertex in the middle, and its cloth.

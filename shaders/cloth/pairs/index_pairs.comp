@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Makes the lists of pairs (find_pairs.comp) ready for passes: which pairs each vertex is in, how far it may leave its
-// sweep before pairs that no list has could meet, the thickness of each pair, and the dispatches of a pass. One thread
-// per vertex.
+// Makes the lists of pairs (find_pairs.comp, match_pairs.comp) ready for passes: which pairs each vertex is in, how far
+// it may leave its sweep before pairs that no list has could meet, the thickness of each pair, and the dispatches of a
+// pass. One thread per vertex.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/pair_layout.h"
@@ -17,9 +17,8 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
-layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
-layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
+layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_lists)) readonly buffer PairLists { PairList pair_lists[]; };
 layout(VOILE_BINDING(pair_thicknesses)) writeonly buffer PairThicknesses { float pair_thicknesses[]; };
 layout(VOILE_BINDING(pair_masks)) buffer PairMasks { uint pair_masks[]; };
@@ -47,36 +46,20 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 // closer with each search, until rounding hides which side is which.
 const float k_unlisted_floor = 0.02;
 
-// What the list of an owner has for a vertex.
-struct Listed
+// Of the pairs of an owner, those that a vertex is in on the owner's side.
+uint pairs_around(uint vertex, uint owner, uint mask)
 {
-    uint mask;   // the pairs that the vertex is in, on the owner's side
-    float reach; // m, the range of the owner, or the nearest pair that only one side lists
-};
-
-Listed listed_by(uint owner, uint vertex)
-{
-    const PairList list = pair_lists[owner];
-    Listed listed = Listed(0, list.range);
-    for (uint e = 0; e < VOILE_PAIRS; ++e)
+    uint result = 0;
+    for (; mask != 0; mask &= mask - 1)
     {
-        if (!is_listed(list, e, push.lanes))
-            continue;
-        const uint entry = owner * VOILE_PAIRS + e;
-        const Pair pair = unpacked(pairs[entry]);
+        const uint e = findLSB(mask);
+        const Pair pair = unpacked(pairs[owner * VOILE_PAIRS + e]);
         const uint place = place_in(pair, vertex);
-        const uvec2 owners = owners_of(pair);
-        const bool first = owners.x == owner;
-        if (place == 4 || (place < first_side(pair)) != first)
-            continue;
-        // A side does not list the pair, or another thread of its search has left out a nearer one.
-        const float at = pair_distances[entry];
-        if (at >= min(list.range, pair_lists[first ? owners.y : owners.x].range))
-            listed.reach = min(listed.reach, at);
-        else
-            listed.mask |= 1u << e;
+        const bool first = owners_of(pair).x == owner;
+        if (place != 4 && (place < first_side(pair)) == first)
+            result |= 1u << e;
     }
-    return listed;
+    return result;
 }
 
 // m, at which the primitives of a pair repel each other. Those of one cloth that are nearer at rest do from half of
@@ -135,14 +118,14 @@ void refer(Fan fan, uint at)
     }
 }
 
-// Until a pass finds the vertex in a pair, only its sweep bounds it. Where sweeps may meet that no list has as a pair, the
+// Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
 // vertex stays where it is. It loses its velocity, so that the next sweeps are shorter.
 void bound(uint i, float reach, bool listed)
 {
     PairSweep sweep;
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
-    sweep.sweep = reach > 0 ? sweep_of(i) : vec3(0);
+    sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
     sweep.listed = listed ? 1 : 0;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
@@ -156,6 +139,8 @@ void main()
     const uint i = self.index;
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
+    if (gl_GlobalInvocationID.x == 0)
+        pair_passes[VOILE_PAIR_FIND] = PairDispatch(0, 1, 1, 0);
     if (gl_LocalInvocationID.x == 0)
         shared_pairs = shared_vertices = shared_references = 0;
     uint own = 0;
@@ -165,16 +150,18 @@ void main()
     {
         fan = fan_of(self.cloth, i);
         float reach = pair_lists[i].range;
+        own = pair_lists[i].mask;
         for (uint k = 0; k < owner_count(fan); ++k)
         {
             uint owner;
-            Listed listed = Listed(0, reach);
+            uint mask = 0;
             if (owner_of(fan, k, owner))
-                listed = listed_by(owner, i);
-            pair_masks[mask_place(fan, k, push.vertices)] = listed.mask;
-            reach = min(reach, listed.reach);
-            own = k == 0 ? listed.mask : own;
-            references += bitCount(listed.mask);
+            {
+                reach = min(reach, pair_lists[owner].range);
+                mask = k == 0 ? own : pairs_around(i, owner, pair_lists[owner].mask);
+            }
+            pair_masks[mask_place(fan, k, push.vertices)] = mask;
+            references += bitCount(mask);
         }
         bound(i, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, references != 0);
     }

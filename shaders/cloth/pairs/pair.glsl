@@ -35,14 +35,6 @@ Pair unpacked(uvec4 words)
     return Pair(uvec4(words.x & ~k_pair_edges_bit, words.yzw), (words.x & k_pair_edges_bit) != 0);
 }
 
-// Whether a place of an owner's list is in use.
-bool is_listed(PairList list, uint place, uint lanes)
-{
-    const uint part = VOILE_PAIRS / lanes;
-    const uint count = (list.counts >> (place / part * VOILE_PAIR_COUNT_BITS)) & ((1u << VOILE_PAIR_COUNT_BITS) - 1);
-    return place % part < count;
-}
-
 // The number of vertices of the first side.
 uint first_side(Pair pair) { return pair.edges ? 2 : 1; }
 

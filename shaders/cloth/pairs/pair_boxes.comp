@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sweeps of vertices, and the boxes of the leaves of the hierarchy of pairs (pair_tree.glsl), around the sweeps of all
-// primitives that a vertex owns. One thread per slot. The box of a leaf also contains the vertex and its cloth.
-// refit.comp folds the boxes.
+#extension GL_EXT_control_flow_attributes : require
+// The boxes of the leaves of the hierarchy of pairs (pair_tree.glsl), around the sweeps of all primitives that their
+// vertices own, and how flat the cloth around each vertex is. One thread per vertex, the first of them have a slot of a
+// leaf each. The box of a leaf also contains its number. refit.comp folds the boxes.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -13,49 +14,70 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
-layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
+layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
-layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midpoints[]; };
-layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
-layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
-layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_flats)) writeonly buffer PairFlats { vec2 pair_flats[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
-#include "shared/grid.glsl"
-#include "pairs/fan.glsl"
+#include "contact/rounding.glsl"
+#include "shared/box.glsl"
+#include "pairs/flat.glsl"
 #include "pairs/pair_tree.glsl"
-#include "pairs/sweep.glsl"
 
-void start_vertex(uint i, uint cloth)
+Box sweep_box(uint i)
 {
-    const vec3 sweep = sweep_of(i);
-    midpoints[i] = vec4(positions[i].xyz + 0.5 * sweep, 0.5 * length(sweep));
-    pair_loads[i] = pair_loads[push.vertices + i] = 0;
-    pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
+    const Node node = node_of(i, vec3(0));
+    return Box(node.x - abs(node.sweep), node.x + abs(node.sweep));
+}
+
+// Around the primitives that a vertex owns, rounding included.
+Box fan_box(Fan fan)
+{
+    Box box = sweep_box(fan.center);
+    for (uint k = 0; k < fan.wedges; ++k)
+    {
+        const Wedge wedge = wedge_of(fan, k);
+        if (wedge.triangle || wedge.edge_b)
+            box = joined(box, sweep_box(wedge.b));
+        if (wedge.triangle || wedge.edge_c)
+            box = joined(box, sweep_box(wedge.c));
+    }
+    return grown(box, rounding(box.min) + rounding(box.max));
+}
+
+Box leaf_box(uint leaf)
+{
+    Box box = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u))); // empty
+    const uint first = leaf * VOILE_PAIR_LEAF;
+    for (uint place = first; place < min(first + VOILE_PAIR_LEAF, push.places); ++place)
+    {
+        const uvec2 entry = pair_order[place];
+        if (collides_with_itself(entry.y))
+            box = joined(box, fan_box(fan_of(entry.y, entry.x)));
+    }
+    return box;
 }
 
 void main()
 {
-    const uint width = 1u << findMSB(2 * push.slots - 1); // of the level of leaves
-    const uint slot = gl_GlobalInvocationID.x;
-    if (slot == 0)
-    {
-        pair_passes[VOILE_PAIR_MEET] = PairDispatch(0, 1, 1, 0);
-        pair_passes[VOILE_PAIR_RESPOND] = PairDispatch(0, 1, 1, 0);
-        pair_passes[VOILE_PAIR_REFERENCES] = PairDispatch(0, 1, 1, 0);
-    }
-    if (slot >= width)
+    const uint place = gl_GlobalInvocationID.x;
+    if (place >= push.places)
         return;
-    const uvec2 entry = pair_order[place_of_slot(slot, push.slots)];
-    Box box = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u))); // empty
-    if (collides_with_itself(entry.y))
+    const uint width = 1u << findMSB(2 * push.leaves - 1); // of the level of leaves, not above the number of places
+    if (place < width)
     {
-        box = fan_box(fan_of(entry.y, entry.x));
-        if (slot < push.slots) // others repeat a vertex
-            start_vertex(entry.x, entry.y);
+        const uint leaf = leaf_of_slot(place, push.leaves);
+        const Box box = leaf_box(leaf);
+        boxes[width - 1 + place] = PaddedBox(box.min, leaf, box.max, 0);
     }
-    boxes[width - 1 + slot] = PaddedBox(box.min, entry.x, box.max, entry.y);
+    const uvec2 entry = pair_order[place];
+    if (!collides_with_itself(entry.y))
+        return;
+    const Fan fan = fan_of(entry.y, entry.x);
+    const vec3 x = midpoints[entry.x].xyz;
+    const bool grid = fan.columns >= VOILE_LEAST_FLAT_COLUMNS;
+    const Flat flat_around = grid ? flatness(fan, 16 * rounding(x)) : Flat(0, 0);
+    pair_flats[entry.x] = vec2(flat_around.wide, flat_around.narrow);
 }

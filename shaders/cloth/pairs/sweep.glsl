@@ -1,43 +1,32 @@
-// Sweeps: the segments along which the lists of pairs expect vertices to move.
-//
-// The including kernel declares positions[] and velocities[], and includes pairs/fan.glsl.
+// Sweeps: the segments along which the lists of pairs expect vertices to move. Half of a sweep is packed beside its
+// middle, the midpoint: three signed numbers of 9 bits and an exponent of 5. Sweeps are what the packed words say.
 #ifndef VOILE_SWEEP_GLSL
 #define VOILE_SWEEP_GLSL
 
-#include "contact/rounding.glsl"
-#include "shared/box.glsl"
+const uint k_sweep_bits = 9;
+const int k_lowest_exponent = -24; // of the unit of the numbers, in m; the highest is 7
 
-vec3 sweep_of(uint i)
+uint pack_half_sweep(vec3 sweep)
 {
-    const vec3 v = velocities[i].xyz;
-    return v * min(push.sweep_time, push.longest_sweep / max(length(v), 1e-30));
+    const float largest = max(max(abs(sweep.x), abs(sweep.y)), abs(sweep.z));
+    int exponent;
+    frexp(largest, exponent);
+    exponent = clamp(exponent - int(k_sweep_bits - 1), k_lowest_exponent, k_lowest_exponent + 31);
+    const float most = float((1 << (k_sweep_bits - 1)) - 1);
+    const ivec3 words = ivec3(clamp(roundEven(ldexp(sweep, ivec3(-exponent))), -most, most));
+    uint result = uint(exponent - k_lowest_exponent) << (3 * k_sweep_bits);
+    for (uint k = 0; k < 3; ++k)
+        result |= (uint(words[k]) & ((1u << k_sweep_bits) - 1)) << (k * k_sweep_bits);
+    return result;
 }
 
-// Adds the middle of a vertex's sweep. `reach`: m, half of the longest sweep.
-void add_sweep(uint i, inout Box box, inout float reach)
+vec3 unpack_half_sweep(uint word)
 {
-    const vec3 sweep = sweep_of(i);
-    const vec3 middle = positions[i].xyz + 0.5 * sweep;
-    box = joined(box, Box(middle, middle));
-    reach = max(reach, 0.5 * length(sweep));
-}
-
-// Around the primitives that a vertex owns, rounding included. Distances of pairs leave room for half of the longest
-// sweep of a primitive in all directions (find_pairs.comp), so that both sides of a pair find it only if boxes do, too.
-Box fan_box(Fan fan)
-{
-    Box box = Box(vec3(1e30), vec3(-1e30)); // empty
-    float reach = 0;
-    add_sweep(fan.center, box, reach);
-    for (uint k = 0; k < fan.wedges; ++k)
-    {
-        const Wedge wedge = wedge_of(fan, k);
-        if (wedge.triangle || wedge.edge_b)
-            add_sweep(wedge.b, box, reach);
-        if (wedge.triangle || wedge.edge_c)
-            add_sweep(wedge.c, box, reach);
-    }
-    return grown(box, reach + rounding(box.min) + rounding(box.max));
+    const uint exponent = (word >> (3 * k_sweep_bits)) + uint(127 + k_lowest_exponent);
+    const ivec3 words = ivec3(bitfieldExtract(int(word), 0, int(k_sweep_bits)),
+                              bitfieldExtract(int(word), int(k_sweep_bits), int(k_sweep_bits)),
+                              bitfieldExtract(int(word), int(2 * k_sweep_bits), int(k_sweep_bits)));
+    return uintBitsToFloat(exponent << 23) * vec3(words);
 }
 
 #endif

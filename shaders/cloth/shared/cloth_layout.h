@@ -76,7 +76,8 @@ struct ClothRecord
     float pair_thickness;     // m, from itself and other cloths
     float pair_range;         // m, within which pairs are listed
     float pair_sweep;         // m, the longest motion along which they are
-    float padding[3];
+    float pair_slide;         // m, the longest part of it along the surface
+    float padding[2];
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;

@@ -61,7 +61,6 @@ struct ContactPush
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
     uint after_pairs;   // 1: the impulses of pairs are new
-    uint pair_lanes;    // threads per vertex of the search for pairs
     float pair_ahead;   // substeps from one pass over pairs to the next
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
 };
@@ -77,7 +76,7 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 84);
+static_assert(sizeof(ContactPush) == 80);
 #endif
 
 VOILE_SHARED_END

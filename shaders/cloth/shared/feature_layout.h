@@ -67,6 +67,15 @@ struct FeatureCorrection
     uint padding;
 };
 
+// Where a vertex was when near features were listed.
+struct FeatureCenter
+{
+    vec3 x; // m
+    uint padding;
+    uvec2 residual; // fine_position.glsl
+    uvec2 padding_1;
+};
+
 // A feature near a piece of cloth, until the next query.
 struct FeatureItem
 {

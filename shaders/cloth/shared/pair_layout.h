@@ -9,21 +9,33 @@
 // The most threads of a search. The lengths of their parts have this many bits each.
 #define VOILE_PAIR_LANES 4
 #define VOILE_PAIR_COUNT_BITS 8
+#define VOILE_PAIR_COUNT_MASK 0xffu
 
-// The most dispatches that make the lists: boxes of leaves, folds of levels, the search, and the index of the lists.
+// The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
+// patch, folds of levels.
 #define VOILE_PAIR_SEARCHES 8
-#define VOILE_PAIR_SEARCH 6
+#define VOILE_PAIR_OF_PLACES 0
+#define VOILE_PAIR_OF_PATCHES 1
+#define VOILE_PAIR_FOLDS 2
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair had.
 #define VOILE_PAIR_FORCED 0
-#define VOILE_PAIR_INDEX 7
+// The most candidates of a vertex. They take the memory of the references to pairs.
+#define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
 #define VOILE_PAIR_RESPOND 1
 // No dispatch: counts the references to pairs.
 #define VOILE_PAIR_REFERENCES 2
-#define VOILE_PAIR_PASSES 3
+// Of a search, over the vertices that have candidates.
+#define VOILE_PAIR_FIND 3
+#define VOILE_PAIR_PASSES 4
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f
+// Cloth is flat around a vertex if its primitives are farther apart than this part of the range of lists.
+#define VOILE_FLAT_RANGE 0.85f
+#define VOILE_LEAST_FLAT_COLUMNS 8
+// So many vertices have a leaf of the hierarchy of pairs.
+#define VOILE_PAIR_LEAF 4
 // Weights in sums of loads are integers, so that their order does not matter.
 #define VOILE_PAIR_UNIT_LOAD 65536.0f
 
@@ -44,7 +56,7 @@ struct PairList
     float range; // m, up to which it has all pairs
     uint counts; // the lengths of its parts
     uint cloth;
-    uint padding;
+    uint mask;   // the places of pairs that both sides list
 };
 
 // Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.
@@ -100,13 +112,13 @@ struct PairResponse
 
 struct PairPush
 {
-    float interval;      // s, from this pass to the next
-    float sweep_time;    // s, for which the sweeps of the lists last
-    float longest_sweep; // m
+    float interval;   // s, from this pass to the next
+    float sweep_time; // s, for which the sweeps of the lists last
     uint first_patch;
-    uint slots;    // of the hierarchy
+    uint places;   // in the order of vertices
+    uint leaves;   // of the hierarchy
     uint pass;     // counted over all steps
-    uint vertices; // of the solver
+    uint vertices; // of the solver, the capacity of its buffers
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
     uint capacity; // of a list, at most VOILE_PAIRS

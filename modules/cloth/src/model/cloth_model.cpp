@@ -4,6 +4,7 @@
 #include "model/stability.hpp"
 
 #include "shared/grid_springs.h"
+#include "shared/pair_layout.h"
 
 #include <algorithm>
 #include <array>
@@ -247,11 +248,11 @@ constexpr float k_thickest = 0.4f;
 // Pairs are listed within this part of the thickness, or of the smallest height of a triangle.
 constexpr float k_pair_thicknesses = 1.3f;
 constexpr float k_pair_heights = 0.35f;
-// Lists expect vertices to move. A flat cloth that moves has no pairs: this part of the smallest height of its
-// triangles is more than range and motion together.
-constexpr float k_flat = 0.95f;
-constexpr float k_shortest_sweep = 0.2f; // of the range
-constexpr float k_longest_sweep = 2;
+// Lists expect vertices to move. In a flat cloth that moves along its surface this part of the smallest height of its
+// triangles is more than motion and range.
+constexpr float k_flat = 0.8f;
+constexpr float k_shortest_slide = 0.1f; // of the range
+constexpr float k_longest_sweep = 1;
 
 void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
 {
@@ -260,7 +261,9 @@ void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
     record.pair_thickness = std::min(record.thickness, k_thickest * std::min(d.x, d.y));
     const float range = std::max(k_pair_thicknesses * record.pair_thickness, k_pair_heights * height);
     record.pair_range = range;
-    record.pair_sweep = std::clamp(k_flat * height - range, k_shortest_sweep * range, k_longest_sweep * range);
+    record.pair_sweep = k_longest_sweep * range;
+    record.pair_slide =
+        std::clamp(k_flat * height - VOILE_FLAT_RANGE * range, k_shortest_slide * range, record.pair_sweep);
 }
 
 } // namespace

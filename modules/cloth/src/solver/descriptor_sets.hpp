@@ -52,9 +52,12 @@ struct DescriptorSets
     std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
-    std::array<VkDescriptorSet, 2> pair_boxes{}; // of the state, of stage B
+    std::array<VkDescriptorSet, 2> pair_sweeps{}; // of the state, of stage B
+    VkDescriptorSet pair_boxes{};
     VkDescriptorSet pair_refit{};
+    VkDescriptorSet find_candidates{};
     VkDescriptorSet find_pairs{};
+    VkDescriptorSet match_pairs{};
     std::array<VkDescriptorSet, 2> index_pairs{};
     std::array<VkDescriptorSet, 2> meet_pairs{};
     std::array<VkDescriptorSet, 2> respond_to_pairs{};

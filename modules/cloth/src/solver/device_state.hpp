@@ -77,7 +77,7 @@ struct DeviceState
     uint32_t collider_count = 0; // records that are written; no cloth collides with those of removed colliders
 
     uint32_t patch_count = 0; // in the buffer of patches
-    uint32_t pair_slots = 0;  // of the hierarchy of pairs, those of disabled and removed cloths included
+    uint32_t pair_places = 0; // in the order of pairs, those of disabled and removed cloths included
     TreeCounts tree_counts{}; // in the buffer of trees
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }

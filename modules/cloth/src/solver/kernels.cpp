@@ -59,10 +59,15 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add_contact(kernels.contact_convex, 0, 1, 0, 0);
     add_contact(kernels.contact_moving, 1, 1, 0, 0);
     add_contact(kernels.contact_many, 1, 1, 1, 0);
-    add_contact(kernels.contact_pairs, 1, 1, 0, 1);
+    add_contact(kernels.contact_pairs, 0, 0, 0, 1);
+    add_contact(kernels.contact_pairs_convex, 0, 1, 0, 1);
+    add_contact(kernels.contact_pairs_moving, 1, 1, 0, 1);
     add_contact(kernels.contact_pairs_many, 1, 1, 1, 1);
+    add(kernels.pair_sweeps, "cloth pair sweeps", shaders::k_pair_sweeps_comp, with_lists);
     add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
+    add(kernels.find_candidates, "cloth find candidates", shaders::k_find_candidates_comp, with_lists);
     add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
+    add(kernels.match_pairs, "cloth match pairs", shaders::k_match_pairs_comp, plain);
     add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, with_lists);
     add(kernels.meet_pairs, "cloth meet pairs", shaders::k_meet_pairs_comp, plain);
     add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp, plain);

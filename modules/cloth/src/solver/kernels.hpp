@@ -27,9 +27,14 @@ struct Kernels
     gpu::Kernel contact_moving; // where colliders move or deform
     gpu::Kernel contact_many;   // where patches have lists of the colliders near them
     gpu::Kernel contact_pairs;  // where cloths collide with themselves
+    gpu::Kernel contact_pairs_convex;
+    gpu::Kernel contact_pairs_moving;
     gpu::Kernel contact_pairs_many;
+    gpu::Kernel pair_sweeps;
     gpu::Kernel pair_boxes;
+    gpu::Kernel find_candidates;
     gpu::Kernel find_pairs;
+    gpu::Kernel match_pairs;
     gpu::Kernel index_pairs;
     gpu::Kernel meet_pairs;
     gpu::Kernel respond_to_pairs;

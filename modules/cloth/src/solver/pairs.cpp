@@ -15,20 +15,20 @@ namespace
 // s: contact between cloths needs no more passes than this has in a step.
 constexpr float k_interval = 0.4e-3f;
 
-// New lists are made at most every so many passes.
-constexpr uint32_t k_passes_per_search = 2;
-
 // s: lists that no vertex leaves last that long.
-constexpr float k_sweep_time = 3.7e-3f;
-
-// The first dispatch that makes lists. Those between it and the search fold boxes.
-constexpr uint32_t k_boxes = 0;
+constexpr float k_sweep_time = 3e-3f;
 
 // That share the pairs of a vertex. On CPU devices one.
 uint32_t threads_per_vertex(const Tuning& tuning)
 {
     constexpr uint32_t k_threads = 8;
     return tuning.feature_threads == 1 ? 1 : std::min(k_threads, tuning.workgroup_size);
+}
+
+// That share the search of a vertex.
+uint32_t lanes_per_search(const Tuning& tuning)
+{
+    return tuning.feature_threads == 1 ? 1 : std::min<uint32_t>(VOILE_PAIR_LANES, tuning.workgroup_size);
 }
 
 VkDeviceSize offset_of(uint32_t dispatch)
@@ -43,16 +43,6 @@ uint32_t substeps_per_pass(float substep)
     return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
 }
 
-uint32_t substeps_per_search(float substep)
-{
-    return k_passes_per_search * substeps_per_pass(substep);
-}
-
-uint32_t lanes_per_search(const Tuning& tuning)
-{
-    return tuning.feature_threads == 1 ? 1 : std::min<uint32_t>(VOILE_PAIR_LANES, tuning.workgroup_size);
-}
-
 uint32_t count_pair_passes(const Step& step, uint32_t substeps)
 {
     const uint32_t period = substeps_per_pass(step.duration / static_cast<float>(substeps));
@@ -62,8 +52,8 @@ uint32_t count_pair_passes(const Step& step, uint32_t substeps)
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
                            const Step& step, uint32_t substeps, uint32_t first_pass)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
-      substeps_(substeps), h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)),
-      first_pass_(first_pass)
+      leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(substeps),
+      h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)), first_pass_(first_pass)
 {
 }
 
@@ -71,25 +61,22 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
 {
     if (substep == 0)
         write_sizes();
-    else if (substep % substeps_per_search(h_) == 0)
+    else
         publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
     shared::PairPush push{};
     push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
     push.sweep_time = k_sweep_time;
-    push.longest_sweep = solver_.passes.pair_sweep;
-    push.slots = solver_.device->pair_slots;
+    push.places = solver_.device->pair_places;
+    push.leaves = leaves_;
     push.pass = first_pass_ + substep / period_;
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
     push.capacity = solver_.options.tuning.pair_capacity;
-    if (substep % substeps_per_search(h_) == 0)
-    {
-        find(push, from);
-        publish_dispatch(recorder_);
-    }
+    find(push, from);
+    publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
     recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes, offset_of(VOILE_PAIR_MEET),
                                 push);
@@ -104,12 +91,11 @@ void PairRecorder::write_sizes()
     const uint32_t group = solver_.options.tuning.workgroup_size;
     std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
-    fold.bottom = padded_levels(solver_.device->pair_slots);
-    sizes[k_boxes] = {((1u << fold.bottom) + group - 1) / group, 1, 1, 0};
-    for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
+    fold.bottom = padded_levels(leaves_);
+    sizes[VOILE_PAIR_OF_PLACES] = {(solver_.device->pair_places + group - 1) / group, 1, 1, 0};
+    sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
+    for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
-    sizes[VOILE_PAIR_SEARCH] = {threads_ / group, lanes_per_search(solver_.options.tuning), 1, 0};
-    sizes[VOILE_PAIR_INDEX] = {threads_ / group, 1, 1, 0};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
 }
 
@@ -117,15 +103,24 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
 {
     const auto& sets = solver_.device->sets;
     const VkBuffer sizes = (*solver_.device)[buffer::pair_bounds].handle();
-    recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes[from], sizes, offset_of(k_boxes), push);
+    recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
+                                offset_of(VOILE_PAIR_OF_PLACES), push);
+    recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_PLACES),
+                                push);
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
-    fold.bottom = padded_levels(push.slots);
-    for (uint32_t i = k_boxes + 1; fold.bottom > 0; ++i)
+    fold.bottom = padded_levels(leaves_);
+    for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
                                     next_fold(solver_.kernels.refit, fold).push);
-    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, sizes, offset_of(VOILE_PAIR_SEARCH), push);
-    recorder_.dispatch_indirect(solver_.kernels.index_pairs, sets.index_pairs[from], sizes, offset_of(VOILE_PAIR_INDEX),
+    recorder_.dispatch_indirect(solver_.kernels.find_candidates, sets.find_candidates, sizes,
+                                offset_of(VOILE_PAIR_OF_PLACES), push);
+    publish_dispatch(recorder_);
+    const VkBuffer passes = (*solver_.device)[buffer::pair_passes].handle();
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, passes, offset_of(VOILE_PAIR_FIND), push);
+    recorder_.dispatch_indirect(solver_.kernels.match_pairs, sets.match_pairs, passes, offset_of(VOILE_PAIR_FIND),
                                 push);
+    recorder_.dispatch_indirect(solver_.kernels.index_pairs, sets.index_pairs[from], sizes,
+                                offset_of(VOILE_PAIR_OF_PATCHES), push);
 }
 
 } // namespace voile

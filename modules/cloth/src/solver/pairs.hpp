@@ -8,14 +8,8 @@
 namespace voile
 {
 
-// The number of threads that share the search of a vertex.
-uint32_t lanes_per_search(const Tuning& tuning);
-
-// The number of substeps of level 0, each of so many s, from one pass to the next.
+// The number of substeps of level 0, each of so many s, from one pass to the next. Each pass can make new lists.
 uint32_t substeps_per_pass(float substep);
-
-// The number of substeps of level 0 between those in which new lists can be made.
-uint32_t substeps_per_search(float substep);
 
 // The number of passes in a step with so many substeps of level 0.
 uint32_t count_pair_passes(const Step& step, uint32_t substeps);
@@ -41,6 +35,7 @@ private:
     gpu::Recorder& recorder_;
     const Solver::State& solver_;
     uint32_t threads_; // for all patches
+    uint32_t leaves_;  // of the hierarchy
     uint32_t substeps_;
     float h_;         // s
     uint32_t period_; // substeps from one pass to the next

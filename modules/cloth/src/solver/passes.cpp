@@ -98,10 +98,7 @@ void Solver::State::update_passes()
             continue;
         if (cloth.record.strain_limit > 0)
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
-        if (!cloth.self_collision)
-            continue;
-        next.pair_sweep = next.pairs ? std::min(next.pair_sweep, cloth.record.pair_sweep) : cloth.record.pair_sweep;
-        next.pairs = true;
+        next.pairs = next.pairs || cloth.self_collision;
     }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
     next.contact = next.colliders > 0 || attached || next.strain_spacing > 0 || next.pairs;

@@ -235,17 +235,21 @@ void Describer::add_pairs()
     for (size_t parity = 0; parity < 2; ++parity)
     {
         const StateBuffers& now = k_proposals[parity].earlier;
-        add(sets_.pair_boxes[parity], kernels_.pair_boxes,
+        add(sets_.pair_sweeps[parity], kernels_.pair_sweeps,
             {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
-        for (const auto& [set, kernel] :
-             {std::pair(&sets_.index_pairs, &kernels_.index_pairs), std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
-              std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
+        add(sets_.index_pairs[parity], kernels_.index_pairs,
+            {{binding::stage_positions, now.positions}, {binding::stage_residuals, now.residuals}});
+        for (const auto& [set, kernel] : {std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
+                                          std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions},
                  {binding::stage_residuals, now.residuals},
                  {binding::stage_velocities, now.velocities}});
     }
+    add(sets_.pair_boxes, kernels_.pair_boxes);
+    add(sets_.find_candidates, kernels_.find_candidates);
     add(sets_.find_pairs, kernels_.find_pairs);
+    add(sets_.match_pairs, kernels_.match_pairs);
     add(sets_.pair_refit, kernels_.refit.levels,
         {{binding::refit_leaves, buffer::padded_leaves},
          {binding::refit_positions, buffer::positions},

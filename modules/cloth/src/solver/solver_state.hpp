@@ -50,7 +50,6 @@ struct Passes
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's
     bool pairs = false;          // cloths that collide with themselves
-    float pair_sweep = 0;        // m, the shortest of those cloths
     float mesh_extent = 0;       // m, the largest of a collider's mesh along an axis from its origin
 };
 

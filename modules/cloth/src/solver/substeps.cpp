@@ -244,8 +244,7 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.after_pairs = after_pairs ? 1 : 0;
-    push.pair_ahead = static_cast<float>(substeps_per_search(h_));
-    push.pair_lanes = lanes_per_search(solver_.options.tuning);
+    push.pair_ahead = static_cast<float>(substeps_per_pass(h_));
     push.limited_only = substep == substeps_ ? 1 : 0;
     push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
     dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
@@ -253,13 +252,14 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
 
 const gpu::Kernel& LevelRecorder::contact_kernel() const
 {
-    if (solver_.passes.pairs)
-        return device_.near_stride > 0 ? kernels_.contact_pairs_many : kernels_.contact_pairs;
+    const bool pairs = solver_.passes.pairs;
     if (device_.near_stride > 0)
-        return kernels_.contact_many;
+        return pairs ? kernels_.contact_pairs_many : kernels_.contact_many;
     if (solver_.passes.moving)
-        return kernels_.contact_moving;
-    return solver_.passes.convex ? kernels_.contact_convex : kernels_.contact;
+        return pairs ? kernels_.contact_pairs_moving : kernels_.contact_moving;
+    if (solver_.passes.convex)
+        return pairs ? kernels_.contact_pairs_convex : kernels_.contact_convex;
+    return pairs ? kernels_.contact_pairs : kernels_.contact;
 }
 
 void LevelRecorder::record_bounds()

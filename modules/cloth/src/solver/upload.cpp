@@ -150,12 +150,12 @@ Staging stage_new(Solver::State& solver)
     return staging;
 }
 
-uint64_t count_pair_slots(const Model& model)
+uint64_t count_pair_places(const Model& model)
 {
-    uint64_t slots = 0;
+    uint64_t places = 0;
     for (const auto [index, cloth] : model.cloths)
-        slots += cloth.pair_order.size();
-    return slots;
+        places += cloth.pair_order.size();
+    return places;
 }
 
 // The entries that the buffers must have room for.
@@ -184,7 +184,7 @@ BufferCounts count_entries(const Solver::State& solver)
             .tethers = attached.tethers,
             .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
             .cloth_triangles = model.triangles.end(),
-            .pair_vertices = count_pair_slots(model) > 0 ? model.vertices.end() : 0,
+            .pair_vertices = count_pair_places(model) > 0 ? model.vertices.end() : 0,
             .cloth_trees = intersections ? model.cloths.size() : 0,
             .cloth_leaves = model.trees.leaves(),
             .cloth_boxes = model.trees.boxes(),
@@ -294,7 +294,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
 {
     const std::vector<ColliderId> deforming = new_deforming(collider_models);
     mark_uploaded(*this);
-    device->pair_slots = static_cast<uint32_t>(count_pair_slots(model));
+    device->pair_places = static_cast<uint32_t>(count_pair_places(model));
     update_patches();
     record_patches(recorder, *this);
     const Scope after = host_scopes(options).after;

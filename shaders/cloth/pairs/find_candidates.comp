@@ -1,0 +1,223 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+// Finds the vertices whose primitives may be near those of a vertex: its candidates. One thread per vertex. The vertices
+// that have any are listed, in no order, for find_pairs.comp.
+//
+// Most vertices that are near each other are neighbors in cloth that is almost flat (flat.glsl). They are no candidates.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/padded_layout.h"
+#include "shared/pair_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; };
+layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint candidates[]; };
+layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint searching_vertices[]; };
+layout(VOILE_BINDING(pair_lists)) writeonly buffer PairLists { PairList pair_lists[]; };
+layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+
+layout(push_constant, std430) uniform Push { PairPush push; };
+
+#include "contact/rounding.glsl"
+#include "shared/box.glsl"
+#include "pairs/flat.glsl"
+#include "pairs/pair_tree.glsl"
+
+// The search of a vertex.
+struct Search
+{
+    Fan fan;
+    uint cloth;
+    Flat flat_around;
+    float least_flat; // m, a neighborhood is flat if it keeps primitives so far apart
+    vec3 origin;      // m, the middle of the vertex's sweep
+    Box hull;         // of the fan with its sweeps, from the origin
+    Box box;          // the same in the world, with the range and rounding
+    vec3 normal;      // of the fan, about: any unit vector will do
+    vec2 heights;     // m, the lowest and the highest of the fan along it, from the origin
+    float range;
+    float rounding; // m, of positions near it
+    uint count;
+};
+
+#define VOILE_QUERY Search
+
+// A vertex with more candidates searches again, in a smaller range, so often.
+const uint k_retries = 4;
+const float k_retry_range = 0.6; // of the range before
+const float k_unbounded = 1e30;
+
+bool enters_node(Search search, Box node) { return overlap(search.box, node); }
+
+// Whether another vertex of the cloth is a neighbor in flat cloth. Then the range shrinks to how far that keeps
+// primitives apart, at least. Both vertices find the same: either of them may have the neighborhood.
+bool is_flat_neighbor(inout Search search, uint vertex)
+{
+    const int columns = int(search.fan.columns);
+    const int apart = int(vertex) - int(search.fan.center);
+    if (abs(apart) > (k_flat_offset.y + 1) * columns)
+        return false;
+    const int rows = int(round(float(apart) / float(columns)));
+    const ivec2 at = ivec2(apart - rows * columns, rows);
+    if (!within(k_flat_offset, at) || uint(search.fan.column_row.x + at.x) >= search.fan.columns)
+        return false;
+    float least = flat_distance(search.flat_around, at);
+    if (least < search.least_flat)
+    {
+        const vec2 other = pair_flats[vertex];
+        least = flat_distance(Flat(other.x, other.y), at);
+    }
+    if (least < search.least_flat)
+        return false;
+    search.range = min(search.range, least);
+    return true;
+}
+
+// Around a fan with its sweeps, from the search's origin.
+struct Hull
+{
+    Box box;
+    vec2 heights; // m, the lowest and the highest along the normal of the search
+};
+
+void add_node(inout Hull hull, vec3 normal, Node node)
+{
+    hull.box = joined(hull.box, Box(node.x - abs(node.sweep), node.x + abs(node.sweep)));
+    const float height = dot(normal, node.x);
+    const float sweep = abs(dot(normal, node.sweep));
+    hull.heights = vec2(min(hull.heights.x, height - sweep), max(hull.heights.y, height + sweep));
+}
+
+Hull hull_of(Search search, Fan fan)
+{
+    Hull hull = Hull(Box(vec3(k_unbounded), vec3(-k_unbounded)), vec2(k_unbounded, -k_unbounded));
+    add_node(hull, search.normal, node_of(fan.center, search.origin));
+    for (uint k = 0; k < fan.wedges; ++k)
+    {
+        const Wedge wedge = wedge_of(fan, k);
+        if (wedge.triangle || wedge.edge_b)
+            add_node(hull, search.normal, node_of(wedge.b, search.origin));
+        if (wedge.triangle || wedge.edge_c)
+            add_node(hull, search.normal, node_of(wedge.c, search.origin));
+    }
+    return hull;
+}
+
+// Layers of cloth are often near each other. Their boxes overlap unless they are across an axis, so the normal counts,
+// too.
+bool are_near(Search search, Hull hull)
+{
+    const float margin = search.range + search.rounding;
+    return overlap(grown(hull.box, margin), search.hull) && hull.heights.x <= search.heights.y + margin &&
+           hull.heights.y >= search.heights.x - margin;
+}
+
+void consider(inout Search search, uint vertex, uint cloth)
+{
+    if (vertex == search.fan.center || !meets(search.cloth, cloth))
+        return;
+    if (cloth == search.cloth && search.fan.columns >= VOILE_LEAST_FLAT_COLUMNS && is_flat_neighbor(search, vertex))
+        return;
+    if (!are_near(search, hull_of(search, fan_of(cloth, vertex))))
+        return;
+    if (search.count < VOILE_PAIR_CANDIDATES)
+        candidates[search.fan.center * VOILE_PAIR_CANDIDATES + search.count] = vertex;
+    ++search.count;
+}
+
+void visit_leaf(inout Search search, uint leaf, uint count)
+{
+    const uint first = padded_boxes[leaf].padding_0 * VOILE_PAIR_LEAF;
+    for (uint place = first; place < min(first + VOILE_PAIR_LEAF, push.places); ++place)
+        consider(search, pair_order[place].x, pair_order[place].y);
+}
+
+#include "colliders/padded.glsl"
+
+// Of the fan, as long as twice its area.
+vec3 normal_of(Search search)
+{
+    vec3 normal = vec3(0);
+    const vec3 center = midpoints[search.fan.center].xyz;
+    for (uint k = 0; k < search.fan.wedges; ++k)
+    {
+        const Wedge wedge = wedge_of(search.fan, k);
+        if (wedge.triangle)
+            normal += cross(midpoints[wedge.b].xyz - center, midpoints[wedge.c].xyz - center);
+    }
+    return normal;
+}
+
+Search search_of(uint vertex, uint cloth)
+{
+    Search search;
+    search.fan = fan_of(cloth, vertex);
+    search.cloth = cloth;
+    const vec2 flats = pair_flats[vertex];
+    search.flat_around = Flat(flats.x, flats.y);
+    search.range = cloths[cloth].pair_range;
+    search.least_flat = VOILE_FLAT_RANGE * search.range;
+    search.origin = midpoints[vertex].xyz;
+    search.rounding = 4 * rounding(search.origin);
+    const vec3 normal = normal_of(search);
+    search.normal = normal / max(length(normal), 1e-30);
+    const Hull hull = hull_of(search, search.fan);
+    search.hull = hull.box;
+    search.heights = hull.heights;
+    search.count = 0;
+    return search;
+}
+
+// A vertex with too many candidates searches again in a smaller range, at last with as many as fit and no range at all.
+void find(inout Search search)
+{
+    for (uint k = 0; k <= k_retries; ++k)
+    {
+        search.count = 0;
+        search.box = grown(shifted(search.hull, search.origin), search.range + search.rounding);
+        traverse_padded(search, 0, (1u << findMSB(2 * push.leaves - 1)) - 1, push.leaves);
+        if (search.count <= VOILE_PAIR_CANDIDATES)
+            return;
+        search.range *= k < k_retries ? k_retry_range : 0;
+    }
+}
+
+shared uint shared_vertices;
+
+void main()
+{
+    const uint at = gl_GlobalInvocationID.x;
+    if (gl_LocalInvocationID.x == 0)
+        shared_vertices = 0;
+    bool found = false;
+    uint vertex = 0;
+    if (at < push.places && collides_with_itself(pair_order[at].y))
+    {
+        vertex = pair_order[at].x;
+        Search search = search_of(vertex, pair_order[at].y);
+        find(search);
+        pair_lists[vertex] = PairList(search.range, min(search.count, VOILE_PAIR_CANDIDATES), search.cloth, 0);
+        found = search.count > 0;
+    }
+    barrier();
+    const uint place = found ? atomicAdd(shared_vertices, 1) : 0;
+    barrier();
+    if (gl_LocalInvocationID.x == 0 && shared_vertices > 0)
+    {
+        const uint count = shared_vertices;
+        shared_vertices = atomicAdd(pair_passes[VOILE_PAIR_FIND].entries, count);
+        atomicMax(pair_passes[VOILE_PAIR_FIND].groups,
+                  ((shared_vertices + count) * push.lanes + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+    }
+    barrier();
+    if (found)
+        searching_vertices[shared_vertices + place] = vertex;
+}

@@ -1,0 +1,85 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Of the pairs that a vertex lists (find_pairs.comp), those that the owner of the other side lists, too. Only these are
+// pairs. Up to the nearest of the others, the list is complete. As in find_pairs.comp, push.lanes neighboring threads
+// share a vertex that has candidates, each takes a part of its list.
+//
+// Whether both sides list a pair cannot be derived from its distance, because each side leaves out pairs by boxes, by
+// flat neighborhoods and by a range of its own. Let d be the distance of a pair that at most one side lists. The range
+// of a side that does not list it is at most d. The other side either has no such range or lists the pair, and its range
+// shrinks to at most d here.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/pair_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
+layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
+layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint searching_vertices[]; };
+layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_lists)) buffer PairLists { PairList pair_lists[]; };
+
+layout(push_constant, std430) uniform Push { PairPush push; };
+
+#include "pairs/pair.glsl"
+
+shared float shared_ranges[gl_WorkGroupSize.x];
+shared uint shared_masks[gl_WorkGroupSize.x];
+
+bool lists(uint owner, uvec4 words)
+{
+    uint counts = pair_lists[owner].counts;
+    for (uint first = owner * VOILE_PAIRS; counts != 0; counts >>= VOILE_PAIR_COUNT_BITS, first += VOILE_PAIRS / push.lanes)
+        for (uint e = 0; e < (counts & VOILE_PAIR_COUNT_MASK); ++e)
+            if (pairs[first + e] == words)
+                return true;
+    return false;
+}
+
+// What a thread knows of the list of its vertex.
+struct Matched
+{
+    float range;
+    uint mask;
+};
+
+void match(uint owner, uint place, inout Matched matched)
+{
+    const uint entry = owner * VOILE_PAIRS + place;
+    const uvec4 words = pairs[entry];
+    const uvec2 owners = owners_of(unpacked(words));
+    if (lists(owners.x == owner ? owners.y : owners.x, words))
+        matched.mask |= 1u << place;
+    else
+        matched.range = min(matched.range, pair_distances[entry]);
+}
+
+void main()
+{
+    const uint thread = gl_LocalInvocationID.x;
+    const uint lane = thread % push.lanes;
+    const uint place = gl_GlobalInvocationID.x / push.lanes;
+    const bool searches = place < pair_passes[VOILE_PAIR_FIND].entries;
+    const uint owner = searches ? searching_vertices[place] : 0;
+    Matched matched = Matched(0, 0);
+    if (searches)
+    {
+        matched.range = pair_lists[owner].range;
+        const uint count = (pair_lists[owner].counts >> (lane * VOILE_PAIR_COUNT_BITS)) & VOILE_PAIR_COUNT_MASK;
+        for (uint e = 0; e < count; ++e)
+            match(owner, lane * (VOILE_PAIRS / push.lanes) + e, matched);
+    }
+    shared_ranges[thread] = matched.range;
+    shared_masks[thread] = matched.mask;
+    barrier();
+    if (!searches || lane != 0)
+        return;
+    for (uint k = 1; k < push.lanes; ++k)
+    {
+        matched.range = min(matched.range, shared_ranges[thread + k]);
+        matched.mask |= shared_masks[thread + k];
+    }
+    pair_lists[owner].range = matched.range;
+    pair_lists[owner].mask = matched.mask;
+}
