@@ -134,7 +134,7 @@ struct FeaturePush
     uint colliders;
     uint substep; // counted over all steps
     uint near_stride;
-    uint first_patch; // of the entries in the list of patches near features
+    uint first_patch;      // of the entries in the list of patches near features
     float progress_listed; // 0..1, of the step, when near features were listed
     uint first_item;       // of the dispatch over items
     uint dispatch_word;    // of the size of that dispatch, which their number follows

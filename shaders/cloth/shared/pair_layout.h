@@ -17,7 +17,8 @@
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
 #define VOILE_PAIR_FOLDS 2
-// The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair had.
+// The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
+// had.
 #define VOILE_PAIR_FORCED 0
 // The most candidates of a vertex. They take the memory of the references to pairs.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
@@ -56,7 +57,7 @@ struct PairList
     float range; // m, up to which it has all pairs
     uint counts; // the lengths of its parts
     uint cloth;
-    uint mask;   // the places of pairs that both sides list
+    uint mask; // the places of pairs that both sides list
 };
 
 // Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.

@@ -29,7 +29,7 @@ struct IntersectionPush
 struct StatisticsReducePush
 {
     uint patches;
-    uint slot; // of the result
+    uint slot;      // of the result
     uint pairs_met; // 0: the last step had no passes over pairs
 };
 

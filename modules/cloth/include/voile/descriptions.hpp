@@ -71,11 +71,11 @@ struct GridCloth
     // than it can give way, it may intersect (Statistics::forced_pairs). So may cloth that the host puts somewhere:
     // reset, teleport, a snapshot, a pin with a position elsewhere. Cloth that intersects is not pulled apart.
     //
-    // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer. What it would
-    // move beyond is lost with its momentum: two sheets that met at 1.5 m/s each lost 7 % of it, none at 0.5 m/s, and a
-    // crumpled cloth fell 1.4 % less far in half a second than freely. Very fast fine cloth is slowed by its own
-    // neighbors: a sheet of 10 mm spacing that fell flat without air fell freely up to 8 m/s, and edge-on it had 0.77 of
-    // the way after a second.
+    // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer. What it
+    // would move beyond is lost with its momentum: two sheets that met at 1.5 m/s each lost 7 % of it, none at 0.5 m/s,
+    // and a crumpled cloth fell 1.4 % less far in half a second than freely. Very fast fine cloth is slowed by its own
+    // neighbors: a sheet of 10 mm spacing that fell flat without air fell freely up to 8 m/s, and edge-on it had 0.77
+    // of the way after a second.
     bool self_collision = false;
 };
 

@@ -89,8 +89,8 @@ struct Tuning
     // save. 0: 100,000, on CPU devices 256.
     uint32_t dispatch_vertices = 0;
 
-    // Near pairs that a vertex lists for the primitives that it owns, if its cloth collides with itself, 1..32. A vertex
-    // with more near pairs keeps the nearest, and moves less from one search to the next.
+    // Near pairs that a vertex lists for the primitives that it owns, if its cloth collides with itself, 1..32. A
+    // vertex with more near pairs keeps the nearest, and moves less from one search to the next.
     uint32_t pair_capacity = 32;
 
     ContactMethod contact_method = ContactMethod::nearest_point;

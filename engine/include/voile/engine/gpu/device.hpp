@@ -59,7 +59,7 @@ public:
     [[nodiscard]] ValidationLog& validation() { return validation_; }
     [[nodiscard]] bool is_cpu() const { return info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool draws_wires() const { return draws_wires_; } // the feature fillModeNonSolid, which is on then
-    void wait_idle() const; // start-up and shutdown only
+    void wait_idle() const;                                         // start-up and shutdown only
 
 private:
     void create_instance(const DeviceOptions& options);
