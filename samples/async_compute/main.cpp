@@ -11,6 +11,7 @@
 // This sample has no renderer. Where an engine draws, it copies the vertices into memory that the host reads, and
 // checks the fall of the sheet in each frame.
 #include "engine.hpp"
+#include "take.hpp"
 
 #include <voile/cloth.hpp>
 
@@ -29,20 +30,6 @@ constexpr uint32_t k_stride = 24;
 constexpr VkDeviceSize k_bytes = VkDeviceSize{k_side} * k_side * k_stride;
 constexpr int k_frames = 30; // of 1/60 s
 constexpr int k_slots = foreign::Engine::k_slots;
-
-template <typename T>
-T take(voile::Result<T> result)
-{
-    if (!result)
-        throw std::runtime_error(result.error().message);
-    return std::move(result).value();
-}
-
-void take(const voile::Result<void>& result)
-{
-    if (!result)
-        throw std::runtime_error(result.error().message);
-}
 
 // One per frame in flight.
 struct Slot

@@ -3,6 +3,7 @@
 // Prints a table: how far the free end drops, as a fraction of the strip's length. Standards for fabrics measure
 // bending stiffness this way (the cantilever test of Peirce 1930).
 #include "engine.hpp"
+#include "take.hpp"
 
 #include <voile/cloth.hpp>
 
@@ -20,20 +21,6 @@ constexpr uint32_t k_clamped = 2;  // columns that the table holds
 constexpr float k_spacing = 0.01f; // m, between vertices
 constexpr float k_distance = 0.1f; // m, between strips; they do not touch
 constexpr int k_frames = 150;      // of 1/60 s
-
-template <typename T>
-T take(voile::Result<T> result)
-{
-    if (!result)
-        throw std::runtime_error(result.error().message);
-    return std::move(result).value();
-}
-
-void take(const voile::Result<void>& result)
-{
-    if (!result)
-        throw std::runtime_error(result.error().message);
-}
 
 struct Variant
 {

@@ -152,7 +152,7 @@ void Engine::create_device(bool async_compute)
     check(FN(vkCreateDevice)(physical_device_, &info, nullptr, &device_), "device");
     for (size_t i = 0; i < queues_.size(); ++i)
         FN(vkGetDeviceQueue)
-        (device_, queues_[i].family, i == 1 && same_family ? queue_infos[0].queueCount - 1 : 0, &queues_[i].handle);
+    (device_, queues_[i].family, i == 1 && same_family ? queue_infos[0].queueCount - 1 : 0, &queues_[i].handle);
 }
 
 void Engine::create_frames()

@@ -29,18 +29,6 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
     return vertex;
 }
 
-// The patch of another vertex of the cloth, counted within it. `index`: of patch c.
-uint patch_of(uint index, Patch c, uint local)
-{
-    if (c.columns == 0)
-        return index + local / gl_WorkGroupSize.x - c.first / gl_WorkGroupSize.x;
-    const uint height = gl_WorkGroupSize.x >> c.tile_shift;
-    const uint tiles = (c.columns + (1u << c.tile_shift) - 1) >> c.tile_shift;
-    const uint column = local % c.columns;
-    const uint row = local / c.columns;
-    return index + (row / height - c.row / height) * tiles + (column >> c.tile_shift) - (c.first >> c.tile_shift);
-}
-
 PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x); }
 
 #endif

@@ -81,7 +81,7 @@ struct Tuning
     uint32_t feature_threads = 0;
 
     // The mean number of features near the cloth that are listed per vertex, at most 8. Vertices for which there is no
-    // room find theirs in every substep: slower, with the same result.
+    // room find theirs in every substep, which is slower. Contacts are merged in another order then.
     uint32_t feature_items = 8;
 
     // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that

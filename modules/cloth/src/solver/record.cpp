@@ -57,7 +57,7 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
     const shared::DepenetrationPush push{step.duration, solver.passes.colliders, device.near_stride,
                                          depenetration_word(next)};
     const VkBuffer depenetrations = device[buffer::depenetrations].handle();
-    clear_dispatch(recorder, depenetrations, depenetration_word(next), 1, device[k_depenetration_votes[next]].handle());
+    clear_dispatch(recorder, depenetrations, depenetration_word(next), device[k_depenetration_votes[next]].handle());
     if (all)
         recorder.dispatch(kernel, device.sets.depenetrate[next], solver.lists.patch_count() * group, group, push);
     else
@@ -126,9 +126,9 @@ void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offs
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
 }
 
-void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, uint32_t groups_each, VkBuffer counts)
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, VkBuffer counts)
 {
-    const VkDispatchIndirectCommand none{0, groups_each, 1};
+    const VkDispatchIndirectCommand none{0, 1, 1};
     write_dispatches(recorder, size, word * sizeof(uint32_t), std::as_bytes(std::span(&none, 1)), counts);
 }
 

@@ -169,10 +169,9 @@ void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offs
 // Clears the marks and numbers of intersections. Between barriers of its own.
 void clear_intersections(gpu::Recorder& recorder, const DeviceState& device);
 
-// Sets the size of an indirect dispatch, at a word of its buffer, to 0 times `groups_each` workgroups. `counts`:
-// another buffer to clear, if any. Between barriers of its own.
-void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, uint32_t groups_each = 1,
-                    VkBuffer counts = VK_NULL_HANDLE);
+// Sets the size of an indirect dispatch, at a word of its buffer, to 0. `counts`: another buffer to clear, if any.
+// Between barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, VkBuffer counts = VK_NULL_HANDLE);
 
 // The word of the buffer of depenetrations that holds the size of depenetration's dispatch, of even and of odd steps.
 constexpr uint32_t depenetration_word(size_t step)
