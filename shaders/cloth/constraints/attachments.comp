@@ -62,7 +62,7 @@ void main()
     const vec3 pull = stiffness * (h * v - to_vertex) + attachment.damping * point_velocity;
     const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (attachment.damping + h * stiffness));
     const bool verlet = is_verlet(cloths[attachment.cloth].flags);
-    shift += drift_time(verlet, h) * (spring_velocity - v);
+    shift += drift_time(verlet, h, 1) * (spring_velocity - v);
     v = spring_velocity;
 
     const vec3 offset = to_vertex + shift;

@@ -51,6 +51,8 @@ layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
 };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
+layout(VOILE_BINDING(contact_planes)) buffer ContactPlanes { ContactPlane planes[]; };
+
 layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
 {
     PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
@@ -71,12 +73,10 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "integration/integrator.glsl"
 #include "pairs/hold.glsl"
 
-// Inside a collider the velocity that forces give a vertex decays in this time, s,
-const float k_inside_time = 0.01;
-// and stays below this speed, m/s: neighbors whose exits differ pull at each other.
-const float k_inside_speed = 0.6;
-// It cancels at most this fraction of the exit velocity, so that no vertex is held inside.
-const float k_inside_back = 0.5;
+// The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
+float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth].flags), push.step, push.kicks); }
+
+#include "contact/response.glsl"
 
 // m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
 // plane only rounding along its normal counts.
@@ -138,58 +138,32 @@ float lift_of(Contact contact, float thickness)
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
-// `n`: world, unit, away from the surface; `lift`: m along it; `surface`: m, its displacement in this substep; `slop`:
-// m, see contact_slop.
-void respond(inout Motion motion, vec3 n, float lift, vec3 surface, float slop, Friction friction)
-{
-    motion.displacement += lift * n;
-    const vec3 relative = motion.v - surface / push.step;
-    const float approach = min(dot(relative, n), 0);
-    motion.v -= approach * n;
-    const float normal_impulse = -approach; // per unit of mass, m/s
-    if (normal_impulse == 0)
-        return;
-
-    const vec3 v_t = relative - dot(relative, n) * n;
-    const float speed = length(v_t);
-    if (speed <= friction.at_rest * normal_impulse)
-    {
-        // Sticks. The sliding within this substep is undone, too, or a held vertex would creep by a h^2 / 2 per
-        // substep. It is undone to the bit: roundings that add up would stretch stiff cloth until it slips.
-        const float height = dot(motion.displacement - surface, n);
-        motion.displacement = surface + (abs(height) > slop ? height : 0) * n;
-        motion.v -= v_t;
-        return;
-    }
-    const vec3 change = (slip_speed(speed, normal_impulse, friction.at_rest, friction.kinetic) / speed - 1) * v_t;
-    motion.v += change;
-    // The flags are read here and not kept through the queries, which are slower with one more register
-    // (bench/NOTES.md).
-    motion.displacement += drift_time(is_verlet(cloths[motion.cloth].flags), push.step) * change;
-}
-
 // The contacts of a vertex in this substep.
 struct ContactState
 {
     bool touches;
     bool path_is_clear; // the corrected path crosses no surface
+    bool has_plane;     // for the substeps until the next pass
+    bool leaves_solid;
 };
 
-// Moves a vertex that is inside a collider with that collider and towards its exit. The exit adds no velocity.
-void depenetrate(inout Motion motion, Depenetration depenetration)
+// m/s, of the collider at the vertex. Bounded, or a collider that jumps would throw the vertex.
+vec3 carrying_velocity(Motion motion, Depenetration depenetration)
 {
     const uint c = depenetration.solid - 1;
     const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
-    // Bounded, or a collider that jumps would throw the vertex.
-    vec3 surface = surface_displacement(relative, relative.from, vec3(0)) / push.step;
-    surface *= min(1, VOILE_DEPENETRATION_SPEED / max(length(surface), 1e-30));
-    vec3 own = motion.v - surface;
-    own *= min(max(1 - push.step / k_inside_time, 0), k_inside_speed / max(length(own), 1e-30));
-    const float speed = length(depenetration.velocity);
-    const vec3 outwards = depenetration.velocity / max(speed, 1e-30);
-    own -= min(dot(own, outwards) + k_inside_back * speed, 0) * outwards;
-    motion.v = surface + own;
-    motion.displacement = push.step * (motion.v + depenetration.velocity);
+    const vec3 velocity = surface_displacement(relative, relative.from, vec3(0)) / push.step;
+    return velocity * min(1, VOILE_DEPENETRATION_SPEED / max(length(velocity), 1e-30));
+}
+
+// Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step.
+void depenetrate(uint i, inout Motion motion, Depenetration depenetration)
+{
+    const vec3 surface = carrying_velocity(motion, depenetration);
+    if (push.kicks == 1)
+        leave(motion, depenetration.velocity, surface, push.step);
+    if (push.result == VOILE_CONTACT_KEEPS_START)
+        planes[i] = ContactPlane(depenetration.velocity, 0, surface, VOILE_PLANE_OF_EXIT);
 }
 
 // Puts a vertex whose corrected path crosses a surface back to its start, carried by that surface.
@@ -214,6 +188,23 @@ Path path_of(RelativeMotion relative, ClothContact cloth, bool path_only, float 
                 cloth.layers);
 }
 
+// Keeps the surface for the substeps until the next contact pass. `slack`: m, of the start of the motion above what
+// counts as touching.
+void keep_plane(uint i, Surface surface, float slack)
+{
+    planes[i] = ContactPlane(surface.normal, slack, surface.displacement / surface.duration,
+                             packHalf2x16(vec2(surface.friction.at_rest, surface.friction.kinetic)));
+}
+
+// The end of the motion is where Verlet goes on.
+void end_plane(uint i, Motion motion, bool has_plane)
+{
+    if (!has_plane)
+        planes[i] = ContactPlane(vec3(0), 0, vec3(0), 0);
+    else
+        planes[i].slack = max(planes[i].slack + dot(motion.displacement, planes[i].normal), 0);
+}
+
 // `path_only`: only what the path crosses counts, in the second round.
 void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, Candidates list,
                      inout ContactState state)
@@ -223,7 +214,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     // A vertex at rest lies on the offset surface within rounding. It touches on either side.
     const float slop = contact_slop(collider, relative.from, cloth.thickness);
     const Contact contact =
-        find_contact(c, collider, path_of(relative, cloth, path_only, cloth.thickness + slop), list);
+        find_contact(c, collider, path_of(relative, cloth, path_only, max(cloth.thickness + slop, query_radius(cloth.thickness))), list);
     if (!contact.found)
         return;
     if (path_only)
@@ -232,17 +223,24 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
         state.path_is_clear = true;
         return;
     }
+    const vec3 n = world_direction(relative, contact.direction);
+    const vec3 surface =
+        surface_displacement(relative, relative.to - contact.gap * contact.direction, contact.deformation);
+    const Surface touched = Surface(n, surface, push.step, slop, pair_friction(cloth.friction, collider));
+    if (push.result == VOILE_CONTACT_KEEPS_START && contact.start >= 0 && !state.leaves_solid)
+    {
+        keep_plane(list.vertex, touched, contact.gap - cloth.thickness - slop - dot(motion.displacement, n));
+        state.has_plane = true;
+    }
+    if (contact.gap >= cloth.thickness + slop)
+        return;
     // Nothing is closer than this contact. A displacement shorter than the gap cannot cross a surface.
     const float longest = cloth.thickness - contact.gap + distance(relative.from, relative.to);
     state.path_is_clear = !state.touches && longest < contact.gap;
     state.touches = true;
-    const vec3 n = world_direction(relative, contact.direction);
-    const vec3 surface =
-        surface_displacement(relative, relative.to - contact.gap * contact.direction, contact.deformation);
     if (contact.start < 0)
         motion.v -= dot(motion.v - surface / push.step, n) * n; // it leaves the inside without a velocity of its own
-    respond(motion, n, lift_of(contact, cloth.thickness), surface, slop,
-            pair_friction(cloth.friction, collider));
+    respond(motion, touched, lift_of(contact, cloth.thickness));
 }
 
 ColliderWalk walk_path(Motion motion)
@@ -258,7 +256,7 @@ ColliderWalk walk_path(Motion motion)
 // would stop a vertex that the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
-    ContactState state = ContactState(false, false);
+    ContactState state = ContactState(false, false, false, leaves_solid);
     bool path_only = false;
     ColliderWalk walk = walk_path(motion);
     while (true)
@@ -317,10 +315,13 @@ void write_motion(uint i, Motion motion, uint flags)
     const vec4 velocity = vec4(motion.v, flags);
     const vec4 change = vec4(motion.v - proposed_velocities[i].xyz, 0);
     const bool verlet = is_verlet(cloths[motion.cloth].flags);
-    if (push.in_place == 0)
+    if (push.result != VOILE_CONTACT_IN_PLACE)
     {
         positions[i] = position;
         residuals[i] = pack_residual(to);
+    }
+    if (push.result == VOILE_CONTACT_INTO_EARLIER)
+    {
         velocities[i] = velocity;
         if (verlet)
             predicted[i] = proposed_predicted[i] + change;
@@ -336,8 +337,12 @@ void write_motion(uint i, Motion motion, uint flags)
 // For a vertex without contact. Both states then have the same bits.
 void copy_proposed(uint i, uint cloth, vec4 proposed)
 {
+    if (push.result == VOILE_CONTACT_IN_PLACE)
+        return;
     positions[i] = proposed;
     residuals[i] = proposed_residuals[i];
+    if (push.result != VOILE_CONTACT_INTO_EARLIER)
+        return;
     velocities[i] = proposed_velocities[i];
     if (is_verlet(cloths[cloth].flags))
         predicted[i] = proposed_predicted[i];
@@ -422,20 +427,23 @@ void main()
         const Depenetration depenetration = depenetration_of(i);
         if (depenetration.solid != 0)
         {
-            depenetrate(motion, depenetration);
+            depenetrate(i, motion, depenetration);
             changed = true;
         }
         const Candidates list = find_candidates(i, motion, contact.thickness, contact.layers);
-        if (resolve_contacts(motion, contact, list, depenetration.solid != 0).touches)
+        const ContactState state = resolve_contacts(motion, contact, list, depenetration.solid != 0);
+        if (state.touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;
         }
         if (held)
             changed = hold_within_guards(hold, motion) || changed;
+        if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)
+            end_plane(i, motion, state.has_plane);
     }
     if (changed)
         write_motion(i, motion, flags);
-    else if (push.in_place == 0)
+    else
         copy_proposed(i, cloth, proposed);
 }

@@ -4,7 +4,7 @@
 // margin. While the vertex stays within the margin, the next substeps test only these triangles, and skip those whose
 // stored distance is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal.
 // Therefore:
-//   - all lists are refreshed together, every VOILE_REFRESH_PERIOD substeps, if half of their margin is used up;
+//   - all lists are refreshed together, every few passes, if half of their margin is used up;
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It is valid
@@ -19,8 +19,10 @@
 
 // The margin of a vertex at rest, as a fraction of the thickness.
 const float k_candidate_margin = 0.5;
-// The query radius of contact over the thickness: room for the rounding of distances.
-const float k_query_radius = 1.001;
+// The query radius of contact over the thickness. Vertices that may touch a surface before the next pass get its plane.
+const float k_plane_radius = 1.02;
+// That of a list over the query radius: room for the rounding of distances.
+const float k_list_radius = 1.001;
 // The ball shrinks while the list is at least this long. The next list's margin may be larger by the growth factor.
 const uint k_aimed_count = 11;
 const float k_margin_growth = 1.5;
@@ -303,15 +305,21 @@ Candidates load_candidates(uint vertex)
     return list;
 }
 
+// m
+float query_radius(float thickness)
+{
+    return (push.result == VOILE_CONTACT_KEEPS_START ? k_plane_radius : 1) * thickness;
+}
+
 // The list of the vertex. A new one if the last one does not cover the vertex's motion.
 Candidates find_candidates(uint vertex, Motion motion, float thickness, uint layers)
 {
     Candidates list = load_candidates(vertex);
-    const float query_radius = k_query_radius * thickness + rounding(vec3(push.mesh_extent));
-    const float margin = list.radius - query_radius; // below 0 if the cloth has become thicker
+    const float listed = k_list_radius * query_radius(thickness) + rounding(vec3(push.mesh_extent));
+    const float margin = list.radius - listed; // below 0 if the cloth has become thicker
     const float usable = push.refresh == 1 ? 0.5 * margin : margin;
     const bool covers = path_distance(list.center, motion) <= usable;
-    const MovingMeshes meshes = moving_meshes(list, motion, layers, query_radius);
+    const MovingMeshes meshes = moving_meshes(list, motion, layers, listed);
     const float speed = length(motion.v) + meshes.carried / push.step;
     const float wanted = max(k_candidate_margin * thickness, 2 * speed * push.refresh_time);
     // A list that overflowed when the vertex was fast, or too close, may fit when it rests.
@@ -321,7 +329,7 @@ Candidates find_candidates(uint vertex, Motion motion, float thickness, uint lay
     list.center = motion.from.x + 0.5 * motion.displacement;
     list.made = push.progress_to;
     load_radii(list);
-    refresh_candidates(list, layers, path_distance(list.center, motion) + meshes.carried, wanted, query_radius);
+    refresh_candidates(list, layers, path_distance(list.center, motion) + meshes.carried, wanted, listed);
     return list;
 }
 

@@ -44,7 +44,7 @@ layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
-layout(VOILE_BINDING(feature_cells)) readonly buffer FeatureCells { FeatureCell cells[]; };
+layout(VOILE_BINDING(feature_cells)) buffer FeatureCells { FeatureCell cells[]; };
 layout(VOILE_BINDING(feature_responses)) readonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
 layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
 
@@ -158,17 +158,16 @@ bool has_cell(uint i)
     return self.vertex.columns == 0 || in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
 }
 
-// Merges the contacts of the items of a cell, in which the vertex is the i-th one.
-void merge_cell(FeatureCell cell, uint i)
+// Merges the contacts of a cell, in which the vertex is the i-th one. `touched`: bits of the items from `first` on.
+void merge_items(uint first, uint touched, uint i)
 {
-    for (uint item = cell.first; item < cell.first + cell.count; ++item)
-        if (feature_responses[item].substep == push.substep)
-        {
-            const FeatureResponse touch = feature_responses[item];
-            if (touch.portions[i] > 0)
-                respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
-                        touch.collider);
-        }
+    for (; touched != 0; touched &= touched - 1)
+    {
+        const FeatureResponse touch = feature_responses[first + findLSB(touched)];
+        if (touch.portions[i] > 0)
+            respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
+                    touch.collider);
+    }
 }
 
 // False: it is pinned.
@@ -185,23 +184,39 @@ bool load_self()
 // Merges the contacts of the items around the vertex. False: they do not suffice.
 bool merge_cells()
 {
+    const uint word = 2 * (push.pass & 1);
     bool valid = true;
-    bool touched = false;
-    FeatureCell around[4];
+    uint firsts[4];
+    uvec2 touched[4];
     const uint count = cells_around();
     for (uint i = 0; i < count; ++i)
     {
-        around[i] = FeatureCell(0, 0, VOILE_NO_SUBSTEP, VOILE_NO_SUBSTEP);
-        if (has_cell(i))
-            around[i] = cells[cell_around(i)];
-        valid = valid && around[i].invalid != push.substep && around[i].invalid != VOILE_EVERY_SUBSTEP;
-        touched = touched || around[i].touched == push.substep;
+        touched[i] = uvec2(0);
+        if (!has_cell(i))
+            continue;
+        const FeatureCell cell = cells[cell_around(i)];
+        firsts[i] = cell.first;
+        touched[i] = uvec2(cell.touched[word], cell.touched[word + 1]);
+        valid = valid && cell.invalid != push.substep && cell.invalid != VOILE_EVERY_SUBSTEP;
     }
-    if (valid && touched && load_self())
+    uvec2 any = uvec2(0);
+    for (uint i = 0; i < count; ++i)
+        any |= touched[i];
+    if (valid && any != uvec2(0) && load_self())
         for (uint i = 0; i < count; ++i)
-            if (around[i].touched == push.substep)
-                merge_cell(around[i], i);
+        {
+            merge_items(firsts[i], touched[i].x, i);
+            merge_items(firsts[i] + 32, touched[i].y, i);
+        }
     return valid;
+}
+
+// For the next pass.
+void clear_touched()
+{
+    const uint word = 2 * (1 - (push.pass & 1));
+    cells[self.vertex.index].touched[word] = 0;
+    cells[self.vertex.index].touched[word + 1] = 0;
 }
 
 void write_correction()
@@ -248,6 +263,8 @@ void main()
     barrier();
     const uint patch_index = near_patches[push.first_patch + gl_WorkGroupID.x];
     self.vertex = patch_vertex(patch_index, thread);
+    if (self.vertex.exists)
+        clear_touched();
     if (self.vertex.exists && !merge_cells())
         traversing[atomicAdd(traversing_count, 1)] = thread;
     else

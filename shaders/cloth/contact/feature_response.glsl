@@ -16,6 +16,8 @@ const float k_lift_speed = 0.2;
 const float k_slow = 100;
 // Barycentric coordinates this far below 0 count as inside, so that no point between two triangles is missed.
 const float k_border = 1e-3;
+// Over the thickness: a piece this close to a feature touched it.
+const float k_touching = 1.001;
 // The most that a vertex moves per motion of the contact point. Equal masses need 1.4, a ratio of 16 needs 3.4.
 const float k_most_portion = 4;
 
@@ -72,6 +74,7 @@ struct FeatureContact
     float gap;      // m, along it; negative: on the other side
     float wanted;   // m, the gap after the response
     float time;     // 0..1 of the substep, at which they touch; 1: they are close at the end
+    bool held;      // they touched before, and forces have moved the cloth for several substeps
 };
 
 // Whether a piece of cloth in this direction (unit) from a feature is inside the collider.
@@ -116,6 +119,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     result.found = result.gap < self.thickness && (passed || result.gap > -self.thickness);
     // What was too close before is lifted slowly, or one contact's push would make the next one miss.
     result.wanted = min(self.thickness, gap_before + k_lift_speed * push.step);
+    result.held = push.kicks > 1 && gap_before <= k_touching * self.thickness;
     result.time = passed ? gap_before / (gap_before - result.gap) : 1;
     return result;
 }
@@ -164,10 +168,12 @@ Impulse impulse_of(PieceContact touch)
         n = rotate(pose_to.rotation, n);
         relative -= displacement(pose_from, change_of_pose, touch.point) / push.step;
     }
-    const float approach = -min(dot(relative, n), 0);
+    // A piece that swings back within several substeps would be lifted again and again, and gain energy each time.
+    const float leaving = dot(relative, n);
+    const float approach = touch.contact.held ? -leaving : max(-leaving, 0);
     const vec3 sliding = tangential(relative, n);
     return Impulse(n, touch.contact.wanted - touch.contact.gap,
-                   friction_fraction(approach, length(sliding)) * sliding, approach);
+                   friction_fraction(max(approach, 0), length(sliding)) * sliding, approach);
 }
 
 // Responds to a contact with collider c. `portion`: of the vertex in the motion of the cloth there.
@@ -176,7 +182,8 @@ void respond(Impulse impulse, float portion, uint c)
     const vec3 n = impulse.direction;
     // Corrections by other contacts in this direction count.
     response.shift += max(portion * impulse.correction - dot(response.shift, n), 0) * n;
-    response.change += max(portion * impulse.approach - dot(response.change, n), 0) * n;
+    const float change = portion * impulse.approach - dot(response.change, n);
+    response.change += (impulse.approach < 0 ? min(change, 0) : max(change, 0)) * n;
     if (response.collider != k_no_collider && portion * impulse.approach <= response.pressed)
         return;
     response.pressed = portion * impulse.approach;
@@ -190,7 +197,7 @@ void respond(Impulse impulse, float portion, uint c)
 void add_friction()
 {
     const float pressed = length(response.change);
-    if (pressed == 0)
+    if (pressed == 0 || response.pressed <= 0)
         return;
     const vec3 n = response.change / pressed;
     const vec3 surface = surface_displacement();
@@ -199,7 +206,7 @@ void add_friction()
     const float fraction = holding_fraction(pressed, speed);
     const float most = k_slow * push.step;
     const float slow = clamp(2 - max(speed, pressed) / most, 0, 1);
-    const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), push.step);
+    const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), push.step, push.kicks);
     vec3 slid = fraction * time * v_t;
     if (fraction == 1) // to the bit
         slid = tangential(displacement(self.earlier, self.proposed) - surface, n);

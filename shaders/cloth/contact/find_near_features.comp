@@ -375,8 +375,8 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
         search.next += lane_counts[i];
     search.end = search.next + (fits ? count : 0);
     if (lane == 0 && search.self.exists)
-        cells[search.self.index] = FeatureCell(first, fits ? cell_count : 0, VOILE_NO_SUBSTEP,
-                                               fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP);
+        cells[search.self.index] = FeatureCell(first, fits ? cell_count : 0,
+                                               fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, 0, uint[4](0, 0, 0, 0));
     return fits && count > 0;
 }
 

@@ -28,7 +28,7 @@ layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; }
 layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
 layout(VOILE_BINDING(feature_items)) readonly buffer FeatureItems { FeatureItem items[]; };
-layout(VOILE_BINDING(feature_cells)) writeonly buffer FeatureCells { FeatureCell cells[]; };
+layout(VOILE_BINDING(feature_cells)) buffer FeatureCells { FeatureCell cells[]; };
 layout(VOILE_BINDING(feature_responses)) writeonly buffer FeatureResponses { FeatureResponse feature_responses[]; };
 layout(VOILE_BINDING(step_votes)) readonly buffer StepVotes { uint votes[]; }; // of each cloth
 
@@ -140,8 +140,9 @@ void test_piece(uint item, uint kind, uint k, float excess)
     const Impulse impulse = impulse_of(touch);
     feature_responses[item] =
         FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach,
-                        cell_portions(portions, kind, k), push.substep, collider_index, 0, 0);
-    cells[self.vertex.index].touched = push.substep;
+                        cell_portions(portions, kind, k), collider_index, 0, 0, 0);
+    const uint in_cell = item - cells[self.vertex.index].first;
+    atomicOr(cells[self.vertex.index].touched[2 * (push.pass & 1) + in_cell / 32], 1u << in_cell % 32);
 }
 
 void main()

@@ -4,8 +4,8 @@
 
 bool is_verlet(uint cloth_flags) { return (cloth_flags & VOILE_CLOTH_VERLET) != 0; }
 
-// s: a change dv of a vertex's velocity within a substep of h seconds moves the vertex by this time times dv. Forces
-// act throughout a substep of RK4. Verlet kicks first, then drifts with the new velocity.
-float drift_time(bool verlet, float h) { return verlet ? h : 0.5 * h; }
+// s: a force that changes a vertex's velocity by dv over `duration` s moves the vertex by this time times dv. It acts
+// throughout a substep of RK4. In each of `kicks` equal substeps, Verlet kicks first, then drifts with the new velocity.
+float drift_time(bool verlet, float duration, uint kicks) { return 0.5 * duration * (verlet ? 1 + 1 / float(kicks) : 1); }
 
 #endif

@@ -9,6 +9,7 @@
 // One thread per vertex.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
+#include "shared/contact_layout.h"
 #include "shared/step_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
@@ -27,10 +28,40 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
 layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
 layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+layout(VOILE_BINDING(contact_planes)) buffer ContactPlanes { ContactPlane planes[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
 #include "forces/forces.glsl"
+#include "contact/contact_vertex.glsl"
+#include "integration/integrator.glsl"
+
+float slip_time(Motion motion) { return drift_time(true, push.step, 1); }
+
+#include "contact/response.glsl"
+
+const float k_plane_slop = 1e-9; // m: rounding of slack and displacement
+
+void stay_above(uint i, ContactPlane plane, inout Motion motion)
+{
+    const vec3 displacement = push.step * plane.velocity;
+    const float slack = plane.slack + dot(motion.displacement - displacement, plane.normal);
+    planes[i].slack = max(slack, 0);
+    if (slack > 0)
+        return;
+    const vec2 friction = unpackHalf2x16(plane.friction);
+    respond(motion, Surface(plane.normal, displacement, push.step, k_plane_slop, Friction(friction.x, friction.y)), -slack);
+}
+
+// Contact with the surface that the vertex touched in the last contact pass.
+void respond_to_plane(uint i, inout Motion motion)
+{
+    const ContactPlane plane = planes[i];
+    if (plane.friction == VOILE_PLANE_OF_EXIT)
+        leave(motion, plane.normal, plane.velocity, push.step);
+    else if (plane.normal != vec3(0))
+        stay_above(i, plane, motion);
+}
 
 void main()
 {
@@ -49,12 +80,18 @@ void main()
     const bool ends = push.drift == 0;
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE);
     const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
-    const vec3 v = before.xyz + kick * a;
-    const FinePosition next = moved(x, push.drift * v);
+    Motion motion;
+    motion.from = x;
+    motion.v = before.xyz + kick * a;
+    motion.displacement = push.drift * motion.v;
+    motion.cloth = self.cloth;
+    if (push.planes != 0 && stage_x.w > 0)
+        respond_to_plane(i, motion);
+    const FinePosition next = moved(x, motion.displacement);
     next_positions[i] = vec4(next.x, stage_x.w);
     next_residuals[i] = pack_residual(next);
-    next_velocities[i] = vec4(v, ends ? touches : 0);
+    next_velocities[i] = vec4(motion.v, ends ? touches : 0);
     const StabilityScales scales =
         stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
-    next_predicted[i] = vec4(v + verlet_prediction(scales) * push.step * a, 0);
+    next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * push.step * a, 0);
 }

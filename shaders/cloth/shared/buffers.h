@@ -57,7 +57,7 @@ VOILE_BUFFER(10, residuals, uvec2, vertices, "the rounding error of the position
 VOILE_BUFFER(11, velocities, vec4, vertices, "velocity and flags (VOILE_VERTEX_*); the host draws from it")
 
 // Stages of the integrators. Under Verlet the velocities of A and C are the predicted ones of the state and of stage B.
-VOILE_SCRATCH_BUFFER(12, stage_a_positions, vec4, vertices, "RK4 stage 1, passes of the strain limit, the state before its guard")
+VOILE_SCRATCH_BUFFER(12, stage_a_positions, vec4, vertices, "RK4 stage 1; positions at the last contact pass, if it spans several substeps of Verlet; passes of the strain limit, the state before its guard")
 VOILE_SCRATCH_BUFFER(13, stage_a_residuals, uvec2, vertices, "residuals of stage A")
 VOILE_SCRATCH_BUFFER(14, stage_a_velocities, vec4, vertices, "RK4 stage 1, passes of the strain limit; velocities that Verlet predicts for the state")
 VOILE_SCRATCH_BUFFER(15, stage_b_positions, vec4, vertices, "RK4 stages 2 and 4, Verlet: the positions that a substep proposes")
@@ -87,6 +87,7 @@ VOILE_SCRATCH_BUFFER(32, near_colliders, uint, near_words, "per patch the box in
 VOILE_SCRATCH_BUFFER(33, candidate_centers, vec4, vertices, "the query center and the radius in which the list of triangles near a vertex is valid")
 VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list of triangles near a vertex: its length, two radii, the triangles")
 VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that contains it, and its exit velocity")
+VOILE_SCRATCH_BUFFER(84, contact_planes, ContactPlane, vertices, "the surface that a vertex touched in the last contact pass, if such passes span several substeps")
 VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "votes of even steps, per cloth: the side of its normals on which it leaves colliders, the sum of all exit directions, the colliders (VOILE_VOTE_*)")
 VOILE_BUFFER(37, depenetration_votes_odd, uint, cloths * VOILE_VOTE_WORDS, "votes of odd steps")
 VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and vertices of a collider")
@@ -167,7 +168,7 @@ VOILE_ROLE(141, proposed_positions, vec4, "the positions that integration propos
 VOILE_ROLE(142, proposed_residuals, uvec2, "the residuals that integration proposes")
 VOILE_ROLE(143, proposed_velocities, vec4, "the velocities that integration proposes")
 VOILE_ROLE(144, proposed_predicted, vec4, "Verlet: the velocities predicted for the proposed positions")
-VOILE_ROLE(145, earlier_positions, vec4, "the positions before the substep")
+VOILE_ROLE(145, earlier_positions, vec4, "the positions before the substep; for contact, those at its last pass")
 VOILE_ROLE(146, earlier_residuals, uvec2, "the residuals before the substep")
 VOILE_ROLE(147, earlier_velocities, vec4, "the velocities before the substep")
 VOILE_ROLE(148, earlier_predicted, vec4, "Verlet: the velocities predicted for the earlier positions")

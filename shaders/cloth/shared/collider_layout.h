@@ -25,8 +25,6 @@
 #define VOILE_NEAR_MAX 4
 #define VOILE_NEAR_END 7
 #define VOILE_NEAR_WORDS 8
-// The number of substeps for which the lists are valid.
-#define VOILE_NEAR_PERIOD 16
 // With this many colliders or fewer there are no lists.
 #define VOILE_NEAR_LISTS_ABOVE 8
 

@@ -18,8 +18,12 @@
 #define VOILE_CANDIDATE_WORDS (VOILE_CANDIDATES + 3)
 // The number of bits of a triangle's index in its word.
 #define VOILE_CANDIDATE_TRIANGLE_BITS 26
-// The number of substeps from one refresh of the lists to the next.
-#define VOILE_REFRESH_PERIOD 16
+// Where contact writes its result: the whole state into the earlier one; only what it changes, into the proposed one;
+// the same, and the positions into the earlier ones, from which the next pass starts.
+#define VOILE_CONTACT_INTO_EARLIER 0
+#define VOILE_CONTACT_IN_PLACE 1
+#define VOILE_CONTACT_KEEPS_START 2
+#define VOILE_PLANE_OF_EXIT 0xffffffffu
 // One word of a list contains its length, and above it the number of the substep in which the list was made.
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
@@ -40,14 +44,24 @@ struct Depenetration
     uint solid;    // the index of the collider + 1; 0: the vertex is inside no collider
 };
 
+// The surface that a vertex touched in the last contact pass. Until the next one Verlet keeps the vertex above it. A
+// vertex inside a solid leaves it meanwhile.
+struct ContactPlane
+{
+    vec3 normal;   // unit, world, away from the surface; 0: none. Of an exit: m/s, the exit velocity
+    float slack;   // m, of the vertex above the plane
+    vec3 velocity; // m/s, of the surface
+    uint friction; // two halves: the static and the kinetic coefficient; or VOILE_PLANE_OF_EXIT
+};
+
 // Push constants of the contact pass.
 struct ContactPush
 {
-    float step; // s
+    float step; // s, since the last contact pass
     uint colliders;
-    uint refresh;        // 1: lists of candidates are refreshed in this substep
+    uint refresh;        // 1: lists of candidates are refreshed in this pass
     float refresh_time;  // s, from one refresh to the next
-    float progress_from; // 0..1, of the step, at the substep's start
+    float progress_from; // 0..1, of the step, at the last contact pass
     float progress_to;   // 0..1, of the step, at the substep's end
     float progress_per_substep;
     uint substep;       // counted over all steps
@@ -57,12 +71,13 @@ struct ContactPush
     uint depenetrates;  // 1: there are solids that vertices can be inside of
     uint near_stride;   // words per patch of near colliders; 0: there are no lists
     uint dispatch_word; // of the depenetration's dispatch size; 0 there: no vertex is inside a solid
-    uint in_place;      // 1: changes are written into the proposed state; 0: the whole state into the earlier one
+    uint result;        // VOILE_CONTACT_...
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
     uint after_pairs;   // 1: the impulses of pairs are new
     float pair_ahead;   // substeps from one pass over pairs to the next
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
+    uint kicks;         // substeps since the last contact pass
 };
 
 // Push constants of the pass that finds exits from solids.
@@ -76,7 +91,8 @@ struct DepenetrationPush
 
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
-static_assert(sizeof(ContactPush) == 80);
+static_assert(sizeof(ContactPlane) == 32);
+static_assert(sizeof(ContactPush) == 84);
 #endif
 
 VOILE_SHARED_END

@@ -7,8 +7,6 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The number of substeps from one query for near features, to the next.
-#define VOILE_FEATURE_PERIOD 16
 // The mean number of items per vertex that there is room for, and the largest number of one vertex.
 #define VOILE_FEATURE_ITEMS 8
 #define VOILE_MOST_FEATURE_ITEMS 64
@@ -90,8 +88,9 @@ struct FeatureCell
 {
     uint first;
     uint count;
-    uint touched; // the last substep in which one of them was in contact
     uint invalid; // the last substep in which features may be near that are not among them
+    uint padding;
+    uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
 };
 
 // The contact of a feature with a piece of cloth.
@@ -102,10 +101,10 @@ struct FeatureResponse
     vec3 slowing;     // m/s, by friction
     float approach;   // m/s
     vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
-    uint substep;
     uint collider;
     uint padding_0;
     uint padding_1;
+    uint padding_2;
 };
 
 // Push constants of the query for near features.
@@ -128,8 +127,8 @@ struct NearFeaturesPush
 // Push constants of feature contact.
 struct FeaturePush
 {
-    float step;          // s
-    float progress_from; // 0..1, of the step, at the substep's start
+    float step;          // s, since the last contact pass
+    float progress_from; // 0..1, of the step, at the last contact pass
     float progress_to;   // 0..1, of the step, at the substep's end
     uint colliders;
     uint substep; // counted over all steps
@@ -139,6 +138,8 @@ struct FeaturePush
     uint first_item;       // of the dispatch over items
     uint dispatch_word;    // of the size of that dispatch, which their number follows
     uint lanes;            // threads per vertex that traverses
+    uint kicks;            // substeps since the last contact pass
+    uint pass;             // counted since near features were listed
 };
 
 VOILE_SHARED_END

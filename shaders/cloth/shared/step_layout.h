@@ -33,6 +33,7 @@ struct StagePush
     float drift;          // Verlet: s, the time for which the position moves; 0 at the end of a step
     uint stage;           // RK4: 1 to 4
     uint first_patch;     // of the dispatch
+    uint planes;          // Verlet: 1: vertices stay above the planes of the last contact pass
 };
 
 // Push constants of an edit of one cloth.
@@ -45,7 +46,7 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StagePush) == 72);
+static_assert(sizeof(StagePush) == 76);
 static_assert(offsetof(StagePush, gust_phases) == 32);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif

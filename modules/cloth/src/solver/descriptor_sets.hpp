@@ -44,12 +44,13 @@ struct DescriptorSets
     VkDescriptorSet limit_scale{};
     VkDescriptorSet limit_guard{};
     VkDescriptorSet edit{};
-    std::array<VkDescriptorSet, 2> contact{}; // of what stage B proposes, of what the state does
+    // Of what stage B proposes after one substep, of what the state does; then the same after several.
+    std::array<VkDescriptorSet, 4> contact{};
     VkDescriptorSet near_colliders{};
     VkDescriptorSet near_features{};
-    // Corrections of stage B, of the state; with the votes of an even step, of an odd one.
-    std::array<std::array<VkDescriptorSet, 2>, 2> test_features{};
-    std::array<std::array<VkDescriptorSet, 2>, 2> feature_contact{};
+    // As those of contact; with the votes of an even step, of an odd one.
+    std::array<std::array<VkDescriptorSet, 2>, 4> test_features{};
+    std::array<std::array<VkDescriptorSet, 2>, 4> feature_contact{};
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     std::array<VkDescriptorSet, 2> pair_sweeps{}; // of the state, of stage B

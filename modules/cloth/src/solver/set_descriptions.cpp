@@ -10,7 +10,8 @@ namespace voile
 namespace
 {
 
-// The buffers of a substep that begins in the state, and of one that begins in stage B.
+// The buffers of a substep that begins in the state, and of one that begins in stage B; then of contact over several
+// substeps, the last of which begins in the state, or in stage B.
 struct Proposal
 {
     StateBuffers earlier;
@@ -22,6 +23,15 @@ struct Proposal
 constexpr Proposal k_proposals[] = {
     {k_state, k_stage_b, buffer::stage_a_velocities, buffer::stage_c_velocities},
     {k_stage_b, k_state, buffer::stage_c_velocities, buffer::stage_a_velocities},
+    // Of several substeps. Contact writes the earlier positions alone.
+    {{k_contact_start.positions, k_contact_start.residuals, k_state.velocities},
+     k_stage_b,
+     buffer::stage_a_velocities,
+     buffer::stage_c_velocities},
+    {{k_contact_start.positions, k_contact_start.residuals, k_stage_b.velocities},
+     k_state,
+     buffer::stage_c_velocities,
+     buffer::stage_a_velocities},
 };
 
 class Describer
@@ -194,10 +204,10 @@ void Describer::add_limit_guard()
 
 void Describer::add_contact()
 {
-    for (size_t parity = 0; parity < 2; ++parity)
+    for (size_t proposal = 0; proposal < std::size(k_proposals); ++proposal)
     {
-        const auto& [earlier, proposed, earlier_predicted, predicted] = k_proposals[parity];
-        add(sets_.contact[parity], kernels_.contact,
+        const auto& [earlier, proposed, earlier_predicted, predicted] = k_proposals[proposal];
+        add(sets_.contact[proposal], kernels_.contact,
             {{binding::proposed_positions, proposed.positions},
              {binding::proposed_residuals, proposed.residuals},
              {binding::proposed_velocities, proposed.velocities},
@@ -214,9 +224,9 @@ void Describer::add_contact()
                                              {binding::earlier_positions, earlier.positions},
                                              {binding::earlier_residuals, earlier.residuals},
                                              {binding::step_votes, k_depenetration_votes[votes]}};
-            add(sets_.test_features[parity][votes], kernels_.test_features, roles);
+            add(sets_.test_features[proposal][votes], kernels_.test_features, roles);
             roles.push_back({binding::proposed_predicted, predicted});
-            add(sets_.feature_contact[parity][votes], kernels_.feature_contact, roles);
+            add(sets_.feature_contact[proposal][votes], kernels_.feature_contact, roles);
         }
     }
     add(sets_.near_features, kernels_.near_features);

@@ -24,6 +24,9 @@ constexpr StateBuffers k_step_start{buffer::step_start_positions, buffer::step_s
                                     buffer::step_start_velocities};
 // The state before the strain limit's guard: velocities stand in stage C's positions.
 constexpr StateBuffers k_before_limit{buffer::stage_a_positions, buffer::stage_a_residuals, buffer::stage_c_positions};
+// Where the motion of the next contact pass starts, if it spans several substeps of Verlet, which uses no other stage
+// A.
+constexpr StateBuffers k_contact_start{buffer::stage_a_positions, buffer::stage_a_residuals, buffer::velocities};
 // Of even and of odd steps.
 constexpr buffer::Name k_depenetration_votes[] = {buffer::depenetration_votes_even, buffer::depenetration_votes_odd};
 

@@ -42,11 +42,22 @@ void StepRecorder::record_near_colliders()
     for_each_level([](LevelRecorder& level) { level.record_near_colliders(0); });
 }
 
+// The first contact pass of a level starts from the state, which Verlet overwrites if there is more than one substep
+// before that pass.
+void StepRecorder::keep_contact_start()
+{
+    bool keeps = false;
+    for_each_level([&](const LevelRecorder& level) { keeps |= level.contact_period() > 1; });
+    if (keeps)
+        keep_state(k_contact_start, false);
+}
+
 // A level takes its substep at the beginning of the time that the substep covers.
 void StepRecorder::record()
 {
     if (solver_.passes.strain_spacing > 0)
         keep_state(k_step_start);
+    keep_contact_start();
     PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan.substeps,
                        context_.history.next_pair_pass);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
@@ -72,8 +83,7 @@ void StepRecorder::record_strain_limit()
     record_limit_guard();
 }
 
-// The guard of the strain limit compares states of a step.
-void StepRecorder::keep_state(const StateBuffers& kept)
+void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
 {
     constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
     constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
@@ -86,7 +96,8 @@ void StepRecorder::keep_state(const StateBuffers& kept)
                       VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     copy(k_state.positions, kept.positions, sizeof(glm::vec4));
     copy(k_state.residuals, kept.residuals, sizeof(glm::uvec2));
-    copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
+    if (velocities)
+        copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
     recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
 }

@@ -11,9 +11,6 @@
 namespace voile
 {
 
-// Near queries read the state in its own buffers, not in stage B.
-static_assert(VOILE_NEAR_PERIOD % 2 == 0 && VOILE_FEATURE_PERIOD % 2 == 0);
-
 namespace
 {
 
@@ -41,6 +38,26 @@ glm::vec4 gust_phases(const Step& step, double time)
     return phases;
 }
 
+// Near queries read the state in its own buffers, not in stage B, so the number is even.
+uint32_t substeps_per_list(float substep, uint32_t contact_period)
+{
+    constexpr float k_time = 3.8e-3f; // s
+    constexpr uint32_t k_least = 16;
+    const auto substeps = static_cast<uint32_t>(std::min(k_time / substep, 1024.f));
+    return std::max(k_least, substeps) / (2 * contact_period) * (2 * contact_period);
+}
+
+// Between contact passes nothing holds what features have pushed. Within two substeps springs hardly respond; within
+// more they would carry part of the load, and friction would lose its hold (bench/NOTES.md). Guards of pairs hold
+// vertices in every substep.
+uint32_t substeps_per_contact(const Solver::State& solver, float substep)
+{
+    constexpr float k_rounding = 1e-3f;
+    const float most = solver.passes.pairs ? 1.f : solver.passes.features ? 2.f : 8.f;
+    const float interval = solver.options.tuning.contact_interval;
+    return std::max(1u, static_cast<uint32_t>(std::min(interval / substep + k_rounding, most)));
+}
+
 } // namespace
 
 LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
@@ -49,24 +66,50 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
       group_(solver_.options.tuning.workgroup_size), substeps_(context.plan.substeps_of(level)),
       h_(context.step.duration / static_cast<float>(substeps_)), has_contact_(solver_.passes.contact),
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
-      swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point)
+      swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
+      contact_period_(swaps_ && lists_.rk4_patches == 0 ? substeps_per_contact(solver_, h_) : 1),
+      list_period_(substeps_per_list(h_, contact_period_))
 {
 }
 
 void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
 {
     const gpu::GroupScope group(recorder_, k_group_names[level_], substep + 1, substeps_);
-    if (substep > 0 && substep % VOILE_NEAR_PERIOD == 0)
+    if (substep > 0 && substep % list_period_ == 0)
         record_near_colliders(substep);
-    if (solver_.passes.features && substep % VOILE_FEATURE_PERIOD == 0)
+    if (solver_.passes.features && substep % list_period_ == 0)
         record_near_features(substep);
     record_rk4(substep);
     record_verlet(make_push(substep), substep);
     record_attachments(substep, h_);
+    if (!contact_is_due(substep))
+        return;
     if (solver_.passes.features)
         record_features(substep);
-    if (has_contact_)
-        record_contact(substep, after_pairs);
+    record_contact(substep, after_pairs);
+}
+
+bool LevelRecorder::contact_is_due(uint32_t substep) const
+{
+    const uint32_t left = substeps_ - 1 - substep;
+    return has_contact_ && (left == 0 || (left == 1 && ends_alone()) || substep % contact_period_ == 0);
+}
+
+LevelRecorder::ContactInterval LevelRecorder::contact_interval(uint32_t substep) const
+{
+    const bool alone = substep == 0 || substep >= substeps_ || (substep + 1 == substeps_ && ends_alone());
+    const uint32_t count = alone ? 1 : (substep - 1) % contact_period_ + 1;
+    return {substep + 1 - count, count};
+}
+
+bool LevelRecorder::keeps_contact_start(uint32_t substep) const
+{
+    return contact_period_ > 1 && in_stage_b(substep) != in_stage_b(substep + 1);
+}
+
+size_t LevelRecorder::proposal(uint32_t substep) const
+{
+    return (keeps_contact_start(substep) ? 2u : 0u) + (in_stage_b(substep) ? 1u : 0u);
 }
 
 EntryRange LevelRecorder::verlet_patches() const
@@ -105,6 +148,7 @@ void LevelRecorder::record_rk4(uint32_t substep)
 
 void LevelRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 {
+    push.planes = contact_period_ > 1 && substep > 0 ? 1 : 0;
     push.kick = substep == 0 ? 0.5f * h_ : h_;
     push.drift = h_;
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
@@ -149,7 +193,7 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
 {
     if (device_.near_stride == 0)
         return;
-    const uint32_t next = std::min(substep + VOILE_NEAR_PERIOD, substeps_);
+    const uint32_t next = std::min(substep + list_period_, substeps_);
     shared::NearCollidersPush push{};
     push.time = h_ * static_cast<float>(next - substep);
     push.sudden = sudden_speed();
@@ -180,7 +224,7 @@ void LevelRecorder::record_near_features(uint32_t substep)
     const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0};
     write_dispatches(recorder_, device_[buffer::feature_dispatch].handle(), word * sizeof(uint32_t),
                      std::as_bytes(std::span(none)));
-    const uint32_t next = std::min(substep + VOILE_FEATURE_PERIOD, substeps_);
+    const uint32_t next = std::min(substep + list_period_, substeps_);
     const ItemRange items = feature_items();
     shared::NearFeaturesPush push{};
     push.time = h_ * static_cast<float>(next - substep);
@@ -195,6 +239,7 @@ void LevelRecorder::record_near_features(uint32_t substep)
     push.first_item = items.first;
     push.items = items.count;
     push.query = context_.first_substep + substep + 1;
+    feature_passes_ = 0;
     recorder_.dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features,
                        device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
     publish_dispatch(recorder_);
@@ -203,19 +248,22 @@ void LevelRecorder::record_near_features(uint32_t substep)
 void LevelRecorder::record_features(uint32_t substep)
 {
     const uint32_t word = level_ * VOILE_FEATURE_DISPATCH_WORDS;
-    const shared::FeaturePush push{h_,
-                                   progress(substep),
+    const ContactInterval interval = contact_interval(substep);
+    const shared::FeaturePush push{h_ * static_cast<float>(interval.count),
+                                   progress(interval.first),
                                    progress(substep + 1),
                                    solver_.passes.colliders,
                                    context_.first_substep + substep,
                                    device_.near_stride,
                                    lists_.patches.first,
-                                   progress(substep - substep % VOILE_FEATURE_PERIOD),
+                                   progress(substep - substep % list_period_),
                                    feature_items().first,
                                    word,
-                                   solver_.options.tuning.feature_threads};
+                                   solver_.options.tuning.feature_threads,
+                                   interval.count,
+                                   feature_passes_++};
     const bool moving = solver_.passes.moving;
-    const size_t begins = in_stage_b(substep) ? 1 : 0;
+    const size_t begins = proposal(substep);
     const size_t votes = context_.history.depenetration_step % 2;
     const VkBuffer sizes = device_[buffer::feature_dispatch].handle();
     recorder_.dispatch_indirect(moving ? kernels_.test_features_moving : kernels_.test_features,
@@ -228,11 +276,13 @@ void LevelRecorder::record_features(uint32_t substep)
 void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
 {
     shared::ContactPush push{};
-    push.step = h_;
+    const ContactInterval interval = contact_interval(substep);
+    push.step = h_ * static_cast<float>(interval.count);
+    push.kicks = interval.count;
     push.colliders = solver_.passes.colliders;
-    push.refresh = substep % VOILE_REFRESH_PERIOD == 0 ? 1 : 0;
-    push.refresh_time = VOILE_REFRESH_PERIOD * h_;
-    push.progress_from = progress(substep);
+    push.refresh = substep % list_period_ == 0 ? 1 : 0;
+    push.refresh_time = h_ * static_cast<float>(list_period_);
+    push.progress_from = progress(interval.first);
     push.progress_to = progress(substep + 1);
     push.progress_per_substep = 1 / static_cast<float>(substeps_);
     push.substep = context_.first_substep + substep;
@@ -246,8 +296,13 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.after_pairs = after_pairs ? 1 : 0;
     push.pair_ahead = static_cast<float>(substeps_per_pass(h_));
     push.limited_only = substep == substeps_ ? 1 : 0;
-    push.in_place = swaps_ && in_stage_b(substep) != in_stage_b(substep + 1) ? 1 : 0;
-    dispatch(contact_kernel(), device_.sets.contact[in_stage_b(substep) ? 1 : 0], lists_.patches, push);
+    if (keeps_contact_start(substep))
+        push.result = VOILE_CONTACT_KEEPS_START;
+    else if (swaps_ && in_stage_b(substep) != in_stage_b(substep + 1))
+        push.result = VOILE_CONTACT_IN_PLACE;
+    else
+        push.result = VOILE_CONTACT_INTO_EARLIER;
+    dispatch(contact_kernel(), device_.sets.contact[proposal(substep)], lists_.patches, push);
 }
 
 const gpu::Kernel& LevelRecorder::contact_kernel() const

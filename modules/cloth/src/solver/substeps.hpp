@@ -27,14 +27,11 @@ public:
     // Lists the colliders near each patch, until the next query. Records nothing with few colliders. The first query
     // comes before all other passes of the step that read colliders.
     void record_near_colliders(uint32_t substep);
-    // Integration, attachments, tethers and contact.
+    // Integration, attachments, tethers, and contact if a contact pass is due. `after_pairs`: the pass over pairs
+    // before it has impulses for that one.
     void record_substep(uint32_t substep, bool after_pairs);
-    // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
-    // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
-    [[nodiscard]] bool in_stage_b(uint32_t substep) const
-    {
-        return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
-    }
+    // The number of substeps from one contact pass to the next. The last ones of a step may be closer.
+    [[nodiscard]] uint32_t contact_period() const { return contact_period_; }
     // Verlet's last half kick.
     void finish();
     // Attachments, tethers and contact after the strain limit, over no time.
@@ -61,6 +58,20 @@ private:
     [[nodiscard]] ItemRange feature_items() const;
     void record_contact(uint32_t substep, bool after_pairs = false);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
+    // Substeps from one contact pass to the next: `first`, and so many more.
+    struct ContactInterval
+    {
+        uint32_t first;
+        uint32_t count;
+    };
+    [[nodiscard]] bool contact_is_due(uint32_t substep) const;              // after it
+    [[nodiscard]] ContactInterval contact_interval(uint32_t substep) const; // that ends with the substep
+    // Whether the contact pass keeps positions from which the next one starts. Else it starts from the state before the
+    // substep.
+    [[nodiscard]] bool keeps_contact_start(uint32_t substep) const;
+    [[nodiscard]] size_t proposal(uint32_t substep) const;
+    // Contact of odd numbers of substeps ends with a pass over one, which copies its result into the state.
+    [[nodiscard]] bool ends_alone() const { return contact_period_ > 1 && substeps_ % 2 == 1; }
     [[nodiscard]] EntryRange verlet_patches() const;
     template <typename Push>
     void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, EntryRange patches, Push push)
@@ -74,12 +85,15 @@ private:
     const Kernels& kernels_;
     const DeviceState& device_;
     const LevelLists& lists_;
+    uint32_t feature_passes_ = 0; // since near features were listed
     uint32_t level_;
     uint32_t group_;
     uint32_t substeps_;
     float h_;          // s
     bool has_contact_; // the contact pass runs on the proposed state
     bool swaps_;       // and changes it in place; otherwise it copies the state from stage B
+    uint32_t contact_period_;
+    uint32_t list_period_; // substeps from one refresh of lists of near triangles, features and colliders to the next
 };
 
 // The passes of all levels, in the order of time, and the strain limit at the end.
@@ -92,10 +106,12 @@ public:
     void record();
 
 private:
+    void keep_contact_start();
     void record_strain_limit();
     void record_limit_passes();
     void record_limit_guard();
-    void keep_state(const StateBuffers& kept); // a copy of the state
+    // Copies the state's positions and residuals, and velocities on request.
+    void keep_state(const StateBuffers& kept, bool velocities = true);
     template <typename Use>
     void for_each_level(const Use& use);
 
