@@ -72,12 +72,13 @@ struct ClothRecord
     uint layers;              // bits; the cloth collides with colliders that have one of them
     float flat_omega_squared; // 1/s^2, of the fastest mode of the flat cloth
     float strain_limit;       // largest l / L - 1; 0: no limit
-    uint strain_spacing;      // of the widest level of the strain limit that moves the cloth, in grid lines
+    uint strain_spacing;      // of the widest level of the strain limit that limit_strain.comp takes, in grid lines
     float pair_thickness;     // m, from itself and other cloths
     float pair_range;         // m, within which pairs are listed
     float pair_sweep;         // m, the longest motion along which they are
     float pair_slide;         // m, the longest part of it along the surface
-    float padding[2];
+    uint strain_passes;       // of the strain limit on each level
+    float padding;
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;

@@ -6,13 +6,31 @@
 
 VOILE_SHARED_BEGIN(voile)
 
+// The most vertices of a level that limit_coarse.comp takes: 17 x 17. Their shared memory has 48 bytes each, and every
+// device has 16 KiB.
+#define VOILE_LIMIT_COARSE_VERTICES 289
+
+// The passes on each level, for a material's limit and for that of softened cloth.
+#define VOILE_STRAIN_PASSES 16
+#define VOILE_SOFTENED_STRAIN_PASSES 3
+// The spectral radius of the iteration, for its acceleration.
+#define VOILE_STRAIN_RADIUS 0.95f
+
+// The acceleration of pass i of a level from that of the pass before; 1 for the first. Golub and Varga 1961, after Wang
+// 2015, "A Chebyshev semi-iterative approach for accelerating projective and position-based dynamics".
+VOILE_INLINE float strain_acceleration(uint i, float before)
+{
+    const float squared = VOILE_STRAIN_RADIUS * VOILE_STRAIN_RADIUS;
+    return i < 2 ? 1 : i == 2 ? 2 / (2 - squared) : 4 / (4 - squared * before);
+}
+
 // Push constants of one pass of the strain limit.
 struct StrainPush
 {
     uint spacing;       // of the level, in grid lines
     uint between;       // 1: vertices between the lines of the level before take their neighbors' mean displacement
     float acceleration; // of the passes of a level (Chebyshev); 1: none
-    uint first;         // 1: the first pass of a level; vertices have no relaxation from a pass before
+    uint pass;          // on its level; in the first one vertices have no relaxation from a pass before
     uint last;          // 1: the last of all passes; it writes the flags of vertices in place of their relaxation
 };
 

@@ -3,6 +3,8 @@
 
 #include "model/stability.hpp"
 
+#include "shared/strain_layout.h"
+
 #include "shared/grid_springs.h"
 #include "shared/pair_layout.h"
 
@@ -219,12 +221,17 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
 // their diagonals, and more than half of each correction would overshoot.
 constexpr float k_strain_relaxation = 0.5f;
 
-// Half of the longer side, or less. A mesh has as many passes as a grid of its size.
+// Of a grid: half of the narrowest level that limit_coarse.comp can take. Of a mesh, which has no levels: a grid of its
+// size would begin there.
 uint32_t strain_spacing(const shared::ClothRecord& cloth)
 {
-    const uint32_t side = cloth.columns > 0 ? std::max(cloth.columns, cloth.rows)
-                                            : static_cast<uint32_t>(std::sqrt(static_cast<double>(cloth.vertices)));
-    return std::bit_floor(std::max(side / 2, 1u));
+    if (cloth.columns == 0)
+        return std::bit_floor(std::max(static_cast<uint32_t>(std::sqrt(static_cast<double>(cloth.vertices))) / 2, 1u));
+    const auto lines = [](uint32_t all, uint32_t spacing) { return (all - 2 + spacing) / spacing + 1; };
+    uint32_t spacing = 1;
+    while (uint64_t{lines(cloth.columns, 2 * spacing)} * lines(cloth.rows, 2 * spacing) > VOILE_LIMIT_COARSE_VERTICES)
+        spacing *= 2;
+    return spacing;
 }
 
 // The members that both kinds of material have.
@@ -240,6 +247,7 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.strain_limit = m.strain_limit;
     record.strain_relaxation = k_strain_relaxation;
     record.strain_spacing = strain_spacing(record);
+    record.strain_passes = VOILE_STRAIN_PASSES;
 }
 
 // The thickness of cloth from cloth is at most this part of the spacing of vertices, or neighbors in a flat cloth would

@@ -3,6 +3,10 @@
 
 #include "voile/ranges.hpp"
 
+#include "model/cloth_model.hpp"
+
+#include "shared/strain_layout.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +55,16 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     }
     const double substeps = std::ceil(duration * fastest / longest * (1 - 1e-6)); // a whole number stays one in float
     return static_cast<uint32_t>(std::clamp(substeps, 1.0, static_cast<double>(k_most_substeps)));
+}
+
+StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
+{
+    const float own = std::visit([](const auto& m) { return m.strain_limit; }, cloth.material);
+    const uint32_t needed = stable_substeps(cloth.record, static_cast<double>(step.duration));
+    const bool softened = step.substeps == 0 && plan.substeps_of(plan.level_of(needed)) < needed;
+    if (own == 0 && softened && step.softened_strain_limit > 0)
+        return {step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES};
+    return {own, VOILE_STRAIN_PASSES};
 }
 
 double largest_eigenvalue(double xx, double xy, double yy)

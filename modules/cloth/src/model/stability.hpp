@@ -2,6 +2,9 @@
 #pragma once
 
 #include "voile/descriptions.hpp"
+#include "voile/step.hpp"
+
+#include "model/substep_plan.hpp"
 
 #include "shared/cloth_layout.h"
 #include "shared/stability.h"
@@ -9,12 +12,28 @@
 namespace voile
 {
 
+struct ClothModel;
+
 // The factors that the kernels apply to a cloth's stiffness and damping in a substep (s). `load` under RK4, too: the
 // fraction of the stability region along an axis.
 shared::StabilityScales stability_scales(const shared::ClothRecord& record, double substep);
 
 // The smallest number of substeps of a step of `duration` seconds that keeps all stiffness and damping. At least 1.
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration);
+
+// The strain limit of a cloth in a step.
+struct StrainLimit
+{
+    float most = 0;      // l / L - 1; 0: none
+    uint32_t passes = 0; // on each level
+    bool operator==(const StrainLimit&) const = default;
+};
+inline StrainLimit strain_limit(const shared::ClothRecord& record)
+{
+    return {record.strain_limit, record.strain_passes};
+}
+// Its material's. If that has none and the plan softens the cloth, the step's.
+StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
 
 // Of the symmetric matrix (xx, xy; xy, yy).
 double largest_eigenvalue(double xx, double xy, double yy);

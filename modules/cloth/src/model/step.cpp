@@ -33,6 +33,11 @@ Result<void> validate(const Step& step)
     for (const Range& range : ranges)
         if (auto result = check(what, range); !result)
             return result;
+    if (const Range limit{"softened_strain_limit", step.softened_strain_limit, k_least_strain_limit,
+                          k_most_strain_limit};
+        step.softened_strain_limit != 0)
+        if (auto result = check(what, limit); !result)
+            return Error{result.error().message + ", or 0 for none"};
     if (auto result = check(what, "gravity", step.gravity, k_most_gravity, " m/s^2"); !result)
         return result;
     if (auto result = check(what, "wind", step.wind, k_most_wind, " m/s"); !result)

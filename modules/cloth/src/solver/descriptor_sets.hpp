@@ -37,7 +37,7 @@ struct DescriptorSets
     VkDescriptorSet pins{};
     std::array<VkDescriptorSet, 2> proposed_attachments{}; // of stage B, of the state
     std::array<VkDescriptorSet, 2> proposed_tethers{};
-    VkDescriptorSet strain_first{};              // state to stage B
+    VkDescriptorSet limit_coarse{};              // state to stage B
     VkDescriptorSet strain_back{};               // stage B to stage A
     VkDescriptorSet strain_forth{};              // stage A to stage B
     std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voile
 {
@@ -43,7 +44,22 @@ void update_motions(gpu::Recorder& recorder, const Solver::State& solver)
     }
 }
 
-void update_records(gpu::Recorder& recorder, const Solver::State& solver)
+// Records of cloths whose strain limit changed with the step. A new limit has no reserve of energy.
+void update_softened(gpu::Recorder& recorder, Solver::State& solver)
+{
+    const DeviceState& device = *solver.device;
+    for (auto [index, cloth] : solver.model.cloths)
+    {
+        if (!std::exchange(cloth.limit_due, false) || !cloth.uploaded)
+            continue;
+        recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
+                        std::as_bytes(std::span(&cloth.record, 1)));
+        recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
+                        std::as_bytes(std::span(&k_first_scale, 1)));
+    }
+}
+
+void update_records(gpu::Recorder& recorder, Solver::State& solver)
 {
     const DeviceState& device = *solver.device;
     for (const uint32_t index : solver.edits.records)
@@ -54,6 +70,8 @@ void update_records(gpu::Recorder& recorder, const Solver::State& solver)
         if (const ClothModel* cloth = solver.model.cloths.at(index); cloth != nullptr && cloth->uploaded)
             recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
                             std::as_bytes(std::span(&k_first_scale, 1)));
+    if (solver.edits.softened)
+        update_softened(recorder, solver);
     for (const uint32_t index : solver.edits.colliders)
     {
         if (index >= device.collider_count)
@@ -157,7 +175,7 @@ void finish_edits(Solver::State& solver)
     edits.records.clear();
     edits.limits.clear();
     edits.colliders.clear();
-    edits.attachments = edits.pins = edits.masses = edits.candidates = false;
+    edits.softened = edits.attachments = edits.pins = edits.masses = edits.candidates = false;
 }
 
 // A vertex that kept its mass is left as it is, to the bit.
@@ -211,8 +229,8 @@ void Edits::forget(ClothId cloth)
 
 bool Solver::State::changes_due() const
 {
-    return edits.attachments || edits.patches || edits.pins || edits.candidates || !edits.records.empty() ||
-           !edits.colliders.empty() ||
+    return edits.softened || edits.attachments || edits.patches || edits.pins || edits.candidates ||
+           !edits.records.empty() || !edits.colliders.empty() ||
            std::ranges::any_of(edits.state_edits,
                                [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });
 }

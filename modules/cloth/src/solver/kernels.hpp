@@ -17,6 +17,7 @@ struct Kernels
     gpu::Kernel pins;
     gpu::Kernel attachments;
     gpu::Kernel tethers;
+    gpu::Kernel limit_coarse;
     gpu::Kernel limit_strain;
     gpu::Kernel limit_work;
     gpu::Kernel limit_scale;

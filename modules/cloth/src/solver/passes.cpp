@@ -72,7 +72,15 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
             continue;
         const uint32_t level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
         changes |= std::exchange(cloth.level, level) != level;
+        if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
+        {
+            cloth.record.strain_limit = limit.most;
+            cloth.record.strain_passes = limit.passes;
+            cloth.limit_due = edits.softened = true;
+        }
     }
+    if (edits.softened)
+        update_passes();
     if (!changes)
         return;
     list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
@@ -82,8 +90,12 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
 
 void Solver::State::update_passes()
 {
-    if (!device)
-        return;
+    if (device)
+        passes = passes_with([](const ClothModel& cloth) { return strain_limit(cloth.record); });
+}
+
+Passes Solver::State::passes_with(const StrainLimitOf& limit_of) const
+{
     Passes next;
     for (const auto [index, collider] : collider_models.colliders)
         if (is_active(collider))
@@ -96,13 +108,16 @@ void Solver::State::update_passes()
     {
         if (!is_active(cloth))
             continue;
-        if (cloth.record.strain_limit > 0)
+        if (const StrainLimit limit = limit_of(cloth); limit.most > 0)
+        {
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
+            next.strain_passes = std::max(next.strain_passes, limit.passes);
+        }
         next.pairs = next.pairs || cloth.self_collision;
     }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
     next.contact = next.colliders > 0 || attached || next.strain_spacing > 0 || next.pairs;
-    passes = next;
+    return next;
 }
 
 void Solver::State::update_collider(ColliderId collider, bool meets_others)

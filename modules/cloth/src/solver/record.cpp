@@ -68,10 +68,10 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
 
 // Everything of a step but edits. Changes only `history`, so a dry recorder can count the dispatches of the next step.
 void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, StepHistory& history,
-                   const Step& step, const SubstepPlan& plan)
+                   const Step& step, const SubstepPlan& plan, const Passes& with_limits)
 {
     const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
-    const StepContext context{recorder, solver, lists, history, step, plan, first_substep};
+    const StepContext context{recorder, solver, lists, history, step, plan, with_limits, first_substep};
     StepRecorder passes(context);
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
@@ -173,7 +173,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     const SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
     state_->assign_levels(plan, step);
     record_edits(recorder, *state_, step);
-    record_passes(recorder, *state_, state_->lists, state_->history, step, plan);
+    record_passes(recorder, *state_, state_->lists, state_->history, step, plan, state_->passes);
     record_jumps(recorder, *state_);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
@@ -194,7 +194,8 @@ uint32_t Solver::dispatches(const Step& step) const
     ActiveLists lists;
     list_patches(state_->model, level_of, state_->options.tuning.workgroup_size, lists);
     list_attachments(state_->model, level_of, lists);
-    record_passes(dry, *state_, lists, history, step, plan);
+    const Passes passes = state_->passes_with([&](const ClothModel& cloth) { return strain_limit(cloth, step, plan); });
+    record_passes(dry, *state_, lists, history, step, plan, passes);
     return dry.dispatches();
 }
 

@@ -155,6 +155,13 @@ void Describer::add_attachments()
 
 void Describer::add_strain_limit()
 {
+    add(sets_.limit_coarse, kernels_.limit_coarse,
+        {{binding::stage_positions, k_state.positions},
+         {binding::stage_residuals, k_state.residuals},
+         {binding::stage_velocities, k_state.velocities},
+         {binding::next_positions, k_stage_b.positions},
+         {binding::next_residuals, k_stage_b.residuals},
+         {binding::next_velocities, k_stage_b.velocities}});
     const auto add_set = [&](VkDescriptorSet& set, const StateBuffers& input, const StateBuffers& output)
     {
         add(set, kernels_.limit_strain,
@@ -167,7 +174,6 @@ void Describer::add_strain_limit()
              {binding::step_positions, k_state.positions},
              {binding::step_velocities, k_state.velocities}});
     };
-    add_set(sets_.strain_first, k_state, k_stage_b);
     add_set(sets_.strain_back, k_stage_b, k_stage_a);
     add_set(sets_.strain_forth, k_stage_a, k_stage_b);
 }

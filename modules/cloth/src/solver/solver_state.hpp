@@ -5,6 +5,7 @@
 
 #include "colliders/collider_motion.hpp"
 #include "model/active_lists.hpp"
+#include "model/stability.hpp"
 #include "model/substep_plan.hpp"
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
@@ -12,6 +13,7 @@
 
 #include "shared/step_layout.h"
 
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -26,6 +28,7 @@ struct Edits
     std::set<uint32_t> limits;                 // cloths that got a strain limit
     std::set<uint32_t> colliders;              // colliders whose record changed, or that were removed
     std::vector<shared::EditPush> state_edits; // in order
+    bool softened = false;                     // cloths got or lost a strain limit with the step (limit_due)
     bool patches = false;
     bool attachments = false; // the lists of attachments and tethers
     bool pins = false;        // they must be set again
@@ -45,7 +48,8 @@ struct Passes
     bool moving = false;         // colliders that move or deform
     bool convex = false;         // colliders with a formula, other than planes
     bool features = false;       // colliders with features
-    uint32_t strain_spacing = 0; // the widest level of the strain limit; 0: no cloth has one
+    uint32_t strain_spacing = 0; // the widest level of limit_strain.comp; 0: no cloth has a strain limit
+    uint32_t strain_passes = 0;  // on each level
     bool contact = false;        // the contact pass
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's
@@ -55,10 +59,6 @@ struct Passes
 
 // The anchor as the GPU reads it.
 shared::AnchorRecord make_record(const Anchor& anchor);
-
-// Of the strain limit, on each level.
-constexpr uint32_t k_strain_passes = 16;
-constexpr float k_strain_radius = 0.95f; // of the iteration, for its acceleration
 
 // Steps from one check of all vertices to the next, if none was inside.
 constexpr uint32_t k_depenetration_period = 8;
@@ -83,6 +83,8 @@ struct StepHistory
     // What vertices remember from the last pass over pairs does not fit where they are now.
     void forget_pairs() { ++next_pair_pass; }
 };
+
+using StrainLimitOf = std::function<StrainLimit(const ClothModel&)>;
 
 struct Solver::State
 {
@@ -145,6 +147,8 @@ struct Solver::State
     void update_attachments();
     // After materials or colliders changed, and at the end of update_attachments.
     void update_passes();
+    // With the strain limits of a step.
+    [[nodiscard]] Passes passes_with(const StrainLimitOf& limit_of) const;
     // What an upload records after its copies.
     void finish_upload(gpu::Recorder& recorder);
     // After a collider's record changed. `meets_others`: the triangles that a cloth collides with may have changed.

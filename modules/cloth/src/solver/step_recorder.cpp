@@ -8,17 +8,6 @@
 namespace voile
 {
 
-namespace
-{
-
-// Each level begins with a pass between the lines of the level before.
-uint32_t level_passes(uint32_t widest_spacing)
-{
-    return static_cast<uint32_t>(std::bit_width(widest_spacing)) * (k_strain_passes + 1) - 1;
-}
-
-} // namespace
-
 StepRecorder::StepRecorder(const StepContext& context)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
       device_(*solver_.device), threads_(context.lists.patch_count() * solver_.options.tuning.workgroup_size),
@@ -55,14 +44,14 @@ void StepRecorder::keep_contact_start()
 // A level takes its substep at the beginning of the time that the substep covers.
 void StepRecorder::record()
 {
-    if (solver_.passes.strain_spacing > 0)
+    if (context_.passes.strain_spacing > 0)
         keep_state(k_step_start);
     keep_contact_start();
     PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan.substeps,
                        context_.history.next_pair_pass);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
-        const bool after_pairs = solver_.passes.pairs && pairs.begins(substep);
+        const bool after_pairs = context_.passes.pairs && pairs.begins(substep);
         if (after_pairs)
             pairs.record(substep, levels_[0]->in_stage_b(substep));
         for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
@@ -70,7 +59,7 @@ void StepRecorder::record()
                 levels_[level]->record_substep(substep >> level, after_pairs);
     }
     for_each_level([](LevelRecorder& level) { level.finish(); });
-    if (solver_.passes.strain_spacing > 0)
+    if (context_.passes.strain_spacing > 0)
         record_strain_limit();
 }
 
@@ -118,38 +107,34 @@ void StepRecorder::record_limit_guard()
     }
 }
 
-// From coarse to fine. The first and the last pass end in stage B, from where the contact pass takes it. An even number
-// has one more before them, on a level of no cloth.
+// From coarse to fine. Each level begins with a pass between the lines of the level before. The first and the last pass
+// end in stage B, from where the contact pass takes it: an odd number in between gets one more, on a level of no cloth.
 void StepRecorder::record_limit_passes()
 {
-    const uint32_t on_levels = level_passes(solver_.passes.strain_spacing);
-    const uint32_t passes = on_levels | 1u;
-    uint32_t pass = 0;
-    const auto record_pass = [&](uint32_t spacing, bool between, bool first, float acceleration)
+    recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse, threads_, group_,
+                       std::span<const std::byte>{});
+    const uint32_t widest = context_.passes.strain_spacing;
+    const uint32_t on_level = context_.passes.strain_passes;
+    const uint32_t on_levels = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1);
+    uint32_t left = on_levels + on_levels % 2;
+    const auto record_pass = [&](const shared::StrainPush& push)
     {
-        const VkDescriptorSet set = pass == 0       ? device_.sets.strain_first
-                                    : pass % 2 == 1 ? device_.sets.strain_back
-                                                    : device_.sets.strain_forth;
-        ++pass;
-        const shared::StrainPush push{spacing, between ? 1u : 0u, acceleration, first ? 1u : 0u,
-                                      pass == passes ? 1u : 0u};
-        recorder_.dispatch(kernels_.limit_strain, set, threads_, group_, push);
+        const VkDescriptorSet set = left % 2 == 0 ? device_.sets.strain_back : device_.sets.strain_forth;
+        --left;
+        shared::StrainPush numbered = push;
+        numbered.last = left == 0 ? 1 : 0;
+        recorder_.dispatch(kernels_.limit_strain, set, threads_, group_, numbered);
     };
-    if (on_levels < passes)
-        record_pass(2 * solver_.passes.strain_spacing, false, true, 1);
-    for (uint32_t spacing = solver_.passes.strain_spacing; spacing > 0; spacing /= 2)
+    if (on_levels % 2 == 1)
+        record_pass({2 * widest, 1, 1, 0, 0});
+    for (uint32_t spacing = widest; spacing > 0; spacing /= 2)
     {
-        if (spacing < solver_.passes.strain_spacing)
-            record_pass(spacing, true, false, 1);
+        record_pass({spacing, 1, 1, 0, 0});
         float acceleration = 1;
-        for (uint32_t i = 0; i < k_strain_passes; ++i)
+        for (uint32_t i = 0; i < on_level; ++i)
         {
-            record_pass(spacing, false, i == 0, acceleration);
-            // Golub and Varga 1961, after Wang 2015, "A Chebyshev semi-iterative approach for accelerating projective
-            // and position-based dynamics".
-            if (i > 0)
-                acceleration = i == 1 ? 2 / (2 - k_strain_radius * k_strain_radius)
-                                      : 4 / (4 - k_strain_radius * k_strain_radius * acceleration);
+            acceleration = shared::strain_acceleration(i, acceleration);
+            record_pass({spacing, 0, acceleration, i, 0});
         }
     }
 }

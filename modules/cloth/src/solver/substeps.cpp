@@ -64,7 +64,7 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
       device_(*solver_.device), lists_(context.lists.levels[level]), level_(level),
       group_(solver_.options.tuning.workgroup_size), substeps_(context.plan.substeps_of(level)),
-      h_(context.step.duration / static_cast<float>(substeps_)), has_contact_(solver_.passes.contact),
+      h_(context.step.duration / static_cast<float>(substeps_)), has_contact_(context.passes.contact),
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
       contact_period_(swaps_ && lists_.rk4_patches == 0 ? substeps_per_contact(solver_, h_) : 1),

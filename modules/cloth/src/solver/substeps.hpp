@@ -15,6 +15,7 @@ struct StepContext
     const StepHistory& history;
     const Step& step;
     SubstepPlan plan;
+    const Passes& passes;       // the solver's, with the strain limits of the step
     uint32_t first_substep = 0; // counted over all steps
 };
 
