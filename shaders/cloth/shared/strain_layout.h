@@ -12,7 +12,7 @@ VOILE_SHARED_BEGIN(voile)
 
 // The passes on each level, for a material's limit and for that of softened cloth.
 #define VOILE_STRAIN_PASSES 16
-#define VOILE_SOFTENED_STRAIN_PASSES 3
+#define VOILE_SOFTENED_STRAIN_PASSES 5
 // The spectral radius of the iteration, for its acceleration.
 #define VOILE_STRAIN_RADIUS 0.95f
 

@@ -1,0 +1,212 @@
+// Cloth that takes fewer substeps than it needs keeps its size, gains no energy, and changes nothing else.
+#include "heart.hpp"
+
+#include "support/cloth_meshes.hpp"
+#include "support/energy_balance.hpp"
+
+#include "voile/engine/assets/mesh.hpp"
+#include "voile/fabrics.hpp"
+
+#include <algorithm>
+
+namespace
+{
+
+using tests::ClothHarness;
+
+// 1 m of cotton. It needs 175 substeps of 1/60 s with 64 x 64 vertices, 353 with 128 x 128.
+voile::GridCloth cotton(uint32_t side)
+{
+    voile::GridCloth grid;
+    grid.columns = grid.rows = side;
+    grid.material = voile::cotton();
+    grid.integrator = voile::Integrator::verlet;
+    return grid;
+}
+
+voile::GridCloth pinned(uint32_t side)
+{
+    voile::GridCloth grid = cotton(side);
+    grid.pins = {0, side - 1};
+    return grid;
+}
+
+// The drape scene: a heart on the ground.
+voile::GridCloth over_heart(ClothHarness& harness, uint32_t side)
+{
+    const voile::engine::Mesh heart = scenes::make_drape_heart();
+    (void)voile::engine::take(
+        harness.solver.add_collider(voile::MeshCollider{.positions = heart.positions, .triangles = heart.triangles}));
+    (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
+    voile::GridCloth grid = cotton(side);
+    grid.transform[3] = {0, 0.85f, 0, 1};
+    return grid;
+}
+
+// l / L - 1 below which 99 % of the structural springs are.
+double stretch_99(const std::vector<glm::vec4>& x, uint32_t side)
+{
+    const double rest = 1.0 / (side - 1);
+    std::vector<double> stretches;
+    const auto add = [&](size_t a, size_t b)
+    { stretches.push_back(glm::distance(glm::dvec3(x[a]), glm::dvec3(x[b])) / rest - 1); };
+    for (uint32_t row = 0; row < side; ++row)
+        for (uint32_t column = 0; column < side; ++column)
+        {
+            const size_t i = size_t{row} * side + column;
+            if (column + 1 < side)
+                add(i, i + 1);
+            if (row + 1 < side)
+                add(i, i + side);
+        }
+    const auto at = stretches.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(stretches.size()));
+    std::nth_element(stretches.begin(), at, stretches.end());
+    return *at;
+}
+
+// The largest over all frames.
+double worst_stretch(ClothHarness& harness, const voile::GridCloth& grid, const voile::Step& step, uint32_t frames)
+{
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+    harness.upload();
+    CHECK(harness.solver.stability(id, step).stiffness_scale < 0.01f);
+    double worst = 0;
+    for (uint32_t frame = 0; frame < frames; ++frame)
+    {
+        harness.step(step);
+        worst = std::max(worst, stretch_99(harness.positions(id), grid.columns));
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST_CASE("cotton of 64 x 64 in 16 and 8 of 175 substeps keeps its size as it hangs from two corners")
+{
+    for (const uint32_t substeps : {16u, 8u})
+    {
+        CAPTURE(substeps);
+        ClothHarness harness;
+        CHECK(worst_stretch(harness, pinned(64), {.max_substeps = substeps}, 60) < 0.08);
+    }
+    ClothHarness harness; // what the limit is for
+    CHECK(worst_stretch(harness, pinned(64), {.max_substeps = 16, .softened_strain_limit = 0}, 60) > 0.2);
+}
+
+TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size as it hangs from two corners")
+{
+    ClothHarness harness;
+    CHECK(worst_stretch(harness, pinned(128), {.max_substeps = 16}, 60) < 0.08);
+}
+
+TEST_CASE("cotton of 64 x 64 in 16 of 175 substeps keeps its size in the drape scene")
+{
+    ClothHarness harness;
+    CHECK(worst_stretch(harness, over_heart(harness, 64), {.max_substeps = 16}, 60) < 0.08);
+}
+
+TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size in the drape scene")
+{
+    ClothHarness harness;
+    CHECK(worst_stretch(harness, over_heart(harness, 128), {.max_substeps = 16}, 50) < 0.08);
+}
+
+TEST_CASE("softened free cloth with its strain limit gains no energy")
+{
+    for (const uint32_t substeps : {16u, 8u})
+        for (const float scale : {1.5f, 1.1f, 0.6f})
+            for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
+            {
+                CAPTURE(substeps);
+                CAPTURE(scale);
+                CAPTURE(int(integrator));
+                voile::GridCloth grid = cotton(32);
+                grid.integrator = integrator;
+                grid.transform = tests::tilted();
+                grid.transform[0] *= scale;
+                voile::Fabric fabric = voile::cotton();
+                fabric.air_drag_normal = fabric.air_drag_tangential = 0;
+                grid.material = fabric;
+                ClothHarness harness;
+                const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+                harness.upload();
+                const voile::Step step{.max_substeps = substeps, .gravity = glm::vec3(0)};
+                const double stiffness = static_cast<double>(harness.solver.stability(id, step).stiffness_scale);
+                CHECK(stiffness < 0.5);
+                auto reference = tests::reference_of(grid);
+                reference.soften(stiffness);
+                const auto energy = [&] { return tests::energy_of(harness, id, reference, glm::dvec3(0)); };
+                const double start = energy();
+                double most = 0;
+                for (int frame = 0; frame < 60; ++frame)
+                {
+                    harness.step(step);
+                    const double now = energy();
+                    most = std::max(most, std::isfinite(now) ? now : 1e300);
+                }
+                CHECK(most <= 1.001 * start);
+            }
+}
+
+TEST_CASE("a limit of softened cloth changes no bit of cloth that has its substeps, or a limit of its own")
+{
+    std::vector<glm::vec4> ends[2][3];
+    for (int limited = 0; limited < 2; ++limited)
+    {
+        voile::Fabric soft;
+        soft.areal_density = 0.2f;
+        soft.stretch_stiffness = {20, 20};
+        soft.shear_stiffness = 5;
+        voile::Fabric own = voile::cotton();
+        own.strain_limit = 0.05f;
+        ClothHarness harness;
+        std::vector<voile::ClothId> ids;
+        for (const voile::Fabric& fabric : {soft, own, voile::cotton()})
+        {
+            voile::GridCloth grid = pinned(24);
+            grid.material = fabric;
+            ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
+        }
+        harness.upload();
+        const voile::Step step{.max_substeps = 16, .softened_strain_limit = limited == 1 ? 0.03f : 0.f};
+        CHECK(harness.solver.stability(ids[0], step).stiffness_scale == 1);
+        CHECK(harness.solver.stability(ids[1], step).stiffness_scale < 1);
+        CHECK(harness.solver.stability(ids[2], step).stiffness_scale < 1);
+        harness.step(step, 30);
+        for (size_t i = 0; i < ids.size(); ++i)
+            ends[limited][i] = harness.positions(ids[i]);
+    }
+    CHECK(tests::same_bits(ends[0][0], ends[1][0]));
+    CHECK(tests::same_bits(ends[0][1], ends[1][1]));
+    CHECK_FALSE(tests::same_bits(ends[0][2], ends[1][2]));
+}
+
+TEST_CASE("cloth gets and loses the limit of softened cloth with the substeps of a step")
+{
+    // Steps that differ, in any order, equal the same steps of a solver that counts their dispatches before each.
+    const voile::Step few{.max_substeps = 8};
+    const voile::Step enough;
+    const voile::Step none{.max_substeps = 8, .softened_strain_limit = 0};
+    const voile::Step fixed{.substeps = 8};
+    ClothHarness harness;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(pinned(20)));
+    harness.upload();
+    const auto recorded = [&](const voile::Step& step)
+    {
+        uint32_t dispatches = 0;
+        harness.run(
+            [&](VkCommandBuffer cmd)
+            {
+                voile::gpu::Recorder recorder(tests::solver_context(), cmd);
+                voile::engine::take(harness.solver.record(recorder, step));
+                dispatches = recorder.dispatches();
+            });
+        return dispatches;
+    };
+    (void)recorded(enough); // sets pins
+    CHECK(harness.solver.dispatches(none) == harness.solver.dispatches(fixed));
+    CHECK(harness.solver.dispatches(few) > harness.solver.dispatches(none) + 8);
+    for (const voile::Step& step : {few, enough, few, none, few, fixed, none, enough})
+        CHECK(recorded(step) == harness.solver.dispatches(step));
+    CHECK(stretch_99(harness.positions(id), 20) < 0.1);
+}
