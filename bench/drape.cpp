@@ -5,6 +5,7 @@
 #include "heart.hpp"
 
 #include "voile/engine/gpu/download.hpp"
+#include "voile/fabrics.hpp"
 #include "voile/mesh_checks.hpp"
 
 #include <algorithm>
@@ -22,19 +23,30 @@ constexpr float k_frame = 1.f / 60; // s
 
 constexpr auto k_rk4 = voile::Integrator::rk4;
 constexpr auto k_verlet = voile::Integrator::verlet;
+constexpr auto k_cotton = DrapeSubject::cotton;
+constexpr auto k_pinned = DrapeSubject::pinned_cotton;
 constexpr DrapeCase k_cases[] = {
-    {"drape-128-rk4", 128, k_rk4},           {"drape-128-verlet", 128, k_verlet},
-    {"drape-256-rk4", 256, k_rk4},           {"drape-256-verlet", 256, k_verlet},
-    {"drape-512-rk4", 512, k_rk4},           {"drape-512-verlet", 512, k_verlet},
-    {"drape-128-self", 128, k_verlet, true}, {"drape-256-self", 256, k_verlet, true},
+    {"drape-128-rk4", 128, k_rk4},
+    {"drape-128-verlet", 128, k_verlet},
+    {"drape-256-rk4", 256, k_rk4},
+    {"drape-256-verlet", 256, k_verlet},
+    {"drape-512-rk4", 512, k_rk4},
+    {"drape-512-verlet", 512, k_verlet},
+    {"drape-128-self", 128, k_verlet, true},
+    {"drape-256-self", 256, k_verlet, true},
     {"drape-512-self", 512, k_verlet, true},
+    {"budget-64", 64, k_verlet, false, k_pinned, 16},
+    {"budget-128", 128, k_verlet, false, k_pinned, 16},
+    {"budget-64-drape", 64, k_verlet, false, k_cotton, 16},
+    {"budget-128-drape", 128, k_verlet, false, k_cotton, 16},
+    {"budget-128-sheet", 128, k_verlet, false, DrapeSubject::sheet, 16},
 };
 
 using Positions = std::vector<glm::vec4>;
 
-std::vector<double> structural_stretches(const Positions& x, uint32_t side)
+std::vector<double> structural_stretches(const Positions& x, uint32_t side, float size)
 {
-    const double rest = 2.4 / (side - 1);
+    const double rest = static_cast<double>(size) / (side - 1);
     std::vector<double> result;
     result.reserve(2 * x.size());
     const auto add = [&](size_t a, size_t b)
@@ -74,6 +86,20 @@ void upload(TimedQueue& queue, voile::Solver& solver)
     queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
 }
 
+voile::GridCloth cloth_of(const DrapeCase& item)
+{
+    voile::GridCloth grid = drape_grid(item.side);
+    grid.integrator = item.integrator;
+    grid.self_collision = item.self_collision;
+    if (item.subject == DrapeSubject::sheet)
+        return grid;
+    grid.width = grid.depth = 1;
+    grid.material = voile::cotton();
+    if (item.subject == DrapeSubject::pinned_cotton)
+        grid.pins = {0, item.side - 1};
+    return grid;
+}
+
 struct Scene
 {
     voile::Solver solver;
@@ -85,17 +111,30 @@ Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshColl
     voile::SolverOptions options;
     options.tuning.workgroup_size = workgroup_size;
     Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
-    voile::GridCloth grid = drape_grid(item.side);
-    grid.integrator = item.integrator;
-    grid.self_collision = item.self_collision;
-    scene.cloth = voile::engine::take(scene.solver.add_cloth(grid));
-    (void)voile::engine::take(scene.solver.add_collider(heart));
-    (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
+    scene.cloth = voile::engine::take(scene.solver.add_cloth(cloth_of(item)));
+    if (item.subject != DrapeSubject::pinned_cotton)
+    {
+        (void)voile::engine::take(scene.solver.add_collider(heart));
+        (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
+    }
     upload(queue, scene.solver);
     return scene;
 }
 
 } // namespace
+
+const char* describe(DrapeSubject subject)
+{
+    switch (subject)
+    {
+    case DrapeSubject::cotton:
+        return "1 m of cotton in the drape scene";
+    case DrapeSubject::pinned_cotton:
+        return "1 m of cotton hanging from two corners";
+    default:
+        return "the drape scene";
+    }
+}
 
 std::span<const DrapeCase> drape_cases()
 {
@@ -117,12 +156,14 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     Scene other = make_scene(queue, item, heart, settings.workgroup_size);
     voile::Solver& solver = scene.solver;
 
-    const voile::Step step{.duration = k_frame};
+    const voile::Step step{.duration = k_frame, .max_substeps = item.max_substeps};
+    const float size = cloth_of(item).width;
     DrapeMeasurement result;
     result.vertices = solver.vertex_count();
     result.triangles = solver.triangle_count();
     result.substeps = solver.stable_substeps(k_frame, step.max_substeps);
     result.dispatches = solver.dispatches(step);
+    result.has_budget = solver.stability(scene.cloth, step).needed > result.substeps;
     std::vector<double> times; // ms
     Positions x;
     for (uint32_t frame = 0; frame < k_frames; ++frame)
@@ -137,7 +178,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
         const voile::VertexStreams streams = solver.vertices(scene.cloth);
         x = voile::engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset,
                                                       streams.vertices);
-        result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side), 0.99));
+        result.stretch_99 = std::max(result.stretch_99, quantile(structural_stretches(x, item.side, size), 0.99));
         if (frame + 1 == k_first_timed)
             result.height = mean_height(x);
     }
@@ -148,9 +189,10 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
         print_passes(queue, solver, step,
                      [&](VkCommandBuffer cmd) { voile::engine::take(solver.record_restore(cmd, start)); });
     }
-    const std::vector<double> stretches = structural_stretches(x, item.side);
+    const std::vector<double> stretches = structural_stretches(x, item.side, size);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
-    result.deep_fraction = fraction_deeper(x, heart, 0.005);
+    if (item.subject != DrapeSubject::pinned_cotton)
+        result.deep_fraction = fraction_deeper(x, heart, 0.005);
     result.gpu_median = quantile(times, 0.5);
     result.gpu_p95 = quantile(times, 0.95);
     return result;

@@ -122,7 +122,8 @@ void list_cases(std::span<const bench::RealCase> reals)
     for (const bench::RefitCase& item : bench::refit_cases())
         std::printf("%-28s %s\n", item.name, item.purpose);
     for (const bench::DrapeCase& item : bench::drape_cases())
-        std::printf("%-28s the drape scene, 90 frames, %u x %u vertices\n", item.name, item.side, item.side);
+        std::printf("%-28s %s, 90 frames, %u x %u vertices, at most %u substeps\n", item.name,
+                    bench::describe(item.subject), item.side, item.side, item.max_substeps);
     for (const bench::RealCase& item : reals)
         std::printf("%-28s cotton over %s%s\n", item.name.c_str(), item.file.string().c_str(),
                     item.turns ? ", which turns by 90 degrees per second" : "");

@@ -54,6 +54,7 @@ quick(test_edits
     "a snapshot restores the state to the bit, also through the host"
     "a cloth at its strain limit hangs still")
 quick(test_energy "the center of mass of a crumpled free cloth stays at rest")
+quick(test_softened_limit "cloth gets and loses the limit of softened cloth with the substeps of a step")
 quick(test_fabric
     "air drags and lifts a tilted plate by 1/2 rho C |u| u along and across its normal"
     "cloth 10 km from the origin hangs and rests as at the origin, and 100 km from it stays finite"

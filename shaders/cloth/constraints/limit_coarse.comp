@@ -23,59 +23,76 @@ layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 nex
 #include "constraints/limit_levels.glsl"
 #include "constraints/limit_spring.glsl"
 
-// The vertices of the finest of these levels, row by row. xs: positions, of this pass and of the next one; w is the
-// relaxation. vs: velocities; w is the inverse mass of the vertex alone.
-shared vec4 xs[2][VOILE_LIMIT_COARSE_VERTICES];
+// The vertices of the finest of these levels, row by row. Displacements of this pass and of the next one, whose w is the
+// relaxation: sums of positions would lose momentum to rounding. The w of velocities is the inverse mass of the vertex
+// alone.
+shared vec4 displacements[2][VOILE_LIMIT_COARSE_VERTICES];
+shared vec4 starts[VOILE_LIMIT_COARSE_VERTICES];
 shared vec4 vs[VOILE_LIMIT_COARSE_VERTICES];
 
 struct Grid
 {
     uint cloth;
     ivec2 lines;
-    int finest;      // spacing of the finest of these levels, in lines
-    ivec2 own_lines; // of that level
+    int shift;     // the spacing of the finest of these levels is 1 << shift lines
+    int own_lines; // of that level, along a row
 };
+
+// Of the level, along each axis.
+ivec2 line_counts(Grid g, int shift) { return ((g.lines - 2 + (1 << shift)) >> shift) + 1; }
 
 Grid grid_of(PatchVertex self)
 {
     Grid g;
     g.cloth = self.cloth;
     g.lines = ivec2(self.columns, self.rows);
-    g.finest = 2 * int(cloths[self.cloth].strain_spacing);
-    g.own_lines = (g.lines - 2 + g.finest) / g.finest + 1;
+    g.shift = findLSB(cloths[self.cloth].strain_spacing) + 1;
+    g.own_lines = line_counts(g, g.shift).x;
     return g;
 }
 
-ivec2 column_row(Grid g, uint k) { return min(g.finest * ivec2(k % g.own_lines.x, k / g.own_lines.x), g.lines - 1); }
+uint vertex_count(Grid g, int shift)
+{
+    const ivec2 counts = line_counts(g, shift);
+    return uint(counts.x * counts.y);
+}
+
+// The k-th vertex of a level.
+ivec2 column_row(Grid g, int shift, uint k)
+{
+    const uint columns = uint(line_counts(g, shift).x);
+    return min(ivec2(k % columns, k / columns) << shift, g.lines - 1);
+}
+
 // In the shared arrays.
 uint slot(Grid g, ivec2 at)
 {
-    const ivec2 line = (at + g.finest - 1) / g.finest;
-    return uint(line.y * g.own_lines.x + line.x);
+    const ivec2 line = (at + (1 << g.shift) - 1) >> g.shift;
+    return uint(line.y * g.own_lines + line.x);
 }
+
 uint vertex(Grid g, ivec2 at) { return cloths[g.cloth].first_vertex + uint(at.y * g.lines.x + at.x); }
-uint vertex_count(Grid g) { return uint(g.own_lines.x * g.own_lines.y); }
 
 void load(Grid g)
 {
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g); k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, g.shift); k += gl_WorkGroupSize.x)
     {
-        const uint i = vertex(g, column_row(g, k));
-        const vec4 x = positions[i];
+        const uint i = vertex(g, column_row(g, g.shift, k));
         const vec4 v = velocities[i];
-        xs[0][k] = vec4(x.xyz, k_safe_relaxation);
-        vs[k] = vec4(v.xyz, limit_inverse_mass(x.w > 0 ? 1 : 0, v.w));
+        displacements[0][k] = displacements[1][k] = vec4(vec3(0), cloths[g.cloth].strain_relaxation);
+        starts[k] = positions[i];
+        vs[k] = vec4(v.xyz, limit_inverse_mass(starts[k].w > 0 ? 1 : 0, v.w));
     }
 }
 
 void store(Grid g, uint now)
 {
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g); k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, g.shift); k += gl_WorkGroupSize.x)
     {
-        const uint i = vertex(g, column_row(g, k));
-        const FinePosition here = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
-        const FinePosition next = moved(here, xs[now][k].xyz - here.x);
-        next_positions[i] = vec4(next.x, positions[i].w);
+        const uint i = vertex(g, column_row(g, g.shift, k));
+        const FinePosition here = FinePosition(starts[k].xyz, unpack_residual(residuals[i]));
+        const FinePosition next = moved(here, displacements[now][k].xyz);
+        next_positions[i] = vec4(next.x, starts[k].w);
         next_residuals[i] = pack_residual(next);
         next_velocities[i] = vec4(vs[k].xyz, 0);
     }
@@ -83,20 +100,19 @@ void store(Grid g, uint now)
 
 End end_at(uint k, uint now, float inverse_mass, bool is_first)
 {
-    const vec4 x = xs[now][k];
+    const vec4 d = displacements[now][k];
     const vec4 v = vs[k];
-    return End(x.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : x.w);
+    return End(starts[k].xyz + d.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : d.w);
 }
 
-Correction correction_of(Grid g, uint k, uint now, int spacing, bool is_first)
+Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
 {
-    Correction correction = k_no_correction;
-    const ivec2 at = column_row(g, k);
-    if (vs[k].w == 0 || !on_level(at, g.lines, spacing))
-        return correction;
+    const int spacing = spacing_and_pass.x;
+    const bool is_first = spacing_and_pass.y == 0;
     const vec2 rest = vec2(cloths[g.cloth].springs[0].rest_length, cloths[g.cloth].springs[1].rest_length);
     const LevelNeighbors n = level_neighbors(at, g.lines, spacing, cloths[g.cloth].border_scale);
-    const End end = end_at(k, now, inverse_mass_at(n, ivec2(0)), is_first);
+    const End end = end_at(slot(g, at), now, inverse_mass_at(n, ivec2(0)), is_first);
+    Correction correction = k_no_correction;
     for (int s = 0; s < 8; ++s)
     {
         const ivec2 offset = level_offset(s);
@@ -110,48 +126,55 @@ Correction correction_of(Grid g, uint k, uint now, int spacing, bool is_first)
 }
 
 // Vertices between the lines of the level before take the mean displacement of their neighbors there.
-void interpolate(Grid g, uint now, int spacing)
+void interpolate(Grid g, uint now, int shift)
 {
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g); k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, shift); k += gl_WorkGroupSize.x)
     {
-        const ivec2 at = column_row(g, k);
-        if (vs[k].w == 0 || !on_level(at, g.lines, spacing) || on_level(at, g.lines, 2 * spacing))
+        const ivec2 at = column_row(g, shift, k);
+        const uint self = slot(g, at);
+        if (vs[self].w == 0 || on_level(at, g.lines, 2 << shift))
             continue;
-        const Between b = between_lines(at, g.lines, 2 * spacing);
+        const Between b = between_lines(at, g.lines, 2 << shift);
+        vec3 displacement = vec3(0);
         for (int corner = 0; corner < 4; ++corner)
         {
             const ivec2 to = corner_at(b, corner);
-            const uint other = vertex(g, to);
             const float weight = corner_weight(b, corner);
-            xs[now][k].xyz += weight * (xs[now][slot(g, to)].xyz - positions[other].xyz);
-            vs[k].xyz += weight * (vs[slot(g, to)].xyz - velocities[other].xyz);
+            displacement += weight * displacements[now][slot(g, to)].xyz;
+            vs[self].xyz += weight * (vs[slot(g, to)].xyz - velocities[vertex(g, to)].xyz);
         }
+        displacements[now][self].xyz = displacement;
     }
     barrier();
 }
 
-void pass(Grid g, uint now, int spacing, float acceleration, bool is_first)
+void pass(Grid g, uint now, int shift, float acceleration, int pass_index)
 {
     const uint k_owned = (VOILE_LIMIT_COARSE_VERTICES + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x;
     vec3 v[k_owned];
     for (uint owned = 0; owned < k_owned; ++owned)
     {
         const uint k = owned * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-        if (k >= vertex_count(g))
+        if (k >= vertex_count(g, shift))
             break;
-        const Correction correction = correction_of(g, k, now, spacing, is_first);
-        const vec3 x = xs[now][k].xyz;
-        const vec3 last = acceleration == 1 ? x : xs[1 - now][k].xyz;
+        const ivec2 at = column_row(g, shift, k);
+        const uint self = slot(g, at);
+        v[owned] = vs[self].xyz;
+        if (vs[self].w == 0)
+            continue; // pinned: it has no displacement
+        const Correction correction = correction_of(g, at, now, ivec2(1 << shift, pass_index));
+        const vec3 d = displacements[now][self].xyz + correction.x;
         const float relaxation = stable_relaxation(correction.taken, cloths[g.cloth].strain_relaxation);
-        xs[1 - now][k] = vec4(mix(last, x + correction.x, acceleration), relaxation);
-        v[owned] = vs[k].xyz + correction.v;
+        const vec3 last = displacements[1 - now][self].xyz;
+        displacements[1 - now][self] = vec4(acceleration == 1 ? d : mix(last, d, acceleration), relaxation);
+        v[owned] += correction.v;
     }
     barrier();
     for (uint owned = 0; owned < k_owned; ++owned)
     {
         const uint k = owned * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-        if (k < vertex_count(g))
-            vs[k].xyz = v[owned];
+        if (k < vertex_count(g, shift))
+            vs[slot(g, column_row(g, shift, k))].xyz = v[owned];
     }
     barrier();
 }
@@ -161,19 +184,18 @@ void limit(Grid g)
     load(g);
     barrier();
     uint now = 0;
-    int spacing = g.finest;
-    while (spacing < max(g.lines.x, g.lines.y) - 1)
-        spacing *= 2;
-    for (bool is_widest = true; spacing >= g.finest; spacing /= 2)
+    int widest = g.shift;
+    while (1 << widest < max(g.lines.x, g.lines.y) - 1)
+        ++widest;
+    for (int shift = widest; shift >= g.shift; --shift)
     {
-        if (!is_widest)
-            interpolate(g, now, spacing);
-        is_widest = false;
+        if (shift < widest)
+            interpolate(g, now, shift);
         float acceleration = 1;
         for (uint i = 0; i < cloths[g.cloth].strain_passes; ++i)
         {
             acceleration = strain_acceleration(i, acceleration);
-            pass(g, now, spacing, acceleration, i == 0);
+            pass(g, now, shift, acceleration, int(i));
             now = 1 - now;
         }
     }
@@ -186,7 +208,7 @@ void main()
     const PatchVertex self = patch_vertex(patch_index);
     const bool limited = cloths[self.cloth].strain_limit > 0 && self.columns > 0;
     const Grid g = grid_of(self);
-    if (self.exists && !(limited && on_level(self.column_row, g.lines, g.finest)))
+    if (self.exists && !(limited && on_level(self.column_row, g.lines, 1 << g.shift)))
     {
         next_positions[self.index] = positions[self.index];
         next_residuals[self.index] = residuals[self.index];

@@ -5,7 +5,8 @@
 
 #include "shared/grid.glsl"
 
-bool on_level(int line, int lines, int spacing) { return line % spacing == 0 || line == lines - 1; }
+// Spacings are powers of two, and lines are divided by shifts: integer divisions take most of a pass.
+bool on_level(int line, int lines, int spacing) { return (line & (spacing - 1)) == 0 || line == lines - 1; }
 
 bool on_level(ivec2 column_row, ivec2 lines, int spacing)
 {
@@ -15,7 +16,7 @@ bool on_level(ivec2 column_row, ivec2 lines, int spacing)
 // The lines of the level before and after a line; the line itself where there is none.
 ivec2 adjacent_lines(int line, int lines, int spacing)
 {
-    return ivec2(max((line - 1) / spacing * spacing, 0), min((line / spacing + 1) * spacing, lines - 1));
+    return ivec2(max((line - 1) & ~(spacing - 1), 0), min((line & ~(spacing - 1)) + spacing, lines - 1));
 }
 
 // The number of lines that move with a line of a level: the sum of their weights, which fall to 0 at the next lines of

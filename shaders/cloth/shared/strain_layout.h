@@ -6,8 +6,7 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// The most vertices of a level that limit_coarse.comp takes: 17 x 17. Their shared memory has 48 bytes each, and every
-// device has 16 KiB.
+// The most vertices of a level that limit_coarse.comp takes: 17 x 17. Each has 64 bytes of shared memory.
 #define VOILE_LIMIT_COARSE_VERTICES 289
 
 // The passes on each level, for a material's limit and for that of softened cloth.

@@ -61,7 +61,7 @@ StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Subste
 {
     const float own = std::visit([](const auto& m) { return m.strain_limit; }, cloth.material);
     const uint32_t needed = stable_substeps(cloth.record, static_cast<double>(step.duration));
-    const bool softened = step.substeps == 0 && plan.substeps_of(plan.level_of(needed)) < needed;
+    const bool softened = step.substeps == 0 && !cloth.mesh && plan.substeps_of(plan.level_of(needed)) < needed;
     if (own == 0 && softened && step.softened_strain_limit > 0)
         return {step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES};
     return {own, VOILE_STRAIN_PASSES};

@@ -32,7 +32,8 @@ inline StrainLimit strain_limit(const shared::ClothRecord& record)
 {
     return {record.strain_limit, record.strain_passes};
 }
-// Its material's. If that has none and the plan softens the cloth, the step's.
+// Its material's. If that has none and the plan softens the cloth, the step's. Without coarse levels, as on a mesh, so
+// few passes would reach nothing.
 StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
 
 // Of the symmetric matrix (xx, xy; xy, yy).
