@@ -194,6 +194,8 @@ TEST_CASE("a step out of range is refused by name, and nothing is recorded")
         {{.duration = k_infinity}, "duration is inf s, must be 1e-06 to 10"},
         {{.substeps = 1'000'001}, "substeps is 1000001, must be 0 to 1000000"},
         {{.max_substeps = 0}, "max_substeps is 0, must be 1 to 1000000"},
+        {{.softened_strain_limit = 1e-4f}, "softened_strain_limit is 0.0001, must be 0.001 to 10, or 0 for none"},
+        {{.softened_strain_limit = k_nan}, "softened_strain_limit is nan, must be 0.001 to 10, or 0 for none"},
         {{.gravity = {0, -1e30f, 0}}, "gravity is (0, -1e+30, 0) m/s^2, each must be -10000 to 10000"},
         {{.gravity = {0, k_nan, 0}}, "gravity is (0, nan, 0) m/s^2, each must be -10000 to 10000"},
         {{.wind = {1e20f, 0, 0}}, "wind is (1e+20, 0, 0) m/s, each must be -1000 to 1000"},
