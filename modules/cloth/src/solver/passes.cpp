@@ -116,7 +116,7 @@ Passes Solver::State::passes_with(const StrainLimitOf& limit_of) const
         next.pairs = next.pairs || cloth.self_collision;
     }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
-    next.contact = next.colliders > 0 || attached || next.strain_spacing > 0 || next.pairs;
+    next.contact = next.colliders > 0 || attached || next.pairs;
     return next;
 }
 

@@ -50,7 +50,7 @@ struct Passes
     bool features = false;       // colliders with features
     uint32_t strain_spacing = 0; // the widest level of limit_strain.comp; 0: no cloth has a strain limit
     uint32_t strain_passes = 0;  // on each level
-    bool contact = false;        // the contact pass
+    bool contact = false;        // the contact pass of each substep
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's
     bool pairs = false;          // cloths that collide with themselves

@@ -109,7 +109,7 @@ bool LevelRecorder::keeps_contact_start(uint32_t substep) const
 
 size_t LevelRecorder::proposal(uint32_t substep) const
 {
-    return (keeps_contact_start(substep) ? 2u : 0u) + (in_stage_b(substep) ? 1u : 0u);
+    return (keeps_contact_start(substep) ? 2u : 0u) + (has_contact_ && in_stage_b(substep) ? 1u : 0u);
 }
 
 EntryRange LevelRecorder::verlet_patches() const

@@ -91,7 +91,7 @@ private:
     uint32_t group_;
     uint32_t substeps_;
     float h_;          // s
-    bool has_contact_; // the contact pass runs on the proposed state
+    bool has_contact_; // the contact pass runs on the proposed state; otherwise after a strain limit alone
     bool swaps_;       // and changes it in place; otherwise it copies the state from stage B
     uint32_t contact_period_;
     uint32_t list_period_; // substeps from one refresh of lists of near triangles, features and colliders to the next
