@@ -376,11 +376,11 @@ void ask_for_lists(Hold hold, vec3 displacement)
 // Cuts the motion where the guards of pairs end. Whether it does.
 bool hold_within_guards(Hold hold, inout Motion motion)
 {
-    const float part = held_part(hold, motion.displacement);
+    const float part = held_part(hold, motion.displacement - hold.carried);
     if (part < 1)
     {
-        motion.v *= part;
-        motion.displacement *= part;
+        motion.v = mix(hold.carry, motion.v, part);
+        motion.displacement = mix(hold.carried, motion.displacement, part);
     }
     ask_for_lists(hold, motion.displacement);
     return part < 1;

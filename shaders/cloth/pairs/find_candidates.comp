@@ -17,6 +17,7 @@ layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; };
 layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint candidates[]; };
@@ -30,6 +31,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "shared/box.glsl"
 #include "pairs/flat.glsl"
 #include "pairs/pair_tree.glsl"
+#include "pairs/tree_carry.glsl"
 
 // The search of a vertex.
 struct Search
@@ -38,11 +40,12 @@ struct Search
     uint cloth;
     Flat flat_around;
     float least_flat; // m, a neighborhood is flat if it keeps primitives so far apart
-    vec3 origin;      // m, the middle of the vertex's sweep
-    Box hull;         // of the fan with its sweeps, from the origin
+    Viewpoint from;   // the middle of the vertex's sweep, carried as the vertex is
+    Box hull;         // of the fan with its sweeps, from there
+    Box tree_hull;    // the same, carried as the boxes of the hierarchy are
     Box box;          // the same in the world, with the range and rounding
     vec3 normal;      // of the fan, about: any unit vector will do
-    vec2 heights;     // m, the lowest and the highest of the fan along it, from the origin
+    vec2 heights;     // m, the lowest and the highest of the fan along it, from the viewpoint
     float range;
     float rounding; // m, of positions near it
     uint count;
@@ -81,7 +84,7 @@ bool is_flat_neighbor(inout Search search, uint vertex)
     return true;
 }
 
-// Around a fan with its sweeps, from the search's origin.
+// Around a fan with its sweeps.
 struct Hull
 {
     Box box;
@@ -90,23 +93,23 @@ struct Hull
 
 void add_node(inout Hull hull, vec3 normal, Node node)
 {
-    hull.box = joined(hull.box, Box(node.x - abs(node.sweep), node.x + abs(node.sweep)));
+    hull.box = joined(hull.box, Box(node.x - extent_of(node), node.x + extent_of(node)));
     const float height = dot(normal, node.x);
-    const float sweep = abs(dot(normal, node.sweep));
+    const float sweep = abs(dot(normal, node.sweep)) + abs(dot(normal, node.carry));
     hull.heights = vec2(min(hull.heights.x, height - sweep), max(hull.heights.y, height + sweep));
 }
 
-Hull hull_of(Search search, Fan fan)
+Hull hull_of(Fan fan, Viewpoint from, vec3 normal)
 {
     Hull hull = Hull(Box(vec3(k_unbounded), vec3(-k_unbounded)), vec2(k_unbounded, -k_unbounded));
-    add_node(hull, search.normal, node_of(fan.center, search.origin));
+    add_node(hull, normal, node_of(fan.center, from));
     for (uint k = 0; k < fan.wedges; ++k)
     {
         const Wedge wedge = wedge_of(fan, k);
         if (wedge.triangle || wedge.edge_b)
-            add_node(hull, search.normal, node_of(wedge.b, search.origin));
+            add_node(hull, normal, node_of(wedge.b, from));
         if (wedge.triangle || wedge.edge_c)
-            add_node(hull, search.normal, node_of(wedge.c, search.origin));
+            add_node(hull, normal, node_of(wedge.c, from));
     }
     return hull;
 }
@@ -126,7 +129,7 @@ void consider(inout Search search, uint vertex, uint cloth)
         return;
     if (cloth == search.cloth && search.fan.columns >= VOILE_LEAST_FLAT_COLUMNS && is_flat_neighbor(search, vertex))
         return;
-    if (!are_near(search, hull_of(search, fan_of(cloth, vertex))))
+    if (!are_near(search, hull_of(fan_of(cloth, vertex), search.from, search.normal)))
         return;
     if (search.count < VOILE_PAIR_CANDIDATES)
         candidates[search.fan.center * VOILE_PAIR_CANDIDATES + search.count] = vertex;
@@ -165,12 +168,13 @@ Search search_of(uint vertex, uint cloth)
     search.flat_around = Flat(flats.x, flats.y);
     search.range = cloths[cloth].pair_range;
     search.least_flat = VOILE_FLAT_RANGE * search.range;
-    search.origin = midpoints[vertex].xyz;
-    search.rounding = 4 * rounding(search.origin);
+    search.from = viewpoint_of(vertex);
+    search.rounding = 4 * rounding(search.from.x);
     const vec3 normal = normal_of(search);
     search.normal = normal / max(length(normal), 1e-30);
-    const Hull hull = hull_of(search, search.fan);
+    const Hull hull = hull_of(search.fan, search.from, search.normal);
     search.hull = hull.box;
+    search.tree_hull = hull_of(search.fan, Viewpoint(search.from.x, tree_carry()), search.normal).box;
     search.heights = hull.heights;
     search.count = 0;
     return search;
@@ -182,7 +186,7 @@ void find(inout Search search)
     for (uint k = 0; k <= k_retries; ++k)
     {
         search.count = 0;
-        search.box = grown(shifted(search.hull, search.origin), search.range + search.rounding);
+        search.box = grown(shifted(search.tree_hull, search.from.x), search.range + search.rounding);
         traverse_padded(search, 0, (1u << findMSB(2 * push.leaves - 1)) - 1, push.leaves);
         if (search.count <= VOILE_PAIR_CANDIDATES)
             return;

@@ -18,6 +18,7 @@ layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint candidates[]; };
 layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint searching_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
@@ -33,8 +34,8 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/node.glsl"
 #include "pairs/pair.glsl"
 
-// A wedge with its vertices, from the search's origin. A spoke that the fan does not own repeats the center. Spheres are around a primitive
-// with its sweeps: the middle and the radius.
+// A wedge with its vertices, as the search sees them. A spoke that the fan does not own repeats the center. Spheres are
+// around a primitive with its sweeps: the middle and the radius.
 struct Piece
 {
     Node a; // the center
@@ -51,7 +52,7 @@ struct Piece
 struct Search
 {
     Fan fan;
-    vec3 origin; // m, the middle of the vertex's sweep
+    Viewpoint from; // the middle of the vertex's sweep, carried as the vertex is
     float range;
     float rounding; // m, of positions near it
     uint count;
@@ -66,11 +67,14 @@ const float k_unbounded_range = 1e30;
 // Rounding of spheres, as a part of their radii.
 const float k_sphere_rounding = 1e-5;
 
-Box around(Node node) { return Box(node.x - abs(node.sweep), node.x + abs(node.sweep)); }
+Box around(Node node) { return Box(node.x - extent_of(node), node.x + extent_of(node)); }
+
+// m: how far the vertex may be from its middle.
+float reach_of(Node node) { return length(node.sweep) + length(node.carry); }
 
 vec4 sphere_around(Node a, Node b)
 {
-    return vec4(0.5 * (a.x + b.x), 0.5 * distance(a.x, b.x) + max(length(a.sweep), length(b.sweep)));
+    return vec4(0.5 * (a.x + b.x), 0.5 * distance(a.x, b.x) + max(reach_of(a), reach_of(b)));
 }
 
 vec4 sphere_around(Node a, Node b, Node c)
@@ -78,16 +82,16 @@ vec4 sphere_around(Node a, Node b, Node c)
     const vec3 middle = (a.x + b.x + c.x) / 3;
     const vec3 radii = vec3(distance(middle, a.x), distance(middle, b.x), distance(middle, c.x));
     return vec4(middle, max(radii.x, max(radii.y, radii.z)) +
-                            max(length(a.sweep), max(length(b.sweep), length(c.sweep))));
+                            max(reach_of(a), max(reach_of(b), reach_of(c))));
 }
 
 Piece piece_of(Search search, Fan fan, uint k)
 {
     Piece piece;
     piece.wedge = wedge_of(fan, k);
-    piece.a = node_of(fan.center, search.origin);
-    piece.b = piece.wedge.triangle || piece.wedge.edge_b ? node_of(piece.wedge.b, search.origin) : piece.a;
-    piece.c = piece.wedge.triangle || piece.wedge.edge_c ? node_of(piece.wedge.c, search.origin) : piece.a;
+    piece.a = node_of(fan.center, search.from);
+    piece.b = piece.wedge.triangle || piece.wedge.edge_b ? node_of(piece.wedge.b, search.from) : piece.a;
+    piece.c = piece.wedge.triangle || piece.wedge.edge_c ? node_of(piece.wedge.c, search.from) : piece.a;
     piece.box = joined(around(piece.a), joined(around(piece.b), around(piece.c)));
     piece.edge_b = sphere_around(piece.a, piece.b);
     piece.edge_c = sphere_around(piece.a, piece.c);
@@ -120,20 +124,33 @@ void insert(inout Search search, uvec4 vertices, bool edges, float at)
     pair_distances[first + place] = at;
 }
 
-// m: a lower bound of the distance of both sides along their sweeps. Both are convex, so any plane between them gives
-// one. This plane is between the nearest points of the middles. A sweep along it costs nothing.
+// m: between both sides along a direction, `heights` and `sweeps`: of the vertices along it.
+float gap_between(bool edges, vec4 heights, vec4 sweeps)
+{
+    const vec4 low = heights - sweeps;
+    const vec4 high = heights + sweeps;
+    return (edges ? min(low.x, low.y) : low.x) - (edges ? max(high.z, high.w) : max(high.y, max(high.z, high.w)));
+}
+
+// m: a lower bound of the distance of both sides along their sweeps. Both are convex, so any direction gives one. This
+// one is that of the nearest points of the middles. A sweep across it costs nothing, nor does what carries both. The
+// gap is concave in the time of the clock, so that it is least at one end.
 float distance_of(Search search, bool edges, Node nodes[4])
 {
     const vec3 x[4] = vec3[](nodes[0].x, nodes[1].x, nodes[2].x, nodes[3].x);
     const vec3 apart = nearest_points(edges, x).apart;
     const vec3 n = apart / max(length(apart), 1e-20);
-    const Separation between = separate(edges, x, n);
-    const vec4 sweeps = abs(vec4(dot(n, nodes[0].sweep), dot(n, nodes[1].sweep), dot(n, nodes[2].sweep),
-                                 dot(n, nodes[3].sweep)));
-    const vec4 past = sweeps - between.from_plane; // their planes
-    const float first = edges ? max(past.x, past.y) : past.x;
-    const float second = edges ? max(past.z, past.w) : max(past.y, max(past.z, past.w));
-    return between.gap - first - second - search.rounding;
+    vec4 heights;
+    vec4 sweeps;
+    vec4 carries;
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+    {
+        heights[k] = dot(n, x[k] - x[0]);
+        sweeps[k] = abs(dot(n, nodes[k].sweep));
+        carries[k] = dot(n, nodes[k].carry);
+    }
+    return min(gap_between(edges, heights - carries, sweeps), gap_between(edges, heights + carries, sweeps)) -
+           search.rounding;
 }
 
 // False: the distance is more than the range.
@@ -146,7 +163,7 @@ bool are_near(Search search, vec4 a, vec4 b)
 
 void consider_triangle(inout Search search, Node v, Piece piece)
 {
-    if (!piece.wedge.triangle || !are_near(search, vec4(v.x, length(v.sweep)), piece.triangle) ||
+    if (!piece.wedge.triangle || !are_near(search, vec4(v.x, reach_of(v)), piece.triangle) ||
         v.vertex == piece.a.vertex || v.vertex == piece.b.vertex || v.vertex == piece.c.vertex)
         return;
     const float at = distance_of(search, false, Node[](v, piece.a, piece.b, piece.c));
@@ -208,9 +225,9 @@ Search search_of(uint vertex, PairList list, uint lane)
 {
     Search search;
     search.fan = fan_of(list.cloth, vertex);
-    search.origin = midpoints[vertex].xyz;
+    search.from = viewpoint_of(vertex);
     search.range = list.range;
-    search.rounding = 4 * rounding(search.origin);
+    search.rounding = 4 * rounding(search.from.x);
     search.count = 0;
     search.lane = lane;
     search.lanes = push.lanes;

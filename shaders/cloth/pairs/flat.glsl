@@ -13,10 +13,11 @@
 // from h to v, from h - v to h, from v - h to v, and their opposites. On the first a + b = 1 and a, b >= 0, so discs
 // matter by the larger radius. On the others |a|, |b| <= 1, so they matter by the sum of both radii.
 //
-// Each vertex may be anywhere on its sweep, so each side comes nearer by at most half of the longest sweep, projected.
-// Projections are not longer than what they project. tests/pairs/test_pair_lists.cpp compares with all pairs.
+// The clock carries vertices together. At any time the edges are between those at its beginning and at its end, so both
+// count. From there a vertex may be anywhere on its sweep, so each side comes nearer by at most half of the longest
+// sweep, projected. Projections are not longer than what they project. tests/pairs/test_pair_lists.cpp compares with all pairs.
 //
-// The including kernel declares midpoints[].
+// The including kernel declares midpoints[] and pair_carries[].
 #ifndef VOILE_FLAT_GLSL
 #define VOILE_FLAT_GLSL
 
@@ -79,6 +80,7 @@ float least_distance(Window window)
 struct Plane
 {
     vec3 from;
+    vec3 carry; // m, half of it
     vec3 x;
     vec3 y;
 };
@@ -97,7 +99,7 @@ Plane tangent_plane(Fan fan)
     const vec3 down = midpoints[center + high.y * columns].xyz - midpoints[center + low.y * columns].xyz;
     const vec3 x = along / max(length(along), 1e-30);
     const vec3 y = down - dot(down, x) * x;
-    return Plane(midpoints[center].xyz, x, y / max(length(y), 1e-30));
+    return Plane(midpoints[center].xyz, unpack_half_sweep(pair_carries[center]), x, y / max(length(y), 1e-30));
 }
 
 // Both windows of a vertex.
@@ -114,8 +116,15 @@ const int k_flat_columns = k_flat_offset.x + 1;
 struct Row
 {
     bool exists;
-    vec2 x[2 * k_flat_columns + 1];
+    vec4 x[2 * k_flat_columns + 1]; // halfway, and half of its carry
 };
+
+// An edge at the beginning and at the end of the clock.
+void add_edge(inout Spread spread, vec4 edge)
+{
+    add(spread, edge.xy - edge.zw);
+    add(spread, edge.xy + edge.zw);
+}
 
 bool is_inner(ivec2 at)
 {
@@ -126,26 +135,28 @@ bool is_inner(ivec2 at)
 void add_row(Fan fan, Plane plane, int row, inout Row above, inout Windows windows)
 {
     bool has_left = false;
-    vec2 left = vec2(0);
+    vec4 left = vec4(0);
     [[unroll]] for (int k = 0; k <= 2 * k_flat_columns; ++k)
     {
         const ivec2 at = ivec2(k - k_flat_columns, row);
         if (uint(fan.column_row.x + at.x) >= fan.columns)
             continue;
-        const vec4 midpoint = midpoints[int(fan.center) + at.y * int(fan.columns) + at.x];
-        const vec2 x = in_plane(plane, midpoint.xyz - plane.from);
+        const int vertex = int(fan.center) + at.y * int(fan.columns) + at.x;
+        const vec4 midpoint = midpoints[vertex];
+        const vec2 carry = in_plane(plane, unpack_half_sweep(pair_carries[vertex]) - plane.carry);
+        const vec4 x = vec4(in_plane(plane, midpoint.xyz - plane.from), carry);
         const float sweep = length(in_plane(plane, unpack_half_sweep(floatBitsToUint(midpoint.w))));
         const bool inner = is_inner(at);
         windows.wide.sweep = max(windows.wide.sweep, sweep);
         windows.narrow.sweep = inner ? max(windows.narrow.sweep, sweep) : windows.narrow.sweep;
         if (has_left)
-            add(windows.wide.along, x - left);
+            add_edge(windows.wide.along, x - left);
         if (has_left && inner && is_inner(at - ivec2(1, 0)))
-            add(windows.narrow.along, x - left);
+            add_edge(windows.narrow.along, x - left);
         if (above.exists)
-            add(windows.wide.down, x - above.x[k]);
+            add_edge(windows.wide.down, x - above.x[k]);
         if (above.exists && inner && is_inner(at - ivec2(0, 1)))
-            add(windows.narrow.down, x - above.x[k]);
+            add_edge(windows.narrow.down, x - above.x[k]);
         has_left = true;
         left = above.x[k] = x;
     }

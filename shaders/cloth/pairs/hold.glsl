@@ -6,6 +6,7 @@
 
 #include "contact/contact_vertex.glsl"
 #include "pairs/guard.glsl"
+#include "pairs/sweep.glsl"
 
 // Rounding that guards leave room for, as a part of lengths.
 const float k_guard_rounding = 1e-5;
@@ -13,12 +14,15 @@ const float k_guard_rounding = 1e-5;
 // New lists are made before a vertex has used this part of its reach.
 const float k_used_reach = 0.8;
 
-// A vertex within its guards, and where they end.
+// A vertex within its guards, and where they end. The clock of the lists may carry both.
 struct Hold
 {
     PairBound bound;
-    vec3 at; // m, the start of the substep from the guard's
-    vec3 swept; // m, the start of the substep from the sweep's
+    vec3 at;         // m, the start of the motion from the guard's
+    vec3 swept;      // m, the start of the motion from the sweep's
+    vec3 carry;      // m/s
+    vec3 carried;    // m, in the time of the motion
+    vec3 left;       // m, for which the clock ends too early, until the pass after the next
 };
 
 Hold hold_of(uint i, FinePosition from)
@@ -36,6 +40,15 @@ Hold hold_of(uint i, FinePosition from)
     const PairGuard guard = hold.bound.guard;
     hold.at = displacement(FinePosition(guard.from, unpack_residual(guard.residual)), from);
     hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
+    const float rate = uintBitsToFloat(pair_searches[VOILE_PAIR_RATE].entries);
+    const float clock = uintBitsToFloat(pair_searches[VOILE_PAIR_CLOCK].entries);
+    const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry);
+    hold.carry = rate * velocity;
+    hold.carried = (push.pair_to - push.pair_from) * hold.carry;
+    hold.at -= push.pair_from * hold.carry;
+    hold.swept -= clock * velocity + push.pair_from * hold.carry;
+    const float end = clock + rate * push.pair_to + push.pair_ahead * push.step;
+    hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * velocity;
     return hold;
 }
 
@@ -45,7 +58,7 @@ vec3 along_planes(Hold hold, vec3 motion)
     for (uint k = 0; k < 4; ++k)
     {
         const vec4 plane = hold.bound.guard.planes[k & 1u];
-        motion -= min(dot(plane.xyz, hold.at + motion) + plane.w * (1 - k_guard_rounding), 0) * plane.xyz;
+        motion -= min(dot(plane.xyz, hold.at - hold.carried + motion) + plane.w * (1 - k_guard_rounding), 0) * plane.xyz;
     }
     return motion;
 }
@@ -61,14 +74,15 @@ float squared_distance_from_sweep(vec3 x, vec3 sweep)
 bool wants_lists(Hold hold, vec3 motion)
 {
     const float most = k_used_reach * hold.bound.sweep.reach;
-    return squared_distance_from_sweep(hold.swept + (1 + push.pair_ahead) * motion, hold.bound.sweep.sweep) >= most * most;
+    const vec3 ahead = hold.swept + (1 + push.pair_ahead) * (motion - hold.carried) + hold.left;
+    return squared_distance_from_sweep(ahead, hold.bound.sweep.sweep) >= most * most;
 }
 
 // Whether no unlisted pair can have met. Rounding may take a vertex that ends its sweep's reach a little farther.
 bool is_in_sweep(Hold hold, vec3 motion)
 {
     const float reach = (1 + k_guard_rounding) * hold.bound.sweep.reach;
-    return squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep) <= reach * reach;
+    return squared_distance_from_sweep(hold.swept - hold.carried + motion, hold.bound.sweep.sweep) <= reach * reach;
 }
 
 // Where a vertex is within its guards. Each number is negative outside, and grows inwards.
@@ -79,6 +93,7 @@ struct Room
     float sweep; // m^2
 };
 
+// `motion`: relative to what carries the vertex.
 Room room_at(Hold hold, vec3 motion)
 {
     const vec3 d = hold.at + motion;
@@ -98,7 +113,7 @@ bool is_held(Room room, Room start)
            room.sweep >= min(start.sweep, 0);
 }
 
-// The part of a motion after which the vertex is still within its guards. The guards are convex, and the start of the
+// The part of a motion, relative to what carries the vertex, after which the vertex is still within its guards. The guards are convex, and the start of the
 // motion is within them, so bisection finds the end.
 float held_part(Hold hold, vec3 motion)
 {

@@ -19,6 +19,7 @@ layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 pos
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_lists)) readonly buffer PairLists { PairList pair_lists[]; };
 layout(VOILE_BINDING(pair_thicknesses)) writeonly buffer PairThicknesses { float pair_thicknesses[]; };
 layout(VOILE_BINDING(pair_masks)) buffer PairMasks { uint pair_masks[]; };
@@ -119,7 +120,7 @@ void refer(Fan fan, uint at)
 }
 
 // Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
-// vertex stays where it is. It loses its velocity, so that the next sweeps are shorter.
+// clock stops and the vertex stays where it is. It loses its velocity, so that the next sweeps are shorter.
 void bound(uint i, float reach, bool listed)
 {
     PairSweep sweep;
@@ -127,6 +128,9 @@ void bound(uint i, float reach, bool listed)
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
     sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
     sweep.listed = listed ? 1 : 0;
+    sweep.carry = pair_carries[i];
+    if (reach <= 0 && unpack_half_sweep(sweep.carry) != vec3(0))
+        pair_searches[VOILE_PAIR_STOPPED].entries = push.pass + 1;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
@@ -139,6 +143,10 @@ void main()
     const uint i = self.index;
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
+    if (gl_GlobalInvocationID.x == 0)
+        pair_searches[VOILE_PAIR_CLOCKS + (push.pass & 1u)].entries = 0;
+    if (gl_GlobalInvocationID.x == 0)
+        pair_passes[VOILE_PAIR_CLEAR] = PairDispatch(0, 0, 0, 0);
     if (gl_GlobalInvocationID.x == 0)
         pair_passes[VOILE_PAIR_FIND] = PairDispatch(0, 1, 1, 0);
     if (gl_LocalInvocationID.x == 0)

@@ -18,6 +18,7 @@ layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 re
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_thicknesses)) readonly buffer PairThicknesses { float pair_thicknesses[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint pair_entries[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
@@ -34,11 +35,14 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/fine_position.glsl"
 #include "contact/friction_law.glsl"
+#include "pairs/clock.glsl"
 #include "pairs/direction.glsl"
 #include "pairs/pair.glsl"
 
 // The part of the thickness that no pair comes closer than, unless it begins closer.
 const float k_floor = 0.1;
+// The part that carries leave. Else a pair that they lead together for several passes would end nearer than rounding.
+const float k_carry_floor = 0.02;
 // A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
 const float k_part = 0.2;
 const float k_lift_speed = 0.25;
@@ -46,6 +50,7 @@ const float k_lift_speed = 0.25;
 const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
+const float k_unbounded = 1e30;
 // Halfs are rounded by less than this part.
 const float k_half_rounding = 1e-3;
 
@@ -55,6 +60,7 @@ struct Vertices
     vec3 x[4]; // m, from the first
     vec3 v[4]; // m/s, predicted for the middle of the coming interval
     vec3 slip[4];
+    vec3 carry[4]; // m, until the next pass if the clock runs as fast as time
     vec4 inverse_masses;
 };
 
@@ -68,6 +74,7 @@ void read_vertex(uint i, uint k, FinePosition origin, inout Vertices vertices)
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
+    vertices.carry[k] = carry_until_next(pair_carries[i]);
     vertices.inverse_masses[k] = position.w;
 }
 
@@ -131,6 +138,24 @@ vec2 driven_approach(uint sides, Vertices vertices, Separation separation)
     return needed;
 }
 
+// m: how far along the normal the planes of both sides are carried, as a half. Vertices without mass are not carried, so
+// their plane is not, either.
+float carry_of_planes(uint sides, Vertices vertices, Separation separation)
+{
+    float low = k_unbounded;
+    float high = -k_unbounded;
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+    {
+        const float along = dot(separation.n, vertices.carry[k]);
+        if (k < sides)
+            low = min(low, along + separation.from_plane[k]);
+        else
+            high = max(high, along - separation.from_plane[k]);
+    }
+    const bool driven = any(equal(vertices.inverse_masses, vec4(0)));
+    return driven ? 0 : unpackHalf2x16(packHalf2x16(vec2(0.5 * (low + high), 0))).x;
+}
+
 void add_load(uint vertex, float weight)
 {
     atomicAdd(pair_loads[(push.pass & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
@@ -173,12 +198,20 @@ void main()
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;
     vec3 heights = vec3(0);
+    const float carry = carry_of_planes(sides, vertices, separation);
+    const float room_to_carry = max(slack, VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness));
+    float rate = 1;
     for (uint k = begin; k < end; ++k)
     {
+        const float nearer = (carry - dot(n, vertices.carry[k])) * (first ? 1 : -1);
+        if (nearer > separation.from_plane[k] + room_to_carry)
+            rate = min(rate, (separation.from_plane[k] + room_to_carry) / nearer);
         heights[k - begin] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
         if (response.impulse != vec3(0))
             add_load(pair.vertices[k], nearest.weights[k]);
     }
-    response.heights = uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, 0)));
+    if (rate < 1)
+        atomicMin(pair_searches[VOILE_PAIR_RATES + (push.pass & 1u)].entries, floatBitsToUint(rate));
+    response.heights = uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
     pair_responses[entry] = response;
 }

@@ -16,6 +16,7 @@ layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex m
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
 layout(VOILE_BINDING(pair_flats)) writeonly buffer PairFlats { vec2 pair_flats[]; };
 
@@ -25,24 +26,25 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "shared/box.glsl"
 #include "pairs/flat.glsl"
 #include "pairs/pair_tree.glsl"
+#include "pairs/tree_carry.glsl"
 
-Box sweep_box(uint i)
+Box sweep_box(uint i, Viewpoint from)
 {
-    const Node node = node_of(i, vec3(0));
-    return Box(node.x - abs(node.sweep), node.x + abs(node.sweep));
+    const Node node = node_of(i, from);
+    return Box(node.x - extent_of(node), node.x + extent_of(node));
 }
 
 // Around the primitives that a vertex owns, rounding included.
-Box fan_box(Fan fan)
+Box fan_box(Fan fan, Viewpoint from)
 {
-    Box box = sweep_box(fan.center);
+    Box box = sweep_box(fan.center, from);
     for (uint k = 0; k < fan.wedges; ++k)
     {
         const Wedge wedge = wedge_of(fan, k);
         if (wedge.triangle || wedge.edge_b)
-            box = joined(box, sweep_box(wedge.b));
+            box = joined(box, sweep_box(wedge.b, from));
         if (wedge.triangle || wedge.edge_c)
-            box = joined(box, sweep_box(wedge.c));
+            box = joined(box, sweep_box(wedge.c, from));
     }
     return grown(box, rounding(box.min) + rounding(box.max));
 }
@@ -50,12 +52,13 @@ Box fan_box(Fan fan)
 Box leaf_box(uint leaf)
 {
     Box box = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u))); // empty
+    const Viewpoint from = Viewpoint(vec3(0), tree_carry());
     const uint first = leaf * VOILE_PAIR_LEAF;
     for (uint place = first; place < min(first + VOILE_PAIR_LEAF, push.places); ++place)
     {
         const uvec2 entry = pair_order[place];
         if (collides_with_itself(entry.y))
-            box = joined(box, fan_box(fan_of(entry.y, entry.x)));
+            box = joined(box, fan_box(fan_of(entry.y, entry.x), from));
     }
     return box;
 }

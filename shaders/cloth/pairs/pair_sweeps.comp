@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Chooses the sweeps of the vertices that collide with other cloth, and begins new lists. One thread per vertex.
+// Chooses how the lists of pairs expect vertices to move (sweep.glsl), and begins new lists. One thread per vertex.
 //
-// A sweep lasts for the sweep time, but its part along the surface is short. Vertices that sweep along the surface reach
-// their neighbors, and any of them may stop. Those that sweep across it do not.
+// What is clear of colliders is carried as it moves on average, its border less. The motion of a vertex relative to that
+// becomes its sweep. A sweep lasts for the same time, but its part along the surface is short: vertices that
+// sweep along the surface reach their neighbors, and any of them may stop. Those that sweep across it do not.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/pair_layout.h"
@@ -19,11 +20,21 @@ layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]
 layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
-layout(VOILE_BINDING(pair_passes)) writeonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; }; // x: 1: clear of colliders
+layout(VOILE_BINDING(pair_carries)) writeonly buffer PairCarries { uint pair_carries[]; };
+
+layout(VOILE_BINDING(pair_bounds)) readonly buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
+#include "pairs/clock.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
@@ -51,31 +62,74 @@ vec3 mesh_normal(Fan fan)
     return sum;
 }
 
-vec3 sweep_of(uint i, uint cloth)
+// m/s: the mean of all vertices that are clear of colliders.
+vec3 mean_velocity()
 {
-    const Fan fan = fan_of(cloth, i);
+    const PairDispatch sum = pair_passes[VOILE_PAIR_CLEAR];
+    return vec3(int(sum.groups), int(sum.wanted), int(sum.one)) *
+           (VOILE_PAIR_UNIT_SPEED * float(push.places) / float(max(sum.entries, 1)));
+}
+
+// The part of a neighborhood that is clear.
+float grid_clearance(Fan fan)
+{
+    float clear = 0;
+    float count = 1e-30;
+    for (uint k = 0; k < 16; ++k)
+    {
+        const ivec2 offset = ivec2(k_neighborhood[k & 3u], k_neighborhood[k >> 2]);
+        if (!in_grid(fan.column_row + offset, fan.columns, fan.rows))
+            continue;
+        clear += pair_flats[int(fan.center) + offset.y * int(fan.columns) + offset.x].x;
+        ++count;
+    }
+    return clear / count;
+}
+
+float mesh_clearance(Fan fan)
+{
+    float clear = pair_flats[fan.center].x;
+    for (uint k = 0; k < fan.wedges; ++k)
+        clear += pair_flats[fan.center - fan.local + fan_corner(fan, k).b].x;
+    return clear / float(1 + fan.wedges);
+}
+
+// m/s
+vec3 carry_of(uint i, Fan fan)
+{
+    if (positions[i].w == 0 || is_clock_stopped())
+        return vec3(0);
+    return (fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan)) * mean_velocity();
+}
+
+// `v`: m/s, relative to what carries the vertex.
+vec3 sweep_of(Fan fan, uint cloth, vec3 v)
+{
     const vec3 normal = fan.columns > 0 ? grid_normal(fan) : mesh_normal(fan);
     const vec3 n = normal / max(length(normal), 1e-30);
-    const vec3 v = velocities[i].xyz;
     const float along = length(v - dot(v, n) * n);
-    return v * min(push.sweep_time, min(cloths[cloth].pair_sweep / max(length(v), 1e-30),
+    return v * min(VOILE_PAIR_SWEEP_TIME, min(cloths[cloth].pair_sweep / max(length(v), 1e-30),
                                         cloths[cloth].pair_slide / max(along, 1e-30)));
 }
 
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
-    if (place < VOILE_PAIR_PASSES)
-        pair_passes[place] = PairDispatch(0, 1, 1, 0);
+    if (place < VOILE_PAIR_CLEAR)
+        pair_passes[place] = PairDispatch(place == VOILE_PAIR_RESPOND ? 1 : 0, 1, 1, 0);
     if (place >= push.places)
         return;
     const uint i = pair_order[place].x;
     const uint cloth = pair_order[place].y;
     if (!collides_with_itself(cloth))
         return;
-    const vec3 half_sweep = 0.5 * sweep_of(i, cloth);
-    const uint word = pack_half_sweep(half_sweep);
-    midpoints[i] = vec4(positions[i].xyz + unpack_half_sweep(word), uintBitsToFloat(word));
+    const Fan fan = fan_of(cloth, i);
+    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * carry_of(i, fan));
+    const vec3 half_carry = unpack_half_sweep(carry_word);
+    const vec3 relative = velocities[i].xyz - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
+    const uint word = pack_half_sweep(0.5 * sweep_of(fan, cloth, relative));
+    pair_carries[i] = carry_word;
+    midpoints[i] = vec4(positions[i].xyz + half_carry + unpack_half_sweep(word), uintBitsToFloat(word));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;
     pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
 }

@@ -15,12 +15,13 @@ layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 v
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint pair_references[]; };
 layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
+layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec4 paired_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 
-layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
 {
     PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
     PairBound pair_bounds[];
@@ -29,6 +30,7 @@ layout(VOILE_BINDING(pair_bounds)) writeonly buffer PairBounds
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/fine_position.glsl"
+#include "pairs/clock.glsl"
 #include "pairs/direction.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/guard.glsl"
@@ -43,6 +45,17 @@ struct Gather
     float touching; // the sum of the weights in pairs that push or drift
     vec3 drift;     // m, weighted
     PairGuard guard;
+};
+
+// The vertex that gathers.
+struct Self
+{
+    uint vertex;
+    uint first; // of its references
+    uint count;
+    float inverse_mass;
+    vec3 carry; // m, until the next pass if the clock runs as fast as time
+    float rate; // of the clock
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
@@ -111,21 +124,28 @@ float split_mobility(Pair pair, PairResponse response)
     return dot(abs(response.mobilities), loads) / VOILE_PAIR_UNIT_LOAD;
 }
 
-void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
+// The planes of a pair are carried, and so is the vertex. Its guard begins where it is nearest to its plane meanwhile.
+vec4 carried_plane(Self self, vec3 n, float height, float carry)
+{
+    return vec4(n, max(height - self.rate * max(carry - dot(n, self.carry), 0), 0));
+}
+
+void add_entry(uint entry, Self self, inout Gather sum)
 {
     const Pair pair = unpacked(pairs[entry]);
-    const uint place = place_in(pair, vertex);
+    const uint place = place_in(pair, self.vertex);
     const uint sides = first_side(pair);
     const bool first = place < sides;
     const PairResponse response = pair_responses[entry];
     const vec3 n = unpack_direction(response.normal);
-    const vec3 heights = vec3(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y).x);
-    add_plane(sum.guard, vec4(first ? n : -n, entry_of(vec4(heights, 0), first ? place : place - sides)));
+    const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
+    const float height = entry_of(heights, first ? place : place - sides);
+    add_plane(sum.guard, carried_plane(self, first ? n : -n, height, first ? heights.w : -heights.w));
     const bool pushed = response.impulse != vec3(0);
-    if (inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
+    if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
     const float own = entry_of(response.mobilities, place);
-    const float weight = own / inverse_mass;
+    const float weight = own / self.inverse_mass;
     sum.touching += abs(weight);
     sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
     const float mobility = split_mobility(pair, response);
@@ -133,12 +153,17 @@ void add_entry(uint entry, uint vertex, float inverse_mass, inout Gather sum)
         sum.change += own / mobility * response.impulse;
 }
 
-// `self`: the vertex, its cloth, the first of its references, and their number.
-Gather gather(uvec4 self, uint lane, float inverse_mass)
+// `entry`: the vertex, its cloth, the first of its references, and their number.
+Self self_of(uvec4 entry)
+{
+    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, carry_until_next(pair_carries[entry.x]), clock_rate());
+}
+
+Gather gather(Self self, uint lane)
 {
     Gather sum = nothing();
-    for (uint k = lane; k < self.w; k += push.threads)
-        add_entry(pair_references[self.z + k], self.x, inverse_mass, sum);
+    for (uint k = lane; k < self.count; k += push.threads)
+        add_entry(pair_references[self.first + k], self, sum);
     return sum;
 }
 
@@ -156,8 +181,22 @@ PairMemory remembered(uint i, uint cloth, Gather sum)
     return memory;
 }
 
+// For the substeps until the next pass, and for that pass.
+void keep_clock()
+{
+    const float clock = clock_at_pass();
+    const float rate = clock_rate();
+    const uint other = 1 - (push.pass & 1u);
+    pair_searches[VOILE_PAIR_RATE].entries = floatBitsToUint(rate);
+    pair_searches[VOILE_PAIR_CLOCK].entries = floatBitsToUint(clock);
+    pair_searches[VOILE_PAIR_CLOCKS + other].entries = floatBitsToUint(clock + rate * push.interval);
+    pair_searches[VOILE_PAIR_RATES + other].entries = floatBitsToUint(1);
+}
+
 void main()
 {
+    if (gl_GlobalInvocationID.x == 0)
+        keep_clock();
     const uint thread = gl_LocalInvocationID.x;
     const uint lane = thread % push.threads;
     const uint place = gl_GlobalInvocationID.x / push.threads;
@@ -166,7 +205,7 @@ void main()
     const uint i = self.x;
     Gather sum = nothing();
     if (exists)
-        sum = gather(self, lane, positions[i].w);
+        sum = gather(self_of(self), lane);
     merge(thread, lane, sum);
     if (!exists || lane != 0)
         return;

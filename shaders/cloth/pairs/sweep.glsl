@@ -1,5 +1,6 @@
-// Sweeps: the segments along which the lists of pairs expect vertices to move. Half of a sweep is packed beside its
-// middle, the midpoint: three signed numbers of 9 bits and an exponent of 5. Sweeps are what the packed words say.
+// Sweeps and carries: how the lists of pairs expect vertices to move. The clock of the lists carries all vertices
+// together; from there a vertex may be anywhere on its sweep. The middle of both is the midpoint. Half of each is
+// packed: three signed numbers of 9 bits and an exponent of 5. They are what the packed words say.
 #ifndef VOILE_SWEEP_GLSL
 #define VOILE_SWEEP_GLSL
 

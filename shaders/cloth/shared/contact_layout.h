@@ -76,6 +76,8 @@ struct ContactPush
     uint first_patch;   // of the dispatch
     uint after_pairs;   // 1: the impulses of pairs are new
     float pair_ahead;   // substeps from one pass over pairs to the next
+    float pair_from;    // s, from the last pass over pairs to the start of the motion
+    float pair_to;      // s, to its end
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
     uint kicks;         // substeps since the last contact pass
 };
@@ -92,7 +94,7 @@ struct DepenetrationPush
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
 static_assert(sizeof(ContactPlane) == 32);
-static_assert(sizeof(ContactPush) == 84);
+static_assert(sizeof(ContactPush) == 92);
 #endif
 
 VOILE_SHARED_END

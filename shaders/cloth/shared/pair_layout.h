@@ -20,6 +20,18 @@
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
 // had.
 #define VOILE_PAIR_FORCED 0
+// Those whose `entries` are the clock of the lists (PairSweep). It runs at most as fast as time, and more slowly where
+// vertices that it carries would meet. First the rates for which pairs have room and the clock at the beginning of a
+// pass, s, both as floats, for even and for odd passes.
+#define VOILE_PAIR_RATES 1
+#define VOILE_PAIR_CLOCKS 3
+// The rate and the clock of the last pass.
+#define VOILE_PAIR_RATE 5
+#define VOILE_PAIR_CLOCK 6
+// The pass, + 1, in which the clock carried vertices too near each other. For some passes nothing is carried then. 0:
+// there was none in this step.
+#define VOILE_PAIR_STOPPED 7
+#define VOILE_PAIR_STOPPED_PASSES 16
 // The most candidates of a vertex. They take the memory of the references to pairs.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
@@ -29,7 +41,13 @@
 #define VOILE_PAIR_REFERENCES 2
 // Of a search, over the vertices that have candidates.
 #define VOILE_PAIR_FIND 3
-#define VOILE_PAIR_PASSES 4
+// No dispatch: during a search the sum of the velocities of vertices that are clear of colliders, and their number.
+#define VOILE_PAIR_CLEAR 4
+#define VOILE_PAIR_PASSES 5
+// Velocities are summed up in this unit, as a part of the mean.
+#define VOILE_PAIR_UNIT_SPEED 1e-6f
+// s: the clock of the lists ends there.
+#define VOILE_PAIR_SWEEP_TIME 3e-3f
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f
 // Cloth is flat around a vertex if its primitives are farther apart than this part of the range of lists.
@@ -60,8 +78,9 @@ struct PairList
     uint mask; // the places of pairs that both sides list
 };
 
-// Where a vertex may be until the lists are made again: within `reach` of the segment from `from` to `from + sweep`.
-// Then no two primitives that no list contains can meet.
+// Where a vertex may be until the lists are made again. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
+// what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from there to `sweep` beyond. Then no
+// two primitives that no list contains can meet.
 struct PairSweep
 {
     vec3 from;      // m
@@ -69,11 +88,13 @@ struct PairSweep
     vec3 sweep;     // m
     uint listed;    // 1: the vertex is in a listed pair
     uvec2 residual; // of `from` (fine_position.glsl)
-    uvec2 padding_1;
+    uint carry;
+    uint padding_1;
 };
 
-// Where a vertex may be until the next pass over the pairs. Its displacement d from `from` satisfies
-// dot(plane.xyz, d) + plane.w >= 0 for each plane, and length(d) <= reach. Then no two primitives of a list can meet.
+// Where a vertex may be until the next pass over the pairs. Let d be its displacement from `from`, less that by which
+// the clock has carried it since. dot(plane.xyz, d) + plane.w >= 0 for each plane, and length(d) <= reach. Then no two
+// primitives of a list can meet.
 struct PairGuard
 {
     vec4 planes[2];
@@ -107,14 +128,15 @@ struct PairResponse
     vec3 impulse;    // m/s, towards the first side, for a pair of inverse mass 1/kg; 0: the pair is not pushed
     uint normal;     // towards the first side (packSnorm2x16 of its octahedral map)
     vec4 mobilities; // 1/kg, weight times inverse mass of each vertex
-    uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side
+    uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side; how far along
+                     // the normal the clock carries the planes of both sides until the next pass, if it runs as fast
+                     // as time
     uvec2 drift;     // m, as halfs: how far a pair that just does not touch slides until the next pass
 };
 
 struct PairPush
 {
-    float interval;   // s, from this pass to the next
-    float sweep_time; // s, for which the sweeps of the lists last
+    float interval; // s, from this pass to the next
     uint first_patch;
     uint places;   // in the order of vertices
     uint leaves;   // of the hierarchy
@@ -123,6 +145,7 @@ struct PairPush
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
     uint capacity; // of a list, at most VOILE_PAIRS
+    uint colliders;
 };
 
 #ifdef __cplusplus

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace voile
@@ -14,9 +15,6 @@ namespace
 
 // s: contact between cloths needs no more passes than this has in a step.
 constexpr float k_interval = 0.4e-3f;
-
-// s: lists that no vertex leaves last that long.
-constexpr float k_sweep_time = 3e-3f;
 
 // That share the pairs of a vertex. On CPU devices one.
 uint32_t threads_per_vertex(const Tuning& tuning)
@@ -67,7 +65,6 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     const auto& sets = solver_.device->sets;
     shared::PairPush push{};
     push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
-    push.sweep_time = k_sweep_time;
     push.places = solver_.device->pair_places;
     push.leaves = leaves_;
     push.pass = first_pass_ + substep / period_;
@@ -75,6 +72,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
     push.capacity = solver_.options.tuning.pair_capacity;
+    push.colliders = solver_.passes.colliders;
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
@@ -96,13 +94,20 @@ void PairRecorder::write_sizes()
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
+    for (const uint32_t parity : {0u, 1u})
+        sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
+    const shared::PairDispatch no_velocities{};
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),
+                     std::as_bytes(std::span(&no_velocities, 1)));
 }
 
 void PairRecorder::find(const shared::PairPush& push, size_t from)
 {
     const auto& sets = solver_.device->sets;
     const VkBuffer sizes = (*solver_.device)[buffer::pair_bounds].handle();
+    recorder_.dispatch_indirect(solver_.kernels.pair_clear, sets.pair_clear[from], sizes,
+                                offset_of(VOILE_PAIR_OF_PATCHES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PLACES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_PLACES),

@@ -251,8 +251,10 @@ void Describer::add_pairs()
     for (size_t parity = 0; parity < 2; ++parity)
     {
         const StateBuffers& now = k_proposals[parity].earlier;
-        add(sets_.pair_sweeps[parity], kernels_.pair_sweeps,
-            {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
+        for (const auto& [set, kernel] :
+             {std::pair(&sets_.pair_clear, &kernels_.pair_clear), std::pair(&sets_.pair_sweeps, &kernels_.pair_sweeps)})
+            add((*set)[parity], *kernel,
+                {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
         add(sets_.index_pairs[parity], kernels_.index_pairs,
             {{binding::stage_positions, now.positions}, {binding::stage_residuals, now.residuals}});
         for (const auto& [set, kernel] : {std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),

@@ -294,7 +294,11 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.after_pairs = after_pairs ? 1 : 0;
-    push.pair_ahead = static_cast<float>(substeps_per_pass(h_));
+    const uint32_t period = substeps_per_pass(h_);
+    push.pair_ahead = static_cast<float>(period);
+    // After the last substep no time passes.
+    push.pair_from = h_ * static_cast<float>(substep < substeps_ ? substep % period : (substeps_ - 1) % period + 1);
+    push.pair_to = push.pair_from + (substep < substeps_ ? h_ : 0);
     push.limited_only = substep == substeps_ ? 1 : 0;
     if (keeps_contact_start(substep))
         push.result = VOILE_CONTACT_KEEPS_START;
