@@ -27,7 +27,6 @@ layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 nex
 // relaxation: sums of positions would lose momentum to rounding. The w of velocities is the inverse mass of the vertex
 // alone.
 shared vec4 displacements[2][VOILE_LIMIT_COARSE_VERTICES];
-shared vec4 starts[VOILE_LIMIT_COARSE_VERTICES];
 shared vec4 vs[VOILE_LIMIT_COARSE_VERTICES];
 
 struct Grid
@@ -80,8 +79,7 @@ void load(Grid g)
         const uint i = vertex(g, column_row(g, g.shift, k));
         const vec4 v = velocities[i];
         displacements[0][k] = displacements[1][k] = vec4(vec3(0), cloths[g.cloth].strain_relaxation);
-        starts[k] = positions[i];
-        vs[k] = vec4(v.xyz, limit_inverse_mass(starts[k].w > 0 ? 1 : 0, v.w));
+        vs[k] = vec4(v.xyz, limit_inverse_mass(positions[i].w > 0 ? 1 : 0, v.w));
     }
 }
 
@@ -90,19 +88,21 @@ void store(Grid g, uint now)
     for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, g.shift); k += gl_WorkGroupSize.x)
     {
         const uint i = vertex(g, column_row(g, g.shift, k));
-        const FinePosition here = FinePosition(starts[k].xyz, unpack_residual(residuals[i]));
+        const FinePosition here = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
         const FinePosition next = moved(here, displacements[now][k].xyz);
-        next_positions[i] = vec4(next.x, starts[k].w);
+        next_positions[i] = vec4(next.x, positions[i].w);
         next_residuals[i] = pack_residual(next);
         next_velocities[i] = vec4(vs[k].xyz, 0);
     }
 }
 
-End end_at(uint k, uint now, float inverse_mass, bool is_first)
+// The state at the start stays in its buffer: with it, the arrays would take more than the 16 KB that every device has.
+End end_at(Grid g, ivec2 at, uint now, float inverse_mass, bool is_first)
 {
+    const uint k = slot(g, at);
     const vec4 d = displacements[now][k];
     const vec4 v = vs[k];
-    return End(starts[k].xyz + d.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : d.w);
+    return End(positions[vertex(g, at)].xyz + d.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : d.w);
 }
 
 Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
@@ -111,7 +111,7 @@ Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
     const bool is_first = spacing_and_pass.y == 0;
     const vec2 rest = vec2(cloths[g.cloth].springs[0].rest_length, cloths[g.cloth].springs[1].rest_length);
     const LevelNeighbors n = level_neighbors(at, g.lines, spacing, cloths[g.cloth].border_scale);
-    const End end = end_at(slot(g, at), now, inverse_mass_at(n, ivec2(0)), is_first);
+    const End end = end_at(g, at, now, inverse_mass_at(n, ivec2(0)), is_first);
     Correction correction = k_no_correction;
     for (int s = 0; s < 8; ++s)
     {
@@ -119,7 +119,7 @@ Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
         const ivec2 to = neighbor_at(n, at, offset);
         if (cloths[g.cloth].springs[level_class(s)].stiffness == 0 || to == at)
             continue;
-        const End other = end_at(slot(g, to), now, inverse_mass_at(n, offset), is_first);
+        const End other = end_at(g, to, now, inverse_mass_at(n, offset), is_first);
         add_limit(correction, end, other, (1 + cloths[g.cloth].strain_limit) * length(vec2(to - at) * rest), 0);
     }
     return correction;

@@ -28,11 +28,16 @@ public:
     // Lists the colliders near each patch, until the next query. Records nothing with few colliders. The first query
     // comes before all other passes of the step that read colliders.
     void record_near_colliders(uint32_t substep);
-    // Integration, attachments, tethers, and contact if a contact pass is due. `after_pairs`: the pass over pairs
-    // before it has impulses for that one.
+    // Integration, attachments, tethers, and contact if a contact pass is due.
     void record_substep(uint32_t substep, bool after_pairs);
     // The number of substeps from one contact pass to the next. The last ones of a step may be closer.
     [[nodiscard]] uint32_t contact_period() const { return contact_period_; }
+    // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
+    // state, because its contact pass copies if the number of substeps is odd. Without contact only Verlet exchanges.
+    [[nodiscard]] bool in_stage_b(uint32_t substep) const
+    {
+        return substep % 2 == 1 && (has_contact_ ? swaps_ && substep < substeps_ : true);
+    }
     // Verlet's last half kick.
     void finish();
     // Attachments, tethers and contact after the strain limit, over no time.
