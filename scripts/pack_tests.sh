@@ -63,6 +63,7 @@ sed 's|"library_path": *"[^"]*"|"library_path": "./lib'"$layer_name"'.so"|' "$ma
 
 cp -r build/release/scenes "$pack/scenes"
 cp -r tests/golden "$pack/sources/tests/golden"
+cp -r shaders "$pack/sources/shaders"
 cp docs/buffers.md "$pack/sources/docs/"
 cp -r samples/scenes "$pack/sources/samples/scenes"
 cp scripts/run_packed_tests.sh "$pack/run.sh"

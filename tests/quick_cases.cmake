@@ -156,6 +156,7 @@ quick(test_viewer
     "the jelly scene runs at a coarse resolution, and its cloth stays outside")
 quick(test_viewer_parts)
 quick(test_window
+    "a changed shader changes the picture, and a broken one is reported by its line"
     "a period takes one step while paused, and R starts again"
     "a window is resized, and Escape closes it")
 

@@ -1,10 +1,11 @@
 #include "samples/viewer/film.hpp"
 
+#include "samples/viewer/child_process.hpp"
+
 #include "voile/engine/assets/words.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,8 +18,6 @@
 #include <sstream>
 #include <utility>
 #include <vector>
-
-extern char** environ; // NOLINT(readability-redundant-declaration): POSIX leaves declaring it to the program
 
 namespace viewer
 {
@@ -47,39 +46,6 @@ std::vector<std::string> encoder_arguments(const FilmSettings& settings, const f
             "-an", "-vf", filter, "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-colorspace", "bt709",
             "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4",
             "file:" + file.string()};
-}
-
-// Starts it with `input` and `messages` as its standard input and error. Returns an errno, 0 for none.
-int spawn_encoder(std::vector<std::string> arguments, int input, int messages, pid_t& process)
-{
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments)
-        pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    (void)posix_spawn_file_actions_init(&actions);
-    (void)posix_spawnattr_init(&attributes);
-    (void)posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    (void)posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
-    // A process group of its own: Ctrl-C reaches the viewer alone, and the encoder can be ended with what it started.
-    // And signals as every program starts with them, whatever the viewer does with its own.
-    sigset_t none;
-    sigset_t ignored;
-    (void)sigemptyset(&none);
-    (void)sigemptyset(&ignored);
-    (void)sigaddset(&ignored, SIGPIPE);
-    (void)sigaddset(&ignored, SIGXFSZ);
-    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    (void)posix_spawnattr_setpgroup(&attributes, 0);
-    (void)posix_spawnattr_setsigmask(&attributes, &none);
-    (void)posix_spawnattr_setsigdefault(&attributes, &ignored);
-    const int problem = posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
-    (void)posix_spawnattr_destroy(&attributes);
-    (void)posix_spawn_file_actions_destroy(&actions);
-    return problem;
 }
 
 void close_descriptor(int& descriptor)
@@ -128,8 +94,8 @@ voile::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSet
         return film_error(path, std::string("no socket: ") + std::strerror(errno));
     film.socket_ = ends[0];
     film.temporary_ = voile::engine::TemporaryFile(film.target_);
-    const int problem = spawn_encoder(encoder_arguments(settings, film.temporary_.path()), ends[1],
-                                      ::fileno(film.messages_), film.encoder_);
+    const int problem = start_program(encoder_arguments(settings, film.temporary_.path()),
+                                      {.input = ends[1], .errors = ::fileno(film.messages_)}, film.encoder_);
     close_descriptor(ends[1]);
     if (problem == 0)
     {
@@ -142,8 +108,7 @@ voile::Result<FilmWriter> FilmWriter::create(const fs::path& path, const FilmSet
         return film;
     }
     film.encoder_ = -1;
-    // EACCES also comes from a folder of PATH that may not be searched.
-    if (problem == ENOENT || (problem == EACCES && settings.program.find('/') == std::string::npos))
+    if (is_missing(problem, settings.program))
         return film_error(path, settings.program + " is not installed (or not in PATH)");
     return film_error(path, settings.program + " cannot be started: " + std::strerror(problem));
 }
@@ -164,15 +129,8 @@ FilmWriter::FilmWriter(FilmWriter&& other) noexcept
 int FilmWriter::wait_for_encoder()
 {
     close_descriptor(socket_);
-    int status = -1;
-    if (encoder_ > 0)
-    {
-        while (::waitpid(encoder_, &status, 0) < 0 && errno == EINTR)
-        {
-        }
-        encoder_ = -1;
-        encoder_cleanup_.reset();
-    }
+    const int status = wait_for_program(std::exchange(encoder_, -1));
+    encoder_cleanup_.reset();
     return status;
 }
 

@@ -6,6 +6,7 @@
 #include "samples/viewer/output_check.hpp"
 #include "samples/viewer/panel.hpp"
 #include "samples/viewer/progress.hpp"
+#include "samples/viewer/shader_reload.hpp"
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/verify.hpp"
 
@@ -242,9 +243,14 @@ int run_scene(const Options& options)
                     voile::engine::take(AnimationExports::create(app, scene.stage, animated, scene.file, options))};
     Measured measured;
     Controls controls(app, scene);
-    Panel panel(app, scene, controls);
+    std::optional<ShaderReload> shaders;
+    if (options.shaders)
+        shaders.emplace(app.renderer(), *options.shaders);
+    Panel panel(app, scene, controls, shaders ? &*shaders : nullptr);
     const voile::engine::IdleGuard idle(app.device());
     connect(app, scene, outputs, measured, controls, panel);
+    if (shaders)
+        app.before_frame = [&] { shaders->update(); };
     const voile::engine::EarlyFinish early;
     run_frames(app, scene, outputs, controls, measured, capture ? &*capture : nullptr, early);
 

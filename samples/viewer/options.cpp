@@ -43,7 +43,7 @@ struct Typed
 {
     std::vector<std::string> scenes;
     std::vector<std::string> frames, size, out, every, video, stats, exports, resolution, colliders, device, capture,
-        debug;
+        debug, shaders;
 };
 
 constexpr const char* k_description = "Simulates cloth on the GPU and shows it, in a window or as files.";
@@ -111,6 +111,11 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
                    "none is named), the vertices in contact, the vertex normals, or the vertices of\n"
                    "intersecting edges and triangles, which it also counts each frame; repeatable")
         ->type_name("boxes[:LEVEL]|contacts|normals|intersections")
+        ->group(group);
+    app.add_option("--shaders", typed.shaders,
+                   "Draws with the shaders of this folder (shaders/render, or a copy), and compiles\n"
+                   "them when their files change; needs glslangValidator")
+        ->type_name("DIR")
         ->group(group);
     app.add_flag("--verify", options.verify,
                  "Adds exact checks of the final state to the statistics:\npenetration and intersections")
@@ -313,6 +318,7 @@ voile::Result<Options> convert_all(const Typed& typed, Options options)
     if (!options.capture_key)
         options.capture = convert.integer("--capture", typed.capture, 0, k_most_frames);
     convert_debug(convert, typed.debug, options.debug);
+    options.shaders = convert.path("--shaders", typed.shaders);
     check_together(convert, typed, options);
     if (convert.error)
         return voile::Error{*convert.error};

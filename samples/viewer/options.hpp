@@ -66,6 +66,7 @@ struct Options
     bool capture_key = false;          // F12 in the window captures a frame
     bool paused = false;               // the window opens paused
     bool verify = false;
+    std::optional<std::filesystem::path> shaders{}; // a folder of render shaders that is watched
     DebugOptions debug{};
 
     // Not empty: print this on standard output and leave with exit code 0 (--help, --version).

@@ -145,8 +145,8 @@ struct Panel::State
     voile::engine::OverlayTriangles triangles{};
 };
 
-Panel::Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls)
-    : state_(new State{.contents = {.app = app, .scene = scene, .controls = controls}})
+Panel::Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const ShaderReload* shaders)
+    : state_(new State{.contents = {.app = app, .scene = scene, .controls = controls, .shaders = shaders}})
 {
     if (!app.has_window())
         return;

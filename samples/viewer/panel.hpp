@@ -2,6 +2,7 @@
 #pragma once
 
 #include "samples/viewer/controls.hpp"
+#include "samples/viewer/shader_reload.hpp"
 
 #include <memory>
 
@@ -11,7 +12,8 @@ namespace viewer
 class Panel
 {
 public:
-    Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls);
+    // `shaders`: may be null.
+    Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const ShaderReload* shaders);
     ~Panel();
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;

@@ -85,6 +85,15 @@ void show_boxes(DebugOptions& debug)
         debug.boxes = static_cast<uint32_t>(level);
 }
 
+void show_shader_errors(const ShaderReload* shaders)
+{
+    if (shaders == nullptr || shaders->errors().empty())
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 120, 100, 255));
+    ImGui::TextWrapped("shaders: %s", shaders->errors().c_str());
+    ImGui::PopStyleColor();
+}
+
 } // namespace
 
 void show_run(PanelContents& panel)
@@ -121,6 +130,7 @@ void show_run(PanelContents& panel)
         controls.save_picture();
     if (!controls.message().empty())
         ImGui::TextWrapped("%s", controls.message().c_str());
+    show_shader_errors(panel.shaders);
 }
 
 void show_times(const PanelContents& panel)

@@ -10,7 +10,9 @@ struct Panel::State
     bool told = false;
 };
 
-Panel::Panel(voile::engine::App&, LoadedScene&, Controls& controls) : state_(new State{controls}) {}
+Panel::Panel(voile::engine::App&, LoadedScene&, Controls& controls, const ShaderReload*) : state_(new State{controls})
+{
+}
 Panel::~Panel() = default;
 
 // The help goes to standard output.

@@ -117,3 +117,16 @@ TEST_CASE("names from files and the command line are printed safely")
     check(run_viewer("reference --headless --stats '" + (folder / ("gone" + odd + "/s.json")).string() + "'"));
     check(run_viewer("reference --headless --frames 1 --out '" + (folder / (odd + ".obj/frames")).string() + "'"));
 }
+
+TEST_CASE("watched shaders need their files and a compiler, whose absence is reported once")
+{
+    const TestFolder folder;
+    const std::string scene = folder.write("s.json", "{\"cloths\": [" + k_cloth + "]}").string();
+    const std::string arguments = "'" + scene + "' --headless --frames 3 --size 64x36 --shaders '";
+    tests::check_refused(run_viewer(arguments + folder.path().string() + "'"), {"--shaders", "has no dot.vert"});
+    const Run run = run_viewer(arguments + tests::source("shaders/render").string() + "'", "PATH=/nonexistent");
+    CHECK(run.exit_code == 0);
+    const std::string line = "viewer: shaders: glslangValidator is not installed (or not in PATH)\n";
+    CHECK(run.errors.find(line) == 0);
+    CHECK(run.errors.rfind(line) == 0);
+}

@@ -63,17 +63,21 @@ public:
     }
 
     // Closes the window. No validation message, and exit code 0.
-    Ending close()
+    Ending close(bool with_errors = false)
     {
         window.close();
         Ending ending = process_.wait();
         CAPTURE(ending.errors);
         CHECK(ending.exit_code == 0);
-        CHECK(ending.errors.empty());
+        CHECK(ending.errors.empty() == !with_errors);
         return ending;
     }
 
     Ending wait() { return process_.wait(); }
+    bool wait_for_errors(const std::string& part)
+    {
+        return ViewerProcess::wait_until([&] { return process_.errors().find(part) != std::string::npos; });
+    }
 
 private:
     static std::vector<std::string> complete(std::vector<std::string> arguments, const std::string& size)
@@ -309,6 +313,35 @@ TEST_CASE("a dropped mesh becomes a collider, and the saved scene is what runs")
     CHECK(hash == headless(folder, {scene, "--collider", box}, 8).hash);
     CHECK(hash == headless(folder, {saved.string()}, 8).hash);
     CHECK(hash != headless(folder, {scene}, 8).hash); // it has touched the mesh
+}
+
+TEST_CASE("a changed shader changes the picture, and a broken one is reported by its line")
+{
+    const TestFolder folder;
+    std::filesystem::copy(tests::source("shaders"), folder / "shaders", std::filesystem::copy_options::recursive);
+    const std::filesystem::path sky = folder / "shaders" / "render" / "sky.glsl";
+    const std::string text = tests::text_of(sky);
+    const auto write = [&](const std::string& part, const std::string& by)
+    {
+        std::string changed = text;
+        REQUIRE(changed.find(part) != std::string::npos);
+        std::ofstream(sky) << changed.replace(changed.find(part), part.size(), by);
+    };
+    Session session(folder, with(k_reference, {"--shaders", (folder / "shaders/render").string()}));
+    XWindow& window = session.window;
+    const voile::engine::Picture before = hide_panel(window);
+    write("return gradient + glow;", "return vec3(1, 0, 0);");
+    const voile::engine::Picture red = picture_when(window, [&](const voile::engine::Picture& picture)
+                                                    { return difference(picture, before, 0, 320) > 20; });
+    write("return gradient + glow;", "return gradient + gloom;");
+    REQUIRE(session.wait_for_errors("sky.glsl:15: 'gloom' : undeclared identifier"));
+    session.step(1); // a frame with the last shaders that work
+    CHECK(difference(window.picture(), red, 0, 320) < 2);
+    write("return gradient + glow;", "return gradient + glow;");
+    REQUIRE(session.wait_for_errors("the shaders are compiled again"));
+    (void)picture_when(window,
+                       [&](const voile::engine::Picture& picture) { return difference(picture, before, 0, 320) < 2; });
+    session.close(true);
 }
 
 #if VOILE_HAS_PANEL

@@ -65,6 +65,9 @@ public:
     ViewerProcess(const ViewerProcess&) = delete;
     ViewerProcess& operator=(const ViewerProcess&) = delete;
 
+    // What it has written to standard error so far.
+    [[nodiscard]] std::string errors() const { return text_of(errors_); }
+
     void send(int signal) const { ::kill(process_, signal); }
 
     // False if it does not come true within a minute.

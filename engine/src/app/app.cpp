@@ -73,6 +73,8 @@ void App::complete(uint32_t slot)
 
 bool App::frame()
 {
+    if (before_frame)
+        before_frame();
     if (window_)
     {
         if (!window_->poll())

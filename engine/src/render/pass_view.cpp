@@ -1,12 +1,11 @@
 // Drawing surfaces, lines and dots.
 #include "render/pass_view.hpp"
 
-#include "render/graphics_pipeline.hpp"
+#include "render/scene_pipelines.hpp"
 
 #include "voile/gpu/recorder.hpp"
 
 #include "shaders/render/render_layout.h"
-#include "voile_engine_shaders.hpp"
 
 #include <array>
 
@@ -18,44 +17,7 @@ namespace
 
 constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-constexpr VertexStream k_vectors{VK_FORMAT_R32G32B32A32_SFLOAT, 16, VK_VERTEX_INPUT_RATE_INSTANCE};
-constexpr VertexStream k_words{VK_FORMAT_R32_UINT, 4, VK_VERTEX_INPUT_RATE_INSTANCE};
-
 } // namespace
-
-Owned<VkPipeline> MarkPipelines::create(const char* name, std::span<const uint32_t> vertex,
-                                        const VertexStream& second) const
-{
-    const std::array streams{k_vectors, second};
-    return create_graphics_pipeline(context_, {.name = name,
-                                               .vertex = vertex,
-                                               .fragment = shaders::k_mark_frag,
-                                               .streams = streams,
-                                               .layout = layout_,
-                                               .color_format = color_,
-                                               .depth_format = depth_,
-                                               .samples = samples_});
-}
-
-VkPipeline MarkPipelines::lines()
-{
-    if (lines_.get() == VK_NULL_HANDLE)
-        lines_ = create("lines", shaders::k_line_vert, k_vectors);
-    return lines_.get();
-}
-
-VkPipeline MarkPipelines::dots(bool flag_words)
-{
-    if (flag_words)
-    {
-        if (flagged_dots_.get() == VK_NULL_HANDLE)
-            flagged_dots_ = create("flagged dots", shaders::k_flagged_dot_vert, k_words);
-        return flagged_dots_.get();
-    }
-    if (dots_.get() == VK_NULL_HANDLE)
-        dots_ = create("dots", shaders::k_dot_vert, k_vectors);
-    return dots_.get();
-}
 
 struct PassView::Marks
 {

@@ -1,7 +1,6 @@
 // PassView: the View that components draw into while one of the renderer's passes is recorded.
 #pragma once
 
-#include "gpu/owned.hpp"
 #include "voile/engine/scene/component.hpp"
 
 #include "voile/gpu/context.hpp"
@@ -9,33 +8,7 @@
 namespace voile::engine
 {
 
-struct VertexStream;
-
-// The pipelines of lines and dots. Created on first use, because a normal run draws none.
-class MarkPipelines
-{
-public:
-    MarkPipelines(const gpu::Context& context, VkPipelineLayout layout, VkFormat color, VkFormat depth,
-                  VkSampleCountFlagBits samples)
-        : context_(context), layout_(layout), color_(color), depth_(depth), samples_(samples)
-    {
-    }
-
-    VkPipeline lines(); // StartupError when the driver refuses
-    VkPipeline dots(bool flag_words);
-
-private:
-    Owned<VkPipeline> create(const char* name, std::span<const uint32_t> vertex, const VertexStream& second) const;
-
-    const gpu::Context& context_;
-    VkPipelineLayout layout_;
-    VkFormat color_;
-    VkFormat depth_;
-    VkSampleCountFlagBits samples_;
-    Owned<VkPipeline> lines_;
-    Owned<VkPipeline> dots_;
-    Owned<VkPipeline> flagged_dots_;
-};
+class ScenePipelines;
 
 class PassView : public View
 {
@@ -45,7 +18,7 @@ public:
         VkPipelineLayout layout = VK_NULL_HANDLE;
         VkPipeline surfaces = VK_NULL_HANDLE;
         VkPipeline wires = VK_NULL_HANDLE; // drawn over surfaces other than the ground; null: none
-        MarkPipelines* marks = nullptr;    // null if the pass draws none
+        ScenePipelines* marks = nullptr;   // null if the pass draws none
         VkExtent2D extent{};
     };
 

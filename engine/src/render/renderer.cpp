@@ -2,12 +2,10 @@
 #include "voile/engine/render/renderer.hpp"
 
 #include "render/frame_bindings.hpp"
-#include "render/graphics_pipeline.hpp"
 #include "render/pass_view.hpp"
+#include "render/scene_pipelines.hpp"
 
 #include "voile/gpu/recorder.hpp"
-
-#include "voile_engine_shaders.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -19,10 +17,6 @@ namespace voile::engine
 
 namespace
 {
-
-constexpr VkFormat k_color_format = VK_FORMAT_R8G8B8A8_SRGB;
-constexpr VkFormat k_depth_format = VK_FORMAT_D32_SFLOAT;
-constexpr VkSampleCountFlagBits k_samples = VK_SAMPLE_COUNT_4_BIT; // every device has 4 for these formats
 
 constexpr VkPipelineStageFlags2KHR k_depth_stages =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT_KHR | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT_KHR;
@@ -68,9 +62,6 @@ Image create_shadow_map(const Device& device, uint32_t resolution)
              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
              .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}};
 }
-
-constexpr std::array<VertexStream, 3> k_streams{
-    {{VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32B32A32_SFLOAT, 16}, {VK_FORMAT_R32G32_SFLOAT, 8}}};
 
 glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_radius)
 {
@@ -122,75 +113,22 @@ struct Renderer::State
     Targets targets;
     Image shadow_map;
     FrameBindings bindings;
-    Owned<VkPipeline> shadow_pipeline;
-    Owned<VkPipeline> surface_pipeline;
-    Owned<VkPipeline> sky_pipeline;
-    Owned<VkPipeline> wire_pipeline; // made on first use
-    MarkPipelines marks;
+    std::unique_ptr<ScenePipelines> pipelines;
 
     State(const Device& on, const RendererOptions& wanted)
         : device(on), context(on.context()), options(wanted), targets(on, wanted.extent),
           shadow_map(create_shadow_map(on, wanted.shadow_resolution)),
           bindings(device, wanted.slots, shadow_map.view()),
-          marks(context, bindings.layout(), k_color_format, k_depth_format, k_samples)
+          pipelines(std::make_unique<ScenePipelines>(context, bindings.layout(), ShaderSet()))
     {
-        create_pipelines();
     }
 
-    void create_pipelines();
-    VkPipeline wires();
     [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene, const ViewModes& modes) const;
     void record_shadow_map(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
     void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
                       const ViewModes& modes);
     void transition_targets(VkCommandBuffer cmd) const;
 };
-
-void Renderer::State::create_pipelines()
-{
-    shadow_pipeline = create_graphics_pipeline(context, {.name = "shadow map",
-                                                         .vertex = shaders::k_shadow_vert,
-                                                         .streams = std::span(k_streams).first(1),
-                                                         .layout = bindings.layout(),
-                                                         .depth_format = k_depth_format,
-                                                         .depth_bias = 2});
-    surface_pipeline = create_graphics_pipeline(context, {.name = "surface",
-                                                          .vertex = shaders::k_surface_vert,
-                                                          .fragment = shaders::k_surface_frag,
-                                                          .streams = k_streams,
-                                                          .layout = bindings.layout(),
-                                                          .color_format = k_color_format,
-                                                          .depth_format = k_depth_format,
-                                                          .samples = k_samples});
-    sky_pipeline = create_graphics_pipeline(context, {.name = "sky",
-                                                      .vertex = shaders::k_sky_vert,
-                                                      .fragment = shaders::k_sky_frag,
-                                                      .layout = bindings.layout(),
-                                                      .color_format = k_color_format,
-                                                      .depth_format = k_depth_format,
-                                                      .samples = k_samples,
-                                                      .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                      .depth_write = false});
-}
-
-// Slightly closer to the camera than the surface.
-VkPipeline Renderer::State::wires()
-{
-    if (wire_pipeline.get() == VK_NULL_HANDLE)
-        wire_pipeline = create_graphics_pipeline(context, {.name = "wires",
-                                                           .vertex = shaders::k_surface_vert,
-                                                           .fragment = shaders::k_wire_frag,
-                                                           .streams = k_streams,
-                                                           .layout = bindings.layout(),
-                                                           .color_format = k_color_format,
-                                                           .depth_format = k_depth_format,
-                                                           .samples = k_samples,
-                                                           .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                           .depth_write = false,
-                                                           .depth_bias = -2,
-                                                           .wires = true});
-    return wire_pipeline.get();
-}
 
 shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewModes& modes) const
 {
@@ -225,7 +163,7 @@ void Renderer::State::record_shadow_map(VkCommandBuffer cmd, const Scene& scene,
     context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
     set_viewport(context, cmd, shadow_map.extent());
     PassView view(View::Kind::shadow, uniforms.shadow_from_world, context,
-                  {.layout = bindings.layout(), .surfaces = shadow_pipeline.get()});
+                  {.layout = bindings.layout(), .surfaces = pipelines->shadow()});
     scene.record_draw(cmd, view);
     context.fn.vkCmdEndRenderingKHR(cmd);
     record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
@@ -272,14 +210,14 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     set_viewport(context, cmd, options.extent);
     PassView view(View::Kind::camera, uniforms.clip_from_world, context,
                   {.layout = bindings.layout(),
-                   .surfaces = surface_pipeline.get(),
-                   .wires = modes.wires && device.draws_wires() ? wires() : VK_NULL_HANDLE,
-                   .marks = &marks,
+                   .surfaces = pipelines->surfaces(),
+                   .wires = modes.wires && device.draws_wires() ? pipelines->wires() : VK_NULL_HANDLE,
+                   .marks = pipelines.get(),
                    .extent = options.extent});
     scene.record_draw(cmd, view);
     {
         const gpu::LabelScope scope(context, cmd, "sky");
-        context.fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_pipeline.get());
+        context.fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines->sky());
         context.fn.vkCmdDraw(cmd, 3, 1, 0, 0);
     }
     context.fn.vkCmdEndRenderingKHR(cmd);
@@ -306,6 +244,25 @@ void Renderer::record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& 
     }
     const gpu::LabelScope scope(state_->context, cmd, "scene", frame.timestamps);
     state_->record_scene(cmd, scene, uniforms, modes);
+}
+
+Result<void> Renderer::replace_shaders(const std::vector<ShaderCode>& replacements)
+{
+    auto shaders = ShaderSet::with(state_->pipelines->shaders(), replacements);
+    if (!shaders)
+        return shaders.error();
+    try
+    {
+        auto next =
+            std::make_unique<ScenePipelines>(state_->context, state_->bindings.layout(), std::move(shaders.value()));
+        state_->device.wait_idle();
+        state_->pipelines = std::move(next);
+        return {};
+    }
+    catch (const StartupError& error)
+    {
+        return Error{error.what()};
+    }
 }
 
 const Image& Renderer::color() const

@@ -47,6 +47,8 @@ public:
     // Collects uploads of components under construction. Recorded at the start of the next frame.
     [[nodiscard]] UploadBatch& uploads();
 
+    // Called at the start of frame(), while nothing is recorded.
+    std::function<void()> before_frame;
     // Without a window: whether a frame is drawn. Default: every frame is. The others only simulate, which saves most
     // of the time of a software device.
     std::function<bool(const FrameInfo&)> draws;

@@ -7,6 +7,10 @@
 #include "voile/engine/scene/scene.hpp"
 
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace voile::engine
 {
@@ -25,6 +29,16 @@ struct ViewModes
     bool wires = false;    // the edges of triangles; needs Device::draws_wires
 };
 
+// A shader of the renderer in another version.
+struct ShaderCode
+{
+    std::string name; // of shader_names()
+    std::vector<uint32_t> spirv;
+};
+
+// The shaders that may be replaced, by their files in shaders/render: "surface.frag" ...
+std::span<const std::string_view> shader_names();
+
 class Renderer
 {
 public:
@@ -36,6 +50,10 @@ public:
     // Records the shadow pass and the shaded pass of `scene`. Vertex data must already be visible to vertex input.
     // Ends with color() in TRANSFER_SRC_OPTIMAL, its writes available to a following copy or blit.
     void record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& frame);
+
+    // Other versions of shaders, from the next frame on, with the same inputs, outputs, bindings and push constants.
+    // Waits for the device. Error if the renderer has no such shader or the driver refuses one: all stay as they were.
+    Result<void> replace_shaders(const std::vector<ShaderCode>& replacements);
 
     // May be changed between frames.
     ViewModes modes;
