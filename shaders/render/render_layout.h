@@ -25,6 +25,7 @@ struct FrameUniforms
     mat4 clip_from_world;
     mat4 world_from_clip;
     mat4 shadow_from_world; // clip space of the shadow map
+    mat4 height_from_world; // clip space of the height map, which looks down
     vec3 camera_position;   // m
     float shadow_texel;     // m, the side of a texel of the shadow map
     vec3 to_sun;            // unit

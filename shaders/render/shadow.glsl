@@ -4,25 +4,76 @@
 
 #include "frame.glsl"
 
-// Percentage-closer filtering (Reeves, Salesin and Cook 1987) over a disc of 12 bilinear comparisons, spread evenly by
-// the golden angle (Vogel 1979).
+const int k_blocker_taps = 8;
+const int k_shadow_taps = 12;
+const float k_sun_tangent = 0.03;  // of half the angle under which the sun is seen; that of the real one is 0.0047
+const float k_widest_shadow = 30;  // texels, radius of the widest penumbra
+const float k_narrowest_shadow = 1.6;
+
+// Where a point is in the shadow map, and how the depth of its surface grows along the map.
+struct ShadowPoint
+{
+    vec2 at;
+    float depth;
+    vec2 slope; // depth per coordinate
+    vec2 direction; // of the first tap
+};
+
+ShadowPoint shadow_point(vec3 world, vec3 normal_to_sun)
+{
+    // Offset from the surface, so that it does not shade itself.
+    const vec3 lifted = world + (1.5 * frame.shadow_texel) * normal_to_sun;
+    const vec4 clip = frame.shadow_from_world * vec4(lifted, 1);
+    // The plane through the point: n . d = 0 in the world, where clip space is scaled by 1 / (radius, radius, depth).
+    const vec3 n = mat3(frame.shadow_from_world) * normal_to_sun;
+    const float steep = max(-n.z * k_map_depth * frame.focus_radius, 0.25); // the cosine of the angle to the sun
+    const vec2 across = n.xy * frame.focus_radius;
+    ShadowPoint result;
+    result.at = 0.5 * clip.xy + 0.5;
+    result.depth = clip.z;
+    result.slope = 2 * across / (steep * k_map_depth);
+    result.direction = pixel_direction(gl_FragCoord.xy);
+    return result;
+}
+
+// The mean depth below the surface of what is between it and the sun (x), and its fraction of the taps (y).
+vec2 find_blockers(ShadowPoint p)
+{
+    vec2 sum = vec2(0);
+    vec2 direction = p.direction;
+    for (int i = 0; i < k_blocker_taps; ++i)
+    {
+        const float radius = k_widest_shadow * frame.shadow_step * sqrt((float(i) + 0.5) / k_blocker_taps);
+        const vec2 offset = radius * direction;
+        direction = next_direction(direction);
+        const float above = p.depth + dot(p.slope, offset) - textureLod(shadow_depth, p.at + offset, 0).r;
+        sum += above > 2e-4 ? vec2(above, 1) : vec2(0);
+    }
+    return vec2(sum.x / max(sum.y, 1), sum.y / k_blocker_taps);
+}
+
+// Percentage-closer soft shadows (Fernando 2005): the distance of what casts the shadow gives the width of the filter
+// (Reeves, Salesin and Cook 1987). Hard at contact.
 float sun_visibility(vec3 world, vec3 normal_to_sun)
 {
-    // Offset from the surface by a little more than the filter's radius on a tilted plane, so that it does not shade
-    // itself.
-    const vec3 lifted = world + (2.5 * frame.shadow_texel) * normal_to_sun;
-    const vec4 clip = frame.shadow_from_world * vec4(lifted, 1);
-    if (any(greaterThan(abs(clip.xy), vec2(1))) || clip.z >= 1)
+    const ShadowPoint p = shadow_point(world, normal_to_sun);
+    if (any(greaterThan(abs(p.at - 0.5), vec2(0.5))) || p.depth >= 1)
         return 1;
-    const vec2 center = 0.5 * clip.xy + 0.5;
+    const vec2 blockers = find_blockers(p);
+    if (blockers.y == 0)
+        return 1;
+    // Texels: a map of 2 radii shows a depth of 6.
+    const float penumbra = k_sun_tangent * blockers.x * k_map_depth / (2 * frame.shadow_step);
+    const float widest = clamp(penumbra, k_narrowest_shadow, k_widest_shadow) * frame.shadow_step;
     float lit = 0;
-    for (int i = 0; i < 12; ++i)
+    vec2 direction = p.direction;
+    for (int i = 0; i < k_shadow_taps; ++i)
     {
-        const float radius = 3.2 * frame.shadow_step * sqrt((float(i) + 0.5) / 12);
-        const float angle = float(i) * 2.39996323;
-        lit += textureLod(shadow_map, vec3(center + radius * vec2(cos(angle), sin(angle)), clip.z), 0);
+        const vec2 offset = widest * sqrt((float(i) + 0.5) / k_shadow_taps) * direction;
+        direction = next_direction(direction);
+        lit += textureLod(shadow_map, vec3(p.at + offset, p.depth + dot(p.slope, offset)), 0);
     }
-    return lit / 12;
+    return lit / k_shadow_taps;
 }
 
 #endif

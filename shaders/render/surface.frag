@@ -4,6 +4,7 @@
 #include "brdf.glsl"
 #include "fabric.glsl"
 #include "frame.glsl"
+#include "occlusion.glsl"
 #include "shadow.glsl"
 #include "sky.glsl"
 #include "strain.glsl"
@@ -118,7 +119,7 @@ void main()
 
     const float n_v = max(dot(s.normal, v), 1e-3);
     const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
-    vec3 radiance = sun_light(s, v, n_v, f0) + sky_light(s, v, n_v, f0);
+    vec3 radiance = sun_light(s, v, n_v, f0) + sky_visibility(world, s.normal) * sky_light(s, v, n_v, f0);
     if (push.kind == VOILE_SURFACE_GROUND)
     {
         const float d = distance(world.xz, frame.focus.xz) / frame.focus_radius;

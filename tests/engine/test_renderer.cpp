@@ -135,6 +135,62 @@ TEST_CASE("a sphere is lit from the sun's side, and its shadow falls on the othe
     CHECK(between >= 1);
 }
 
+TEST_CASE("a shadow is harder near what casts it")
+{
+    // A ball at the height `center`, lit from the right. The camera looks down at its shadow's middle.
+    const auto picture_of = [](float center)
+    {
+        Stage stage;
+        add_ground(stage);
+        stage.scene.sun.direction = {-1, -1, 0};
+        stage.scene.focus = {0, 0.5f, 0};
+        stage.scene.focus_radius = 2;
+        stage.scene.camera = {.position = {-center, 6, 0.01f}, .target = {-center, 0, 0}, .fov = 30};
+        stage.scene.add("ball").add<voile::engine::StaticMesh>(
+            stage.uploads, voile::engine::make_sphere({0, center, 0}, 0.2f), voile::engine::Surface{});
+        return stage.draw();
+    };
+    // The number of pixels that are half lit along the middle row, left of the shadow's middle (160).
+    const auto half_lit = [](const voile::engine::Picture& picture)
+    {
+        const int open = brightness(pixel(picture, 100, 90));
+        const int shadow = brightness(pixel(picture, 155, 90));
+        CHECK(shadow < open * 4 / 5);
+        int count = 0;
+        for (uint32_t x = 100; x < 155; ++x)
+        {
+            const int value = brightness(pixel(picture, x, 90));
+            count += value > shadow + (open - shadow) / 10 && value < open - (open - shadow) / 10;
+        }
+        return count;
+    };
+    const voile::engine::Picture low = picture_of(0.3f);
+    const voile::engine::Picture high = picture_of(1.5f);
+    CHECK(half_lit(low) <= 4); // measured: 3 and 7
+    CHECK(half_lit(high) > half_lit(low) + 1);
+}
+
+TEST_CASE("the sky is hidden close to a body, and nowhere else")
+{
+    Stage stage;
+    add_ground(stage);
+    stage.scene.sun.irradiance = glm::vec3(0);
+    stage.scene.focus = {0, 0.5f, 0};
+    stage.scene.focus_radius = 2;
+    stage.scene.camera = {.position = {0, 6, 0.01f}, .target = {0, 0, 0}, .fov = 30}; // from above
+    const voile::engine::Picture bare = stage.draw();
+    stage.scene.add("ball").add<voile::engine::StaticMesh>(
+        stage.uploads, voile::engine::make_sphere({0, 0.3f, 0}, 0.3f), voile::engine::Surface{});
+    const voile::engine::Picture picture = stage.draw();
+    // 56 pixels per meter: the ball ends at 160 + 18, the reach of what hides the sky 0.44 m from there.
+    const auto kept = [&](uint32_t x)
+    { return static_cast<double>(brightness(pixel(picture, x, 90))) / brightness(pixel(bare, x, 90)); };
+    CAPTURE(kept(181));
+    CAPTURE(kept(220));
+    CHECK(kept(181) < 0.98); // measured: 0.968
+    CHECK(kept(220) > 0.995);
+}
+
 TEST_CASE("a two-sided sheet shows a color on each side")
 {
     for (const bool from_above : {true, false})

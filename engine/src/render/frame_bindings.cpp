@@ -10,20 +10,20 @@ namespace voile::engine
 namespace
 {
 
-Owned<VkSampler> create_comparison_sampler(const gpu::Context& context)
+// Beyond the map there is nothing.
+Owned<VkSampler> create_map_sampler(const gpu::Context& context, bool compares)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = VK_FILTER_LINEAR;
-    info.minFilter = VK_FILTER_LINEAR;
+    info.magFilter = info.minFilter = compares ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
-    info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE; // lit
-    info.compareEnable = VK_TRUE;
+    info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE; // the far plane
+    info.compareEnable = compares ? VK_TRUE : VK_FALSE;
     info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(context.fn.vkCreateSampler(context.device(), &info, nullptr, &sampler), "shadow sampler");
+    check(context.fn.vkCreateSampler(context.device(), &info, nullptr, &sampler), "sampler of maps");
     return {context.device(), sampler, context.fn.vkDestroySampler};
 }
 
@@ -31,19 +31,26 @@ constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_S
 
 } // namespace
 
-FrameBindings::FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map)
-    : context_(device.context()), sampler_(create_comparison_sampler(context_))
+FrameBindings::FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map, VkImageView height_map)
+    : context_(device.context()), comparing_(create_map_sampler(context_, true)),
+      reading_(create_map_sampler(context_, false))
 {
     create_layouts();
-    create_sets(slots, shadow_map);
+    create_sets(slots, {shadow_map, shadow_map, height_map});
 }
 
 void FrameBindings::create_layouts()
 {
-    const std::array<VkDescriptorSetLayoutBinding, 2> bindings{{
-        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, k_stages, nullptr},
-        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, sampler_.address()},
-    }};
+    const auto map = [](uint32_t binding, const Owned<VkSampler>& sampler)
+    {
+        return VkDescriptorSetLayoutBinding{binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                                            VK_SHADER_STAGE_FRAGMENT_BIT, sampler.address()};
+    };
+    const std::array<VkDescriptorSetLayoutBinding, 1 + k_maps> bindings{
+        {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, k_stages, nullptr},
+         map(1, comparing_),
+         map(2, reading_),
+         map(3, reading_)}};
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<uint32_t>(bindings.size());
@@ -65,10 +72,10 @@ void FrameBindings::create_layouts()
     layout_ = {context_.device(), layout, context_.fn.vkDestroyPipelineLayout};
 }
 
-void FrameBindings::create_sets(uint32_t slots, VkImageView shadow_map)
+void FrameBindings::create_sets(uint32_t slots, const std::array<VkImageView, k_maps>& maps)
 {
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, k_maps * slots}}};
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool_info.maxSets = slots;
@@ -92,19 +99,24 @@ void FrameBindings::create_sets(uint32_t slots, VkImageView shadow_map)
         uniforms_.push_back(take(gpu::create_buffer(context_, "frame uniforms", sizeof(shared::FrameUniforms),
                                                     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::upload)));
         const VkDescriptorBufferInfo buffer{uniforms_.back().handle(), 0, VK_WHOLE_SIZE};
-        const VkDescriptorImageInfo image{VK_NULL_HANDLE, shadow_map, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
-        std::array<VkWriteDescriptorSet, 2> writes{};
+        std::array<VkDescriptorImageInfo, k_maps> images{};
+        std::array<VkWriteDescriptorSet, 1 + k_maps> writes{};
         for (uint32_t i = 0; i < writes.size(); ++i)
         {
             writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
             writes[i].dstSet = set;
             writes[i].dstBinding = i;
             writes[i].descriptorCount = 1;
+            writes[i].descriptorType =
+                i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+            if (i == 0)
+                writes[i].pBufferInfo = &buffer;
+            else
+            {
+                images[i - 1] = {VK_NULL_HANDLE, maps[i - 1], VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
+                writes[i].pImageInfo = &images[i - 1];
+            }
         }
-        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        writes[0].pBufferInfo = &buffer;
-        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        writes[1].pImageInfo = &image;
         context_.fn.vkUpdateDescriptorSets(context_.device(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
                                            nullptr);
     }

@@ -8,6 +8,7 @@
 
 #include "shaders/render/render_layout.h"
 
+#include <array>
 #include <vector>
 
 namespace voile::engine
@@ -16,9 +17,9 @@ namespace voile::engine
 class FrameBindings
 {
 public:
-    // Binding 0: FrameUniforms of the slot. Binding 1: `shadow_map` in DEPTH_STENCIL_READ_ONLY_OPTIMAL, compared with
-    // bilinear filtering. StartupError if they cannot be made.
-    FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map);
+    // Binding 0: FrameUniforms of the slot. 1: `shadow_map`, compared with bilinear filtering. 2, 3: the depths of
+    // `shadow_map` and `height_map`. Both in DEPTH_STENCIL_READ_ONLY_OPTIMAL. StartupError if they cannot be made.
+    FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map, VkImageView height_map);
 
     // One set, and push constants of a DrawPush for vertex and fragment shaders.
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
@@ -27,11 +28,14 @@ public:
     void bind(VkCommandBuffer cmd, uint32_t slot, const shared::FrameUniforms& uniforms);
 
 private:
+    static constexpr uint32_t k_maps = 3; // bindings of images
+
     void create_layouts();
-    void create_sets(uint32_t slots, VkImageView shadow_map);
+    void create_sets(uint32_t slots, const std::array<VkImageView, k_maps>& maps);
 
     const gpu::Context& context_;
-    Owned<VkSampler> sampler_;
+    Owned<VkSampler> comparing_;
+    Owned<VkSampler> reading_;
     Owned<VkDescriptorSetLayout> set_layout_;
     Owned<VkPipelineLayout> layout_;
     Owned<VkDescriptorPool> pool_;

@@ -53,21 +53,25 @@ struct Targets
     }
 };
 
-Image create_shadow_map(const Device& device, uint32_t resolution)
+constexpr uint32_t k_height_resolution = 512;
+
+Image create_depth_map(const Device& device, const char* name, uint32_t resolution)
 {
     return {device,
-            {.name = "shadow map",
+            {.name = name,
              .format = k_depth_format,
              .extent = {resolution, resolution},
              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
              .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}};
 }
 
+// With depth 1 at the near plane and 0 at the far one: floats are then equally precise at all distances (Reed 2015,
+// "Depth precision visualized").
 glm::mat4 camera_matrix(const Camera& camera, VkExtent2D extent, float focus_radius)
 {
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
     const float far_plane = glm::distance(camera.position, camera.target) + 100 * focus_radius;
-    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(camera.fov), aspect, far_plane * 1e-4f, far_plane);
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(camera.fov), aspect, far_plane, far_plane * 1e-4f);
     projection[1][1] *= -1; // Vulkan's y points down
     const glm::vec3 forward = camera.target - camera.position;
     const bool vertical = std::abs(forward.x) + std::abs(forward.z) < 1e-4f * glm::length(forward);
@@ -83,6 +87,14 @@ glm::mat4 shadow_matrix(const Scene& scene, const glm::vec3& to_sun)
     return glm::orthoRH_ZO(-r, r, -r, r, 0.f, 6 * r) * glm::lookAtRH(scene.focus + 3 * r * to_sun, scene.focus, up);
 }
 
+// The same sphere from above.
+glm::mat4 height_matrix(const Scene& scene)
+{
+    const float r = scene.focus_radius;
+    return glm::orthoRH_ZO(-r, r, -r, r, 0.f, 6 * r) *
+           glm::lookAtRH(scene.focus + glm::vec3(0, 3 * r, 0), scene.focus, glm::vec3(0, 0, -1));
+}
+
 void set_viewport(const gpu::Context& context, VkCommandBuffer cmd, VkExtent2D extent)
 {
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
@@ -91,7 +103,7 @@ void set_viewport(const gpu::Context& context, VkCommandBuffer cmd, VkExtent2D e
     context.fn.vkCmdSetScissor(cmd, 0, 1, &scissor);
 }
 
-VkRenderingAttachmentInfoKHR depth_attachment(VkImageView view, VkAttachmentStoreOp store)
+VkRenderingAttachmentInfoKHR depth_attachment(VkImageView view, VkAttachmentStoreOp store, float far_depth)
 {
     VkRenderingAttachmentInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO_KHR;
@@ -99,7 +111,7 @@ VkRenderingAttachmentInfoKHR depth_attachment(VkImageView view, VkAttachmentStor
     info.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
     info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     info.storeOp = store;
-    info.clearValue.depthStencil = {1, 0};
+    info.clearValue.depthStencil = {far_depth, 0};
     return info;
 }
 
@@ -112,19 +124,27 @@ struct Renderer::State
     RendererOptions options;
     Targets targets;
     Image shadow_map;
+    Image height_map;
     FrameBindings bindings;
     std::unique_ptr<ScenePipelines> pipelines;
 
     State(const Device& on, const RendererOptions& wanted)
         : device(on), context(on.context()), options(wanted), targets(on, wanted.extent),
-          shadow_map(create_shadow_map(on, wanted.shadow_resolution)),
-          bindings(device, wanted.slots, shadow_map.view()),
+          shadow_map(create_depth_map(on, "shadow map", wanted.shadow_resolution)),
+          height_map(create_depth_map(on, "height map", k_height_resolution)),
+          bindings(device, wanted.slots, shadow_map.view(), height_map.view()),
           pipelines(std::make_unique<ScenePipelines>(context, bindings.layout(), ShaderSet()))
     {
     }
 
     [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene, const ViewModes& modes) const;
-    void record_shadow_map(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms) const;
+    struct DepthMap
+    {
+        const Image& image;
+        const glm::mat4& clip_from_world;
+        VkPipeline pipeline;
+    };
+    void record_map(VkCommandBuffer cmd, const Scene& scene, const DepthMap& map) const;
     void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
                       const ViewModes& modes);
     void transition_targets(VkCommandBuffer cmd) const;
@@ -138,6 +158,7 @@ shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewMo
     result.camera_position = scene.camera.position;
     result.to_sun = -glm::normalize(scene.sun.direction);
     result.shadow_from_world = shadow_matrix(scene, result.to_sun);
+    result.height_from_world = height_matrix(scene);
     const auto resolution = static_cast<float>(options.shadow_resolution);
     result.shadow_texel = 2 * scene.focus_radius / resolution;
     result.shadow_step = 1 / resolution;
@@ -148,25 +169,24 @@ shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewMo
     return result;
 }
 
-void Renderer::State::record_shadow_map(VkCommandBuffer cmd, const Scene& scene,
-                                        const shared::FrameUniforms& uniforms) const
+void Renderer::State::record_map(VkCommandBuffer cmd, const Scene& scene, const DepthMap& map) const
 {
-    record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
+    record_transition(context, cmd, map.image.handle(), map.image.aspect(),
                       {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
                        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT_KHR, 0, k_depth_stages, k_depth_access});
-    const VkRenderingAttachmentInfoKHR depth = depth_attachment(shadow_map.view(), VK_ATTACHMENT_STORE_OP_STORE);
+    const VkRenderingAttachmentInfoKHR depth = depth_attachment(map.image.view(), VK_ATTACHMENT_STORE_OP_STORE, 1);
     VkRenderingInfoKHR rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO_KHR;
-    rendering.renderArea.extent = shadow_map.extent();
+    rendering.renderArea.extent = map.image.extent();
     rendering.layerCount = 1;
     rendering.pDepthAttachment = &depth;
     context.fn.vkCmdBeginRenderingKHR(cmd, &rendering);
-    set_viewport(context, cmd, shadow_map.extent());
-    PassView view(View::Kind::shadow, uniforms.shadow_from_world, context,
-                  {.layout = bindings.layout(), .surfaces = pipelines->shadow()});
+    set_viewport(context, cmd, map.image.extent());
+    PassView view(View::Kind::shadow, map.clip_from_world, context,
+                  {.layout = bindings.layout(), .surfaces = map.pipeline});
     scene.record_draw(cmd, view);
     context.fn.vkCmdEndRenderingKHR(cmd);
-    record_transition(context, cmd, shadow_map.handle(), shadow_map.aspect(),
+    record_transition(context, cmd, map.image.handle(), map.image.aspect(),
                       {VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
                        VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, k_depth_stages, k_depth_access,
                        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT_KHR, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT_KHR});
@@ -198,7 +218,8 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the sky covers the rest
     color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    const VkRenderingAttachmentInfoKHR depth = depth_attachment(targets.depth.view(), VK_ATTACHMENT_STORE_OP_DONT_CARE);
+    const VkRenderingAttachmentInfoKHR depth = 
+        depth_attachment(targets.depth.view(), VK_ATTACHMENT_STORE_OP_DONT_CARE, 0);
     VkRenderingInfoKHR rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO_KHR;
     rendering.renderArea.extent = options.extent;
@@ -240,7 +261,13 @@ void Renderer::record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& 
     state_->bindings.bind(cmd, frame.slot, uniforms);
     {
         const gpu::LabelScope scope(state_->context, cmd, "shadow map", frame.timestamps);
-        state_->record_shadow_map(cmd, scene, uniforms);
+        state_->record_map(cmd, scene,
+                           {state_->shadow_map, uniforms.shadow_from_world, state_->pipelines->shadow()});
+    }
+    {
+        const gpu::LabelScope scope(state_->context, cmd, "height map", frame.timestamps);
+        state_->record_map(cmd, scene,
+                           {state_->height_map, uniforms.height_from_world, state_->pipelines->height()});
     }
     const gpu::LabelScope scope(state_->context, cmd, "scene", frame.timestamps);
     state_->record_scene(cmd, scene, uniforms, modes);

@@ -20,12 +20,8 @@ constexpr VertexStream k_words{VK_FORMAT_R32_UINT, 4, VK_VERTEX_INPUT_RATE_INSTA
 ScenePipelines::ScenePipelines(const gpu::Context& context, VkPipelineLayout layout, ShaderSet shaders)
     : context_(context), layout_(layout), shaders_(std::move(shaders))
 {
-    shadow_ = create_graphics_pipeline(context_, {.name = "shadow map",
-                                                  .vertex = shaders_["shadow.vert"],
-                                                  .streams = std::span(k_streams).first(1),
-                                                  .layout = layout_,
-                                                  .depth_format = k_depth_format,
-                                                  .depth_bias = 2});
+    shadow_ = create_map("shadow map", "shadow.vert");
+    height_ = create_map("height map", "height.vert");
     GraphicsPipelineDescription surfaces = scene_description("surface");
     surfaces.vertex = shaders_["surface.vert"];
     surfaces.fragment = shaders_["surface.frag"];
@@ -34,7 +30,7 @@ ScenePipelines::ScenePipelines(const gpu::Context& context, VkPipelineLayout lay
     GraphicsPipelineDescription sky = scene_description("sky");
     sky.vertex = shaders_["sky.vert"];
     sky.fragment = shaders_["sky.frag"];
-    sky.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+    sky.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     sky.depth_write = false;
     sky_ = create_graphics_pipeline(context_, sky);
 }
@@ -46,7 +42,18 @@ GraphicsPipelineDescription ScenePipelines::scene_description(const char* name) 
             .layout = layout_,
             .color_format = k_color_format,
             .depth_format = k_depth_format,
-            .samples = k_samples};
+            .samples = k_samples,
+            .depth_compare = VK_COMPARE_OP_GREATER}; // depth is 1 near and 0 far
+}
+
+Owned<VkPipeline> ScenePipelines::create_map(const char* name, const char* vertex) const
+{
+    return create_graphics_pipeline(context_, {.name = name,
+                                               .vertex = shaders_[vertex],
+                                               .streams = std::span(k_streams).first(1),
+                                               .layout = layout_,
+                                               .depth_format = k_depth_format,
+                                               .depth_bias = 2});
 }
 
 VkPipeline ScenePipelines::wires()
@@ -57,9 +64,9 @@ VkPipeline ScenePipelines::wires()
         wires.vertex = shaders_["surface.vert"];
         wires.fragment = shaders_["wire.frag"];
         wires.streams = k_streams;
-        wires.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+        wires.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         wires.depth_write = false;
-        wires.depth_bias = -2;
+        wires.depth_bias = 2;
         wires.wires = true;
         wires_ = create_graphics_pipeline(context_, wires);
     }

@@ -1,4 +1,4 @@
-// ScenePipelines: the pipelines of the shadow map and of the scene.
+// ScenePipelines: the pipelines of the two maps and of the scene.
 #pragma once
 
 #include "gpu/owned.hpp"
@@ -20,6 +20,7 @@ public:
 
     [[nodiscard]] const ShaderSet& shaders() const { return shaders_; }
     [[nodiscard]] VkPipeline shadow() const { return shadow_.get(); }
+    [[nodiscard]] VkPipeline height() const { return height_.get(); }
     [[nodiscard]] VkPipeline surfaces() const { return surfaces_.get(); }
     [[nodiscard]] VkPipeline sky() const { return sky_.get(); }
     // Created on first use, because a normal run draws none. StartupError when the driver refuses.
@@ -29,6 +30,7 @@ public:
 
 private:
     [[nodiscard]] GraphicsPipelineDescription scene_description(const char* name) const;
+    [[nodiscard]] Owned<VkPipeline> create_map(const char* name, const char* vertex) const;
     [[nodiscard]] Owned<VkPipeline> create_marks(const char* name, const char* vertex,
                                                  const VertexStream& second) const;
 
@@ -36,6 +38,7 @@ private:
     VkPipelineLayout layout_;
     ShaderSet shaders_;
     Owned<VkPipeline> shadow_;
+    Owned<VkPipeline> height_;
     Owned<VkPipeline> surfaces_;
     Owned<VkPipeline> sky_;
     Owned<VkPipeline> wires_;
