@@ -157,26 +157,30 @@ void flip_to_delaunay(const Points& points, Triangles& triangles, Edges& edges)
 
 } // namespace
 
+void even_out(EvenMesh& mesh, const Projection& project, int rounds)
+{
+    Edges edges = edges_of(mesh.triangles);
+    for (int round = 0; round < rounds; ++round)
+    {
+        flip_to_delaunay(mesh.points, mesh.triangles, edges);
+        relax(mesh.points, mesh.triangles, mesh.is_fixed, project);
+    }
+    flip_to_delaunay(mesh.points, mesh.triangles, edges);
+}
+
 voile::engine::Mesh make_even_mesh(const Surface& surface)
 {
     Box box;
-    std::vector<bool> is_fixed;
-    for (glm::dvec3& point : box.points)
+    EvenMesh even{std::move(box.points), std::move(box.triangles), {}};
+    for (glm::dvec3& point : even.points)
     {
-        is_fixed.push_back(std::abs(point.x) + std::abs(point.z) < 1e-9);
+        even.is_fixed.push_back(std::abs(point.x) + std::abs(point.z) < 1e-9);
         point = surface.from_sphere(point);
     }
-    Edges edges = edges_of(box.triangles);
-    for (int round = 0; round < k_rounds; ++round)
-    {
-        flip_to_delaunay(box.points, box.triangles, edges);
-        relax(box.points, box.triangles, is_fixed, surface.from_space);
-    }
-    flip_to_delaunay(box.points, box.triangles, edges);
-
+    even_out(even, surface.from_space, k_rounds);
     voile::engine::Mesh mesh;
-    mesh.positions.assign(box.points.begin(), box.points.end());
-    mesh.triangles = std::move(box.triangles);
+    mesh.positions.assign(even.points.begin(), even.points.end());
+    mesh.triangles = std::move(even.triangles);
     return mesh;
 }
 

@@ -1,4 +1,5 @@
 // make_meshes OUTPUT_DIR: writes the meshes of the sample scenes as OBJ.
+#include "figure.hpp"
 #include "gem.hpp"
 #include "heart.hpp"
 
@@ -29,13 +30,23 @@ bool save_jelly(const std::filesystem::path& folder)
     return true;
 }
 
+bool save_dressed(const std::filesystem::path& folder)
+{
+    const scenes::Figure figure;
+    for (uint32_t i = 0; i < scenes::k_walk_frames; ++i)
+        if (!save(folder / ("figure_" + std::to_string(i) + ".obj"),
+                  figure.at(static_cast<double>(i) / scenes::k_walk_frames)))
+            return false;
+    return save(folder / "skirt.obj", scenes::make_skirt()) && save(folder / "cape.obj", scenes::make_cape());
+}
+
 int run(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
     const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
                        save(folder / "ground.obj", scenes::make_ground()) &&
                        save(folder / "drape_heart.obj", scenes::make_drape_heart()) &&
-                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder);
+                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder) && save_dressed(folder);
     return saved ? 0 : 1;
 }
 

@@ -7,6 +7,7 @@
 #include "voile/engine/assets/load_mesh.hpp"
 #include "voile/engine/assets/words.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -86,10 +87,62 @@ voile::Attachment make_attachment(const PinEntry& entry, uint32_t vertex)
     return entry.max_distance ? attachment.with_max_distance(*entry.max_distance) : attachment;
 }
 
-// The attachments of all pins; where two pins name a vertex, the later one counts.
-voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry, const Start& start,
-                             AddedCloth& added)
+glm::vec3 placed(const Solid& solid, const voile::engine::Mesh& mesh, uint32_t vertex)
 {
+    return glm::vec3(solid.transform * glm::vec4(mesh.positions[vertex], 1));
+}
+
+// The triangle whose center is nearest.
+glm::uvec3 nearest_triangle(const Solid& solid, const voile::engine::Mesh& mesh, const glm::vec3& point)
+{
+    const auto distance = [&](const glm::uvec3& t)
+    {
+        const glm::vec3 sum = placed(solid, mesh, t.x) + placed(solid, mesh, t.y) + placed(solid, mesh, t.z);
+        return glm::distance(sum / 3.f, point);
+    };
+    return *std::ranges::min_element(mesh.triangles, {}, distance);
+}
+
+// The mesh collider that a pin follows; an error if it is none.
+voile::Result<size_t> followed_solid(const SceneFile& scene, const std::vector<Solid>& solids, const PinEntry& pin)
+{
+    const std::string path = "colliders[" + std::to_string(*pin.follow) + "]";
+    const auto solid = std::ranges::find_if(solids, [&](const Solid& s) { return s.location.path == path; });
+    if (solid == solids.end() || !std::holds_alternative<voile::engine::Mesh>(solid->shape))
+        return error_at(scene, pin.location, "follows " + path + ", which is no mesh of this run");
+    return static_cast<size_t>(solid - solids.begin());
+}
+
+// What all pins of a cloth share while they are added.
+struct PinContext
+{
+    voile::Solver& solver;
+    const SceneFile& scene;
+    const std::vector<Solid>& solids;
+    const Start& start;
+    AddedCloth& added;
+};
+
+// Binds a vertex to the nearest triangle of the collider that its pin follows.
+voile::Result<voile::Attachment> follow(const PinContext& context, const PinEntry& pin, size_t number, uint32_t vertex)
+{
+    const Solid& solid = context.solids[number];
+    const auto& mesh = std::get<voile::engine::Mesh>(solid.shape);
+    const glm::vec3 position = context.start.surface.positions[vertex];
+    const glm::uvec3 t = nearest_triangle(solid, mesh, position);
+    const glm::mat4 frame =
+        triangle_frame(placed(solid, mesh, t.x), placed(solid, mesh, t.y), placed(solid, mesh, t.z));
+    const auto anchor = context.solver.add_anchor(frame);
+    if (!anchor)
+        return error_at(context.scene, pin.location, anchor.error().message);
+    context.added.following_pins.push_back({anchor.value(), number, t, frame});
+    return make_attachment(pin, vertex).to(anchor.value()).at(glm::vec3(glm::inverse(frame) * glm::vec4(position, 1)));
+}
+
+// The attachments of all pins; where two pins name a vertex, the later one counts.
+voile::Result<void> add_pins(const PinContext& context, const ClothEntry& entry)
+{
+    auto& [solver, scene, solids, start, added] = context;
     std::map<uint32_t, voile::Attachment> attached;
     for (const PinEntry& pin : entry.pins)
     {
@@ -102,6 +155,14 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
             anchor = id.value();
             added.moving_pins.push_back({id.value(), *pin.motion});
         }
+        std::optional<size_t> followed;
+        if (pin.follow)
+        {
+            const auto solid = followed_solid(scene, solids, pin);
+            if (!solid)
+                return solid.error();
+            followed = solid.value();
+        }
         const std::vector<uint32_t> pinned = pinned_vertices(start, pin);
         if (pinned.empty())
             return error_at(scene, pin.location,
@@ -112,6 +173,14 @@ voile::Result<void> add_pins(voile::Solver& solver, const SceneFile& scene, cons
                 return error_at(scene, pin.location,
                                 "cloth " + in_quotes(entry.name) + ": pin vertex:" + std::to_string(vertex) +
                                     ", but it has " + std::to_string(start.surface.positions.size()) + " vertices");
+            if (followed)
+            {
+                const auto attachment = follow(context, pin, *followed, vertex);
+                if (!attachment)
+                    return attachment.error();
+                attached[vertex] = attachment.value();
+                continue;
+            }
             voile::Attachment attachment = make_attachment(pin, vertex);
             if (anchor) // relative to the anchor, which is at its pose of time 0
                 attachment = attachment.to(*anchor).at(
@@ -264,8 +333,15 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
 
 } // namespace
 
+glm::mat4 triangle_frame(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    const glm::vec3 along = glm::normalize(b - a);
+    const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    return {glm::vec4(along, 0), glm::vec4(normal, 0), glm::vec4(glm::cross(along, normal), 0), glm::vec4(a, 1)};
+}
+
 voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scene, const ClothEntry& entry,
-                                    const Options& options)
+                                    const std::vector<Solid>& solids, const Options& options)
 {
     Start start;
     const auto* form = std::get_if<GridEntry>(&entry.form);
@@ -275,7 +351,7 @@ voile::Result<AddedCloth> add_cloth(voile::Solver& solver, const SceneFile& scen
         return id.error();
     AddedCloth added;
     added.id = id.value();
-    if (auto pins = add_pins(solver, scene, entry, start, added); !pins)
+    if (auto pins = add_pins({solver, scene, solids, start, added}, entry); !pins)
         return pins.error();
     added.surface = std::move(start.surface);
     return added;

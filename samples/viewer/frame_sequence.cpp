@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace viewer
 {
@@ -39,6 +40,8 @@ voile::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const
         return files.error();
     MeshSequence sequence;
     sequence.rate_ = static_cast<double>(entry.rate);
+    sequence.loop_ = entry.loop;
+    sequence.ramp_ = entry.ramp;
     auto first = voile::engine::load_mesh(files.value().front(), nullptr, voile::engine::MeshVertices::positions);
     if (!first)
         return first.error();
@@ -76,16 +79,22 @@ voile::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const
 
 double MeshSequence::duration() const
 {
-    return static_cast<double>(frames_.size() - 1) / rate_;
+    if (loop_)
+        return std::numeric_limits<double>::infinity();
+    const double time = static_cast<double>(frames_.size() - 1) / rate_;
+    const auto ramp = static_cast<double>(ramp_); // the inverse of ramped()
+    return time < 0.5 * ramp ? std::sqrt(2 * time * ramp) : time + 0.5 * ramp;
 }
 
 void MeshSequence::positions_at(double seconds, std::vector<glm::vec3>& positions) const
 {
-    const auto last = static_cast<double>(frames_.size() - 1);
-    const double frame = std::clamp(seconds * rate_, 0.0, last);
+    const size_t count = frames_.size();
+    const double elapsed = std::max(ramped(seconds, ramp_), 0.0) * rate_;
+    const double frame =
+        loop_ ? std::fmod(elapsed, static_cast<double>(count)) : std::min(elapsed, static_cast<double>(count - 1));
     const auto from = static_cast<size_t>(frame);
     const std::vector<glm::vec3>& a = frames_[from];
-    const std::vector<glm::vec3>& b = frames_[std::min(from + 1, frames_.size() - 1)];
+    const std::vector<glm::vec3>& b = frames_[loop_ ? (from + 1) % count : std::min(from + 1, count - 1)];
     const auto fraction = static_cast<float>(frame - std::floor(frame));
     positions.resize(a.size());
     for (size_t i = 0; i < a.size(); ++i)

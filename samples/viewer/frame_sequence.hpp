@@ -20,11 +20,10 @@ public:
     [[nodiscard]] const voile::engine::Mesh& first() const { return first_; }
     [[nodiscard]] const voile::engine::Bounds& bounds() const { return bounds_; } // of all files
     [[nodiscard]] size_t frames() const { return frames_.size(); }
-    [[nodiscard]] double duration() const; // s, from the first file to the last
+    [[nodiscard]] double duration() const; // s, from the first file to the last; infinite for a loop
 
     // One a vertex. Frame f is there at f / rate s; between two, vertices go along straight lines. Before the first it
-    // is the first, and after the last the last: a sequence that jumps back to its beginning would tear what touches
-    // it.
+    // is the first, and after the last the last. In a loop the first follows the last 1 / rate s later.
     void positions_at(double seconds, std::vector<glm::vec3>& positions) const;
 
 private:
@@ -32,6 +31,8 @@ private:
     voile::engine::Bounds bounds_;
     std::vector<std::vector<glm::vec3>> frames_; // positions
     double rate_ = 60;                           // frames per second
+    bool loop_ = false;
+    float ramp_ = 0; // s
 };
 
 } // namespace viewer

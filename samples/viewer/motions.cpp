@@ -46,6 +46,19 @@ void Motions::deform(DeformingSolid& solid, const voile::engine::FrameInfo& fram
     solid.body->set_positions(solid.positions);
 }
 
+// After its solid has moved and deformed.
+void Motions::follow(const FollowingPin& pin)
+{
+    glm::mat4 frame = pin.frame;
+    if (const DeformingSolid* solid = find_solid(deforming, pin.solid))
+    {
+        const auto corner = [&](int i)
+        { return glm::vec3(solid->placed * glm::vec4(solid->positions[pin.triangle[i]], 1)); };
+        frame = triangle_frame(corner(0), corner(1), corner(2));
+    }
+    voile::engine::take(solver_.move_anchor(pin.anchor, pose(pin.solid) * frame));
+}
+
 void Motions::update(const voile::engine::FrameInfo& frame)
 {
     if (!frame.simulates)
@@ -62,6 +75,8 @@ void Motions::update(const voile::engine::FrameInfo& frame)
     }
     for (DeformingSolid& solid : deforming)
         deform(solid, frame);
+    for (const FollowingPin& pin : following)
+        follow(pin);
 }
 
 } // namespace viewer

@@ -37,6 +37,7 @@ struct DeformingSolid
     std::shared_ptr<const MeshSequence> frames;
     voile::engine::DeformingMesh* body = nullptr; // owned by the scene
     std::vector<glm::vec3> positions;             // m, in its mesh's space, after the frames so far
+    glm::mat4 placed{1.f};                        // world from mesh, at time 0
 };
 
 // Moves pins and solids to their poses at the frame's end, in `update`. The solver moves them there during its step,
@@ -47,6 +48,7 @@ public:
     explicit Motions(voile::Solver& solver) : solver_(solver) {}
 
     std::vector<MovingPin> pins;
+    std::vector<FollowingPin> following;
     std::vector<MovingSolid> solids;       // by their numbers, ascending
     std::vector<DeformingSolid> deforming; // by their numbers, ascending
 
@@ -58,6 +60,7 @@ public:
     void update(const voile::engine::FrameInfo& frame) override;
 
 private:
+    void follow(const FollowingPin& pin);
     void deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame);
 
     voile::Solver& solver_;

@@ -12,6 +12,8 @@ namespace viewer
 namespace
 {
 
+constexpr uint32_t k_most_collider_number = 1'000'000;
+
 GridEntry parse_grid(SceneReader& reader, const Field& field)
 {
     GridEntry grid;
@@ -135,14 +137,15 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     pin.location = location_of(field);
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
-    if (is_object && (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance")))
+    if (is_object &&
+        (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance") || has("follow")))
     {
         if (has("box"))
         {
             reader.fail(field, "has \"box\" beside other keys; put it under \"at\": {\"at\": {\"box\": ...}, ...}");
             return pin;
         }
-        if (!reader.object(field, {"at", "motion", "stiffness", "damping", "max_distance"}))
+        if (!reader.object(field, {"at", "motion", "follow", "stiffness", "damping", "max_distance"}))
             return pin;
         parse_pin_position(reader, reader.required(field, "at"), grid, pin);
         reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness),
@@ -153,6 +156,12 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
             reader.fail(SceneReader::child(field, "damping"), "is a spring's; it needs a \"stiffness\"");
         if (const Field motion = SceneReader::child(field, "motion"))
             pin.motion = parse_motion(reader, motion);
+        if (const Field follow = SceneReader::child(field, "follow"))
+        {
+            if (pin.motion)
+                reader.fail(field, "has both \"motion\" and \"follow\"");
+            reader.read_integer(follow, 0, k_most_collider_number, pin.follow.emplace());
+        }
         return pin;
     }
     if (is_object && !reader.object(field, {"box", "at", "motion", "stiffness", "damping", "max_distance"}))

@@ -12,6 +12,7 @@ namespace
 
 const Range k_position = within(voile::k_most_coordinate);
 const Range k_radius = between(voile::k_least_collider_size, voile::k_most_collider_size);
+const Range k_ramp = between(0, 1000); // s
 const Range k_friction = between(0, voile::k_most_friction);
 const Range k_scale{0, static_cast<double>(voile::k_most_coordinate), true}; // of a mesh of 1 m
 
@@ -102,11 +103,11 @@ void parse_frames(ParseContext& context, const Field& holder, ColliderEntry& col
 {
     SceneReader& reader = context.reader;
     const Field frames = SceneReader::child(holder, "frames");
-    const Field rate = SceneReader::child(holder, "rate");
     if (!frames)
     {
-        if (rate)
-            reader.fail(rate, "needs \"frames\" beside it");
+        for (const char* key : {"rate", "loop"})
+            if (const Field alone = SceneReader::child(holder, key))
+                reader.fail(alone, "needs \"frames\" beside it");
         return;
     }
     if (collider.frames)
@@ -115,7 +116,8 @@ void parse_frames(ParseContext& context, const Field& holder, ColliderEntry& col
     sequence.pattern = parse_mesh_path(context, frames);
     if (!reader.failed() && !is_frame_pattern(sequence.pattern.filename().string()))
         reader.fail(frames, "is " + in_quotes(frames.node->text) + "; a file name with one %d or %04d is expected");
-    reader.read(rate, Range{0, 1000, true}, sequence.rate);
+    reader.read(SceneReader::child(holder, "rate"), Range{0, 1000, true}, sequence.rate);
+    reader.read(SceneReader::child(holder, "loop"), sequence.loop);
     collider.frames = sequence;
 }
 
@@ -155,6 +157,7 @@ MotionEntry read_motion(SceneReader& reader, const Field& field)
     reader.read(SceneReader::child(field, "velocity"), within(voile::k_most_speed), motion.velocity);
     reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
     reader.read(SceneReader::child(field, "pivot"), k_position, motion.pivot);
+    reader.read(SceneReader::child(field, "ramp"), k_ramp, motion.ramp);
     if (const Field sway = SceneReader::child(field, "sway"); reader.object(sway, {"amplitude", "period"}))
     {
         motion.sway.emplace();
@@ -179,7 +182,7 @@ TransformEntry parse_transform(SceneReader& reader, const Field& field)
 
 MotionEntry parse_motion(SceneReader& reader, const Field& field)
 {
-    if (!reader.object(field, {"velocity", "spin", "pivot", "sway"}))
+    if (!reader.object(field, {"velocity", "spin", "pivot", "sway", "ramp"}))
         return {};
     return read_motion(reader, field);
 }
@@ -215,14 +218,16 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     ColliderEntry collider;
     collider.location = location_of(field);
     if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames",
-                               "rate", "sides", "layers"}))
+                               "rate", "loop", "sides", "layers"}))
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");
-    if (reader.object(motion, {"velocity", "spin", "pivot", "sway", "frames", "rate"}))
+    if (reader.object(motion, {"velocity", "spin", "pivot", "sway", "ramp", "frames", "rate", "loop"}))
     {
         parse_frames(context, motion, collider);
         collider.motion = read_motion(reader, motion);
+        if (collider.frames)
+            collider.frames->ramp = collider.motion->ramp;
     }
     parse_shape(context, field, collider);
     const Field transform = SceneReader::child(field, "transform");

@@ -7,6 +7,7 @@
 #include "voile/engine/assets/words.hpp"
 #include "voile/ranges.hpp"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <charconv>
@@ -281,8 +282,17 @@ glm::mat4 matrix(const TransformEntry& transform)
     return glm::scale(moved * rotation(transform.rotate), glm::vec3(transform.scale));
 }
 
-glm::mat4 matrix(const MotionEntry& motion, double seconds)
+double ramped(double seconds, float ramp)
 {
+    const auto length = static_cast<double>(ramp);
+    if (length <= 0)
+        return seconds;
+    return seconds < length ? 0.5 * std::max(seconds, 0.0) * seconds / length : seconds - 0.5 * length;
+}
+
+glm::mat4 matrix(const MotionEntry& motion, double scene_seconds)
+{
+    const double seconds = ramped(scene_seconds, motion.ramp);
     const auto time = static_cast<float>(seconds);
     const glm::mat4 back = glm::translate(glm::mat4(1.f), -motion.pivot);
     glm::vec3 moved = motion.velocity * time;

@@ -54,6 +54,7 @@ struct MotionEntry
     glm::vec3 spin{0.f};     // degrees/s about x, then y, then z
     glm::vec3 pivot{0.f};    // m, in the scene, at time 0
     std::optional<SwayEntry> sway{};
+    float ramp = 0.f; // s, >= 0: how long it takes to reach its speed, from rest
 };
 
 // Meshes of one topology, one a time step of 1/rate s.
@@ -61,6 +62,8 @@ struct FrameSequence
 {
     std::filesystem::path pattern; // resolved; its file name holds %d or %04d once, for the frame's number
     float rate = 60.f;             // meshes per second, > 0
+    bool loop = false;             // the first follows the last
+    float ramp = 0.f;              // s, that of the motion
 };
 
 struct WindEntry
@@ -137,6 +140,7 @@ struct PinEntry
 {
     std::variant<CornerPin, EdgePin, VertexPin, BoxPin> at; // corners and edges on grids only
     std::optional<MotionEntry> motion;                      // absent: it stays where it is
+    std::optional<uint32_t> follow;                         // the number of a mesh collider that it moves with
     std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
     float damping = 0.f;                                    // N·s/m, >= 0, of that spring
     std::optional<float> max_distance;                      // m, >= 0, from the point
@@ -272,6 +276,8 @@ voile::Error step_error(const SceneFile& scene, const std::string& reason);
 voile::Result<std::vector<std::filesystem::path>> frame_files(const FrameSequence& sequence);
 
 glm::mat4 matrix(const TransformEntry& transform);
+// The time that a motion has got to: it starts at rest, speeds up evenly for `ramp`, and then runs at the usual rate.
+double ramped(double seconds, float ramp);
 // The displacement of points from time 0 to `seconds`; at 0 the identity.
 glm::mat4 matrix(const MotionEntry& motion, double seconds);
 

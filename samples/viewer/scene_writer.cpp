@@ -77,6 +77,7 @@ Json motion(const MotionEntry& entry)
     add(json, "velocity", entry.velocity, glm::vec3(0));
     add(json, "spin", entry.spin, glm::vec3(0));
     add(json, "pivot", entry.pivot, glm::vec3(0));
+    add(json, "ramp", entry.ramp, 0);
     if (entry.sway)
         json["sway"] = {{"amplitude", vector(entry.sway->amplitude)}, {"period", number(entry.sway->period)}};
     return json;
@@ -116,11 +117,13 @@ Json pin_position(const PinEntry& pin)
 
 Json pin(const PinEntry& entry)
 {
-    if (!entry.motion && !entry.stiffness && !entry.max_distance)
+    if (!entry.motion && !entry.follow && !entry.stiffness && !entry.max_distance)
         return pin_position(entry);
     Json json{{"at", pin_position(entry)}};
     if (entry.motion)
         json["motion"] = motion(*entry.motion);
+    if (entry.follow)
+        json["follow"] = *entry.follow;
     if (entry.stiffness)
         json["stiffness"] = number(*entry.stiffness);
     add(json, "damping", entry.damping, 0);
@@ -207,6 +210,7 @@ Json collider(const ColliderEntry& entry, const fs::path& folder)
     {
         json["frames"] = relative_path(entry.frames->pattern, folder);
         json["rate"] = number(entry.frames->rate);
+        add(json, "loop", entry.frames->loop, false, true);
     }
     if (entry.sides)
         json["sides"] = *entry.sides == MeshSides::one ? "one" : "two";

@@ -100,7 +100,8 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
                                             .collider = collider,
                                             .frames = solid.frames,
                                             .body = &deforming,
-                                            .positions = mesh.positions});
+                                            .positions = mesh.positions,
+                                            .placed = solid.transform});
         parts.push_back({&deforming, solid.transform});
     }
     else
@@ -173,11 +174,13 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
     stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
     for (const ClothEntry& entry : scene.cloths)
     {
-        auto added = add_cloth(world.solver(), scene, entry, options);
+        auto added = add_cloth(world.solver(), scene, entry, solids, options);
         if (!added)
             return added.error();
         stage.motions->pins.insert(stage.motions->pins.end(), added.value().moving_pins.begin(),
                                    added.value().moving_pins.end());
+        stage.motions->following.insert(stage.motions->following.end(), added.value().following_pins.begin(),
+                                        added.value().following_pins.end());
         Surface& surface = added.value().surface;
         stage.cloths.push_back({entry.name, added.value().id, std::move(surface.positions), entry.layers,
                                 std::move(surface.faces), std::move(surface.texture_coordinates)});

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 namespace
 {
 
@@ -52,6 +54,26 @@ TEST_CASE("vertices move along straight lines from file to file and stay at the 
     CHECK(corner(0.175) == tests::close_to(1.25, 1e-7));
     CHECK(corner(0.2) == 1.f);
     CHECK(corner(100) == 1.f);
+    // In a loop the first follows the last. With a ramp of 0.2 s the first 0.1 s take 0.2 s.
+    viewer::FrameSequence entry{folder / "w_%02d.obj", 10};
+    entry.loop = true;
+    const auto loop = viewer::MeshSequence::load(entry);
+    entry.loop = false;
+    entry.ramp = 0.2f;
+    const auto ramped = viewer::MeshSequence::load(entry);
+    REQUIRE((loop && ramped));
+    CHECK(std::isinf(loop.value().duration()));
+    for (const auto& [seconds, x] : {std::pair(0.05, 1.3), {0.25, 0.8}, {0.35, 1.3}, {30.05, 1.3}})
+    {
+        loop.value().positions_at(seconds, positions);
+        CHECK(positions[2].x == tests::close_to(x, 1e-6));
+    }
+    for (const auto& [seconds, x] : {std::pair(0.1, 0.95), {0.2, 2.0}, {0.3, 1.0}})
+    {
+        ramped.value().positions_at(seconds, positions);
+        CHECK(positions[2].x == tests::close_to(x, 1e-6));
+    }
+    CHECK(ramped.value().duration() == tests::close_to(0.3, 1e-7));
     folder.write("one_0.obj", quad(1)); // a sequence of one file does not move
     const auto one = viewer::MeshSequence::load({folder / "one_%d.obj", 10});
     REQUIRE(one);

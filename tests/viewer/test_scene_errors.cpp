@@ -186,6 +186,8 @@ TEST_CASE("bad words, names and pins of a cloth are refused")
         "...}");
     CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"damping\": 5}]") ==
           "dir/s.json:1: cloths[0].pins[0].damping is a spring's; it needs a \"stiffness\"");
+    CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"follow\": 0, \"motion\": {}}]") ==
+          "dir/s.json:1: cloths[0].pins[0] has both \"motion\" and \"follow\"");
     CHECK(cloth_message("\"pins\": [{\"at\": \"corner:0\", \"stiffness\": 9, \"damping\": 5}]") == "accepted");
     CHECK(message("{\"cloths\": [{\"mesh\": \"a.obj\", \"pins\": [\"edge:top\"]}]}") ==
           at + "\"edge:top\", but only a grid has corners and edges");
@@ -217,6 +219,7 @@ TEST_CASE("bad colliders and cameras are refused")
         CHECK(collider_message("{\"frames\": \"" + std::string(pattern) + "\"}") ==
               at + ".frames is \"" + pattern + "\"; a file name with one %d or %04d is expected");
     CHECK(collider_message(R"({"mesh": "a.obj", "rate": 30})") == at + ".rate needs \"frames\" beside it");
+    CHECK(collider_message(R"({"mesh": "a.obj", "loop": true})") == at + ".loop needs \"frames\" beside it");
     CHECK(collider_message(R"({"frames": "a%d.obj", "motion": {"frames": "a%d.obj"}})") ==
           at + ".motion.frames is given twice: in the collider and in its motion");
     CHECK(collider_message(R"({"mesh": "a.obj", "sides": "three"})") ==

@@ -1,9 +1,11 @@
 // The meshes that the sample scenes are made with.
+#include "samples/scenes/figure.hpp"
 #include "samples/scenes/gem.hpp"
 #include "samples/scenes/heart.hpp"
 
 #include "support/close_to.hpp"
 #include "support/mesh_checks.hpp"
+#include "voile/mesh_checks.hpp"
 
 #include <doctest/doctest.h>
 
@@ -202,4 +204,70 @@ TEST_CASE("the gem is closed once its faces are joined, wound outward, and lies 
     CHECK(signed_volume(gem) > 0.15); // a ball of 0.36 m has 0.195
     for (const glm::vec3& p : points)
         CHECK(std::min(std::abs(glm::length(p) - 0.4f), std::abs(glm::length(p) - 0.36f)) < 1e-6f);
+}
+
+TEST_CASE("the figure is closed, walks with its faces and its volume, and its feet stand on the ground")
+{
+    const scenes::Figure figure;
+    const voile::engine::Mesh& rest = figure.at_rest();
+    CHECK(is_closed(rest));
+    CHECK(voile::count_self_intersections(rest.positions, rest.triangles) == 0);
+    const double volume = signed_volume(rest);
+    CHECK(volume > 0.04);
+    CHECK(volume < 0.08);
+    double lowest = 1;
+    double highest = -1;
+    for (uint32_t frame = 0; frame < scenes::k_walk_frames; ++frame)
+    {
+        const voile::engine::Mesh mesh = figure.at(static_cast<double>(frame) / scenes::k_walk_frames);
+        CHECK(mesh.triangles == rest.triangles);
+        CHECK(std::abs(signed_volume(mesh) / volume - 1) < 0.05);
+        const voile::engine::Bounds box = voile::engine::bounds(mesh);
+        lowest = std::min(lowest, double{box.min.y});
+        highest = std::max(highest, double{box.min.y});
+        CHECK(box.max.y > 1.6);
+    }
+    CHECK(lowest > -0.02);
+    CHECK(highest < 0.02); // one foot stands at any time
+}
+
+TEST_CASE("a foot of the figure does not slide while it stands")
+{
+    const scenes::Figure figure;
+    const voile::engine::Mesh& rest = figure.at_rest();
+    size_t sole = 0; // a vertex in the middle of the left foot
+    for (size_t i = 0; i < rest.positions.size(); ++i)
+        if (glm::distance(rest.positions[i], glm::vec3(0.1f, 0, 0.04f)) <
+            glm::distance(rest.positions[sole], glm::vec3(0.1f, 0, 0.04f)))
+            sole = i;
+    // In the scene, which turns the figure while it walks.
+    const auto in_scene = [&](double seconds)
+    {
+        const double cycle = static_cast<double>(scenes::k_walk_frames) / scenes::k_walk_rate;
+        const glm::dvec3 p = figure.at(std::fmod(seconds / cycle, 1)).positions[sole];
+        const double angle = glm::radians(-scenes::k_walk_spin) * seconds;
+        const double x = p.x + scenes::k_walk_radius;
+        return glm::dvec3(x * std::cos(angle) + p.z * std::sin(angle), p.y,
+                          p.z * std::cos(angle) - x * std::sin(angle));
+    };
+    for (const double seconds : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6})
+        CHECK(glm::distance(in_scene(seconds), in_scene(0.05)) < 0.002);
+    CHECK(glm::distance(in_scene(0.9), in_scene(0.05)) > 0.1);
+}
+
+TEST_CASE("the clothes of the figure start outside of it and do not intersect")
+{
+    const scenes::Figure figure;
+    voile::engine::Mesh all = figure.at(0);
+    // Where a thigh bends, the figure's own folds may.
+    const uint64_t folds = voile::count_self_intersections(all.positions, all.triangles);
+    CHECK(folds < 100);
+    for (const voile::engine::Mesh& cloth : {scenes::make_skirt(), scenes::make_cape()})
+    {
+        const auto first = static_cast<uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), cloth.positions.begin(), cloth.positions.end());
+        for (const glm::uvec3& t : cloth.triangles)
+            all.triangles.push_back(t + first);
+    }
+    CHECK(voile::count_self_intersections(all.positions, all.triangles) == folds);
 }

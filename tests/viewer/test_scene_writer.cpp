@@ -29,7 +29,8 @@ constexpr const char* k_all = R"({
              {"at": "edge:bottom", "motion": {"velocity": [1, 0, 0], "spin": [0, 45, 0], "pivot": [0, 1, 0],
                                               "sway": {"amplitude": [0.5, 0, 0], "period": 3}},
               "stiffness": 50, "damping": 0.2, "max_distance": 0.1},
-             {"at": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}, "max_distance": 0.3}],
+             {"at": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}, "max_distance": 0.3},
+             {"at": "corner:0", "follow": 6}],
     "tethers": {"stretch": 0.02},
     "velocity": [0, 0, -1],
     "integrator": "verlet",
@@ -46,7 +47,8 @@ constexpr const char* k_all = R"({
     {"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 0.2}},
     {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}},
     {"frames": "walk_%04d.obj", "rate": 30},
-    {"mesh": "walk.obj", "frames": "w%d.obj", "rate": 24, "sides": "two", "layers": [31]}
+    {"mesh": "walk.obj", "motion": {"spin": [0, 9, 0], "pivot": [1, 0, 0], "ramp": 0.5}, "frames": "w%d.obj", "rate": 24,
+     "loop": true, "sides": "two", "layers": [31]}
   ],
   "camera": {"position": [0, 2, 5], "target": [0, 1, 0], "fov": 35}
 })";

@@ -223,3 +223,35 @@ TEST_CASE("a sequence that cannot be used is named with the scene's line and the
             {"s.json:3: colliders[0].frames: ", "rest.obj: has 5 vertices, but the first has 4 (w0.obj)"});
     refused(R"({"mesh": "gone.obj", "frames": "w%d.obj"})", {"s.json:3: colliders[0].mesh: ", "gone.obj"});
 }
+
+TEST_CASE("a pin follows a mesh that deforms and moves")
+{
+    SceneRuns runs;
+    save(runs, "up_0.obj", dome(0));
+    save(runs, "up_1.obj", moved(dome(0), 1, {0, 0.5f, 0}));
+    // The plate rises by half a meter in half a second and turns by a right angle.
+    const std::string collider = R"({"frames": "up_%d.obj", "rate": 2, "layers": [], "motion": {"spin": [0, 180, 0]}})";
+    const auto corner = [&](const std::string& pin)
+    {
+        const SceneResult result = runs.run(scene(collider, R"(, "pins": [)" + pin + "]", 0.35f), 30);
+        return result.cloth.positions[0];
+    };
+    const glm::vec3 start = corner(R"("corner:0")");
+    CHECK(glm::distance(start, glm::vec3(-0.3f, 0.35f, -0.3f)) < 1e-4f);
+    const glm::vec3 end = corner(R"({"at": "corner:0", "follow": 0})");
+    CHECK(glm::distance(end, glm::vec3(-0.3f, 0.85f, 0.3f)) < 1e-4f);
+    const fs::path file = runs.folder().write(
+        "s.json", scene(R"({"plane": {"y": 0}})", R"(, "pins": [{"at": "corner:0", "follow": 0}])"));
+    check_refused(run_viewer(file.string() + " --headless --frames 1"),
+                  {"s.json:", "cloths[0].pins[0]: follows colliders[0], which is no mesh of this run"});
+}
+
+TEST_CASE("the dressed figure starts to walk, and no cloth intersects cloth or figure")
+{
+    const Run run = run_viewer("dressed --headless --size 64x36 --frames 24 --validate --verify");
+    CAPTURE(run.errors);
+    CAPTURE(run.output);
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("verified: 0 penetrating vertices, deepest 0 mm, 0 self-intersections") != std::string::npos);
+    CHECK(run.output.find("intersections: 0 pairs of cloth, 0 of cloth and collider") != std::string::npos);
+}
