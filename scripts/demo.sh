@@ -4,12 +4,14 @@
 #
 #   scripts/demo.sh                    the window, or the film without a display
 #   scripts/demo.sh --headless         the film
+#   scripts/demo.sh --film             a film of 20 seconds of four scenes, out/demo/voile.mp4
 #   scripts/demo.sh --scene drape ...  another scene; other arguments go to the viewer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scene=reference
 headless=false
+film=false
 arguments=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -19,6 +21,7 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     --headless) headless=true ;;
+    --film) film=true ;;
     *) arguments+=("$1") ;;
   esac
   shift
@@ -28,6 +31,20 @@ done
 scripts/setup.sh
 scripts/build.sh viewer scene_meshes
 viewer=build/release/bin/viewer
+if $film; then
+  command -v ffmpeg >/dev/null 2>&1 || { echo 'demo: a film needs ffmpeg' >&2; exit 1; }
+  out=out/demo
+  mkdir -p "$out"
+  parts=$(mktemp -d)
+  trap 'rm -rf "$parts"' EXIT
+  for part in fabrics flag curtains dressed; do # 5 seconds each
+    "$viewer" "$part" --headless --frames 300 --size 640x360 --video "$parts/$part.mp4" ${arguments[@]+"${arguments[@]}"}
+    printf "file '%s'\n" "$parts/$part.mp4" >>"$parts/list"
+  done
+  ffmpeg -hide_banner -loglevel error -y -f concat -safe 0 -i "$parts/list" -c copy -movflags +faststart "$out/voile.mp4"
+  echo "wrote $out/voile.mp4"
+  exit
+fi
 if ! $headless; then
   exec "$viewer" "$scene" ${arguments[@]+"${arguments[@]}"}
 fi

@@ -2,6 +2,7 @@
 #include "figure.hpp"
 #include "gem.hpp"
 #include "heart.hpp"
+#include "label.hpp"
 
 #include "voile/engine/assets/obj.hpp"
 
@@ -40,13 +41,23 @@ bool save_dressed(const std::filesystem::path& folder)
     return save(folder / "skirt.obj", scenes::make_skirt()) && save(folder / "cape.obj", scenes::make_cape());
 }
 
+bool save_labels(const std::filesystem::path& folder)
+{
+    constexpr float k_height = 0.07f; // m
+    for (const char* text : {"silk", "cotton", "wool", "denim", "leather", "12x12", "24x24", "48x48", "96x96"})
+        if (!save(folder / (std::string("label_") + text + ".obj"), scenes::make_label(text, k_height)))
+            return false;
+    return true;
+}
+
 int run(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
     const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
                        save(folder / "ground.obj", scenes::make_ground()) &&
                        save(folder / "drape_heart.obj", scenes::make_drape_heart()) &&
-                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder) && save_dressed(folder);
+                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder) && save_dressed(folder) &&
+                       save_labels(folder);
     return saved ? 0 : 1;
 }
 

@@ -123,6 +123,7 @@ voile::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& ent
     solid.value().motion = entry.motion;
     solid.value().sides = entry.sides;
     solid.value().layers = entry.layers;
+    solid.value().look = entry.look;
     solid.value().location = entry.location;
     return solid;
 }

@@ -22,6 +22,7 @@ struct Solid
     std::shared_ptr<const MeshSequence> frames{}; // of a mesh that deforms, whose shape is the first; else null
     std::optional<MeshSides> sides{};
     uint32_t layers = 1;
+    SolidLookEntry look{};
     Location location{};          // in the scene file; line 0: of the command line
     std::filesystem::path file{}; // of the command line
 

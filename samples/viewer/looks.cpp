@@ -74,6 +74,15 @@ void replace(T& value, const std::optional<T>& by)
 
 } // namespace
 
+Surface solid_surface(const SolidLookEntry& look)
+{
+    Surface surface;
+    surface.base_color = look.color.value_or(glm::vec3(0.66f, 0.60f, 0.50f));
+    surface.roughness = look.roughness.value_or(0.45f);
+    surface.metallic = look.metallic.value_or(0.f);
+    return surface;
+}
+
 Surface cloth_surface(const ClothEntry& cloth, size_t index, float size)
 {
     const Colors& colors = k_colors[index % k_colors.size()];
@@ -86,6 +95,7 @@ Surface cloth_surface(const ClothEntry& cloth, size_t index, float size)
     replace(surface.back_color, look.back_color);
     replace(surface.weave, look.weave);
     replace(surface.pattern, look.pattern);
+    replace(surface.weave_scale, look.threads);
     replace(surface.roughness, look.roughness);
     replace(surface.sheen, look.sheen);
     replace(surface.translucency, look.translucency);

@@ -12,4 +12,6 @@ namespace viewer
 // longer side of the cloth.
 voile::engine::Surface cloth_surface(const ClothEntry& cloth, size_t index, float size);
 
+voile::engine::Surface solid_surface(const SolidLookEntry& look);
+
 } // namespace viewer

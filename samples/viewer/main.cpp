@@ -8,6 +8,7 @@
 #include "samples/viewer/progress.hpp"
 #include "samples/viewer/shader_reload.hpp"
 #include "samples/viewer/softening_notes.hpp"
+#include "samples/viewer/text.hpp"
 #include "samples/viewer/verify.hpp"
 
 #include "voile/engine/app/signals.hpp"
@@ -18,6 +19,8 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <iterator>
+#include <sstream>
 
 namespace
 {
@@ -46,6 +49,24 @@ void check_targets(const Options& options)
         (void)voile::engine::take(voile::engine::AtomicFile::create(*options.stats));
     for (const ExportTarget& target : options.exports)
         (void)voile::engine::take(voile::engine::AtomicFile::create(target.path));
+}
+
+// The engine knows what is wrong, and this knows the words that were likely meant.
+void check_device(const std::string& wanted)
+{
+    if (wanted.find_first_not_of("0123456789") == std::string::npos)
+        return;
+    std::vector<std::string> words;
+    for (const voile::engine::DeviceInfo& device : voile::engine::list_devices())
+    {
+        if (device.name.find(wanted) != std::string::npos)
+            return;
+        std::istringstream name(device.name);
+        std::copy(std::istream_iterator<std::string>(name), {}, std::back_inserter(words));
+        words.push_back(device.name);
+    }
+    throw voile::engine::StartupError("--device: no device is called " + in_quotes(wanted) + suggestion(wanted, words) +
+                                      " (--list-devices shows them)");
 }
 
 voile::engine::AppOptions app_options(const Options& options, const SceneFile& scene)
@@ -223,6 +244,8 @@ int run_scene(const Options& options)
     LoadedScene scene = voile::engine::take(load(options));
     voile::engine::take(check_outputs(options, scene.file));
     check_targets(options);
+    if (options.device)
+        check_device(*options.device);
     std::optional<voile::engine::Capture> capture; // before the instance
     if (options.capture || options.capture_key)
     {
@@ -234,6 +257,7 @@ int run_scene(const Options& options)
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
     voile::engine::take(set_up(app, scene));
+    app.renderer().modes.full_strain = 0.01f * static_cast<float>(options.debug.strain.value_or(0));
     // An animation rules out that another scene takes the place of this one.
     const ExportScene animated(scene.stage, scene.solids,
                                is_animated(options) ? download_state(app.device(), scene.stage)

@@ -109,8 +109,9 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
     app.add_option("--debug", typed.debug,
                    "Draws over the picture the boxes of the meshes' hierarchies (level 4 where\n"
                    "none is named), the vertices in contact, the vertex normals, or the vertices of\n"
-                   "intersecting edges and triangles, which it also counts each frame; repeatable")
-        ->type_name("boxes[:LEVEL]|contacts|normals|intersections")
+                   "intersecting edges and triangles, which it also counts each frame, or colors fabric\n"
+                   "by its stretch, red at PERCENT (5 where none is named); repeatable")
+        ->type_name("boxes[:LEVEL]|contacts|normals|intersections|strain[:PERCENT]")
         ->group(group);
     app.add_option("--shaders", typed.shaders,
                    "Draws with the shaders of this folder (shaders/render, or a copy), and compiles\n"
@@ -257,7 +258,10 @@ void convert_colliders(Converter& convert, const std::vector<std::string>& value
 void convert_debug(Converter& convert, const std::vector<std::string>& values, DebugOptions& debug)
 {
     constexpr uint32_t k_boxes_level = 4;
+    constexpr uint32_t k_strain = 5; // percent
+    constexpr uint32_t k_most_strain = 100;
     const std::string boxes = "boxes:";
+    const std::string strain = "strain:";
     for (const std::string& value : values)
     {
         convert.check_value("--debug", value);
@@ -271,10 +275,15 @@ void convert_debug(Converter& convert, const std::vector<std::string>& values, D
             debug.boxes = k_boxes_level;
         else if (value.starts_with(boxes))
             debug.boxes = convert.integer("--debug boxes", {value.substr(boxes.size())}, 0, k_deepest_box);
+        else if (value == "strain")
+            debug.strain = k_strain;
+        else if (value.starts_with(strain))
+            debug.strain = convert.integer("--debug strain", {value.substr(strain.size())}, 1, k_most_strain);
         else
-            convert.fail("--debug", in_quotes(value) +
-                                        " is not boxes, boxes:LEVEL, contacts, normals or intersections" +
-                                        suggestion(value, {"boxes", "contacts", "normals", "intersections"}));
+            convert.fail("--debug",
+                         in_quotes(value) +
+                             " is not boxes, boxes:LEVEL, contacts, normals, intersections, strain or strain:PERCENT" +
+                             suggestion(value, {"boxes", "contacts", "normals", "intersections", "strain"}));
     }
 }
 

@@ -40,6 +40,8 @@ struct DebugOptions
     bool contacts = false;
     bool normals = false;
     bool intersections = false;
+    std::optional<uint32_t>
+        strain{}; // percent of the hottest color, 1..100; not drawn by DebugView but by the renderer
 
     [[nodiscard]] bool any() const { return boxes || contacts || normals || intersections; }
 };

@@ -2,6 +2,7 @@
 // step_parameters.hpp.
 #include "samples/viewer/panel_contents.hpp"
 
+#include "samples/viewer/looks.hpp"
 #include "samples/viewer/materials.hpp"
 #include "samples/viewer/step_parameters.hpp"
 
@@ -123,7 +124,10 @@ void show_presets(PanelContents& panel, size_t cloth)
         const std::optional<voile::Fabric> fabric = voile::find_fabric(name);
         const bool live =
             fabric && std::holds_alternative<voile::Fabric>(solver.material(id)) && solver.set_material(id, *fabric);
-        if (!live)
+        const StageCloth& drawn = panel.scene.stage.cloths[cloth];
+        if (live)
+            drawn.sheet->set_surface(cloth_surface(panel.scene.file.cloths[cloth], cloth, drawn.size));
+        else
             panel.controls.restart();
     }
     ImGui::EndCombo();

@@ -218,7 +218,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     ColliderEntry collider;
     collider.location = location_of(field);
     if (!reader.object(field, {"mesh", "plane", "sphere", "capsule", "box", "transform", "friction", "motion", "frames",
-                               "rate", "loop", "sides", "layers"}))
+                               "rate", "loop", "look", "sides", "layers"}))
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");
@@ -235,6 +235,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     collider.transform = parse_transform(reader, transform);
     if (const Field friction = SceneReader::child(field, "friction"); friction && !reader.failed())
         collider.friction = parse_friction(reader, friction);
+    collider.look = parse_solid_look(reader, SceneReader::child(field, "look"));
     parse_layers(reader, SceneReader::child(field, "layers"), collider.layers);
     const Field sides = SceneReader::child(field, "sides");
     if (const auto word = reader.read_word(sides, "a number of sides", {"one", "two"}))

@@ -158,6 +158,7 @@ struct LookEntry
     std::optional<glm::vec3> back_color{}; // of the other side; absent beside `color`: darker
     std::optional<voile::engine::Surface::Weave> weave{};
     std::optional<voile::engine::Surface::Pattern> pattern{};
+    std::optional<float> threads{};      // per meter, 1..1e5
     std::optional<float> roughness{};    // 0.05..1
     std::optional<float> sheen{};        // 0..1
     std::optional<float> translucency{}; // 0..1
@@ -219,6 +220,14 @@ enum class MeshSides
     two  // to the side that cloth comes from
 };
 
+// How a collider is drawn. What is absent is that of stone; the ground has its own.
+struct SolidLookEntry
+{
+    std::optional<glm::vec3> color{}; // linear, 0..1
+    std::optional<float> roughness{}; // 0.05..1
+    std::optional<float> metallic{};  // 0..1
+};
+
 struct ColliderEntry
 {
     std::variant<MeshShape, PlaneShape, SphereShape, CapsuleShape, BoxShape> shape;
@@ -229,6 +238,7 @@ struct ColliderEntry
     std::optional<FrictionEntry> friction;
     std::optional<MotionEntry> motion;
     std::optional<FrameSequence> frames; // with a mesh only
+    SolidLookEntry look;
     Location location;
 };
 

@@ -41,7 +41,8 @@ void parse_color(SceneReader& reader, const Field& field, std::optional<glm::vec
 LookEntry parse_look(SceneReader& reader, const Field& field)
 {
     LookEntry look;
-    if (!reader.object(field, {"color", "back_color", "weave", "pattern", "roughness", "sheen", "translucency"}))
+    if (!reader.object(field,
+                       {"color", "back_color", "weave", "pattern", "threads", "roughness", "sheen", "translucency"}))
         return look;
     parse_color(reader, SceneReader::child(field, "color"), look.color);
     parse_color(reader, SceneReader::child(field, "back_color"), look.back_color);
@@ -49,9 +50,21 @@ LookEntry parse_look(SceneReader& reader, const Field& field)
         look.weave = static_cast<voile::engine::Surface::Weave>(*word);
     if (const auto word = reader.read_word(SceneReader::child(field, "pattern"), "a pattern", k_patterns))
         look.pattern = static_cast<voile::engine::Surface::Pattern>(*word);
+    reader.read(SceneReader::child(field, "threads"), Range{1, 1e5}, look.threads);
     reader.read(SceneReader::child(field, "roughness"), Range{0.05, 1}, look.roughness);
     reader.read(SceneReader::child(field, "sheen"), Range{0, 1}, look.sheen);
     reader.read(SceneReader::child(field, "translucency"), Range{0, 1}, look.translucency);
+    return look;
+}
+
+SolidLookEntry parse_solid_look(SceneReader& reader, const Field& field)
+{
+    SolidLookEntry look;
+    if (!reader.object(field, {"color", "roughness", "metallic"}))
+        return look;
+    parse_color(reader, SceneReader::child(field, "color"), look.color);
+    reader.read(SceneReader::child(field, "roughness"), Range{0.05, 1}, look.roughness);
+    reader.read(SceneReader::child(field, "metallic"), Range{0, 1}, look.metallic);
     return look;
 }
 

@@ -22,6 +22,7 @@ inline Location location_of(const Field& field)
 ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index);
 ColliderEntry parse_collider(ParseContext& context, const Field& field);
 LookEntry parse_look(SceneReader& reader, const Field& field);
+SolidLookEntry parse_solid_look(SceneReader& reader, const Field& field);
 MaterialEntry parse_material(SceneReader& reader, const Field& field);
 PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* grid);
 TransformEntry parse_transform(SceneReader& reader, const Field& field);

@@ -148,9 +148,22 @@ Json look(const LookEntry& entry)
         json["weave"] = k_weaves[static_cast<size_t>(*entry.weave)];
     if (entry.pattern)
         json["pattern"] = k_patterns[static_cast<size_t>(*entry.pattern)];
+    add_number("threads", entry.threads);
     add_number("roughness", entry.roughness);
     add_number("sheen", entry.sheen);
     add_number("translucency", entry.translucency);
+    return json;
+}
+
+Json look(const SolidLookEntry& entry)
+{
+    Json json = Json::object();
+    if (entry.color)
+        json["color"] = vector(*entry.color);
+    if (entry.roughness)
+        json["roughness"] = number(*entry.roughness);
+    if (entry.metallic)
+        json["metallic"] = number(*entry.metallic);
     return json;
 }
 
@@ -216,6 +229,8 @@ Json collider(const ColliderEntry& entry, const fs::path& folder)
         json["sides"] = *entry.sides == MeshSides::one ? "one" : "two";
     if (entry.layers != ColliderEntry{}.layers)
         json["layers"] = layers(entry.layers);
+    if (const Json drawn = look(entry.look); !drawn.empty())
+        json["look"] = drawn;
     return json;
 }
 

@@ -15,14 +15,6 @@ namespace viewer
 namespace
 {
 
-voile::engine::Surface solid_surface()
-{
-    voile::engine::Surface surface;
-    surface.base_color = {0.66f, 0.60f, 0.50f};
-    surface.roughness = 0.45f;
-    return surface;
-}
-
 std::optional<voile::Friction> friction(const Solid& solid)
 {
     if (!solid.friction)
@@ -87,7 +79,7 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
                   Stage& stage)
 {
     const bool ground = solid.is_ground() || std::holds_alternative<PlaneShape>(solid.shape);
-    const voile::engine::Surface surface = ground ? voile::engine::ground_surface() : solid_surface();
+    const voile::engine::Surface surface = ground ? voile::engine::ground_surface() : solid_surface(solid.look);
     const size_t index = stage.colliders.size();
     voile::engine::Entity& entity = app.scene().add(solid.name);
     std::vector<DrawnPart> parts;
@@ -143,7 +135,27 @@ voile::engine::Bounds stage_bounds(const std::vector<StageCloth>& cloths, const 
     return *box;
 }
 
-void frame_scene(voile::engine::Scene& scene, const SceneFile& file, const voile::engine::Bounds& box)
+// The distance from the box's middle, in the direction of `view` and looking back, at which all of its corners are in
+// the picture.
+float viewing_distance(const voile::engine::Bounds& box, const glm::vec3& view, float fov, float aspect)
+{
+    constexpr float k_filled = 0.92f; // of half the picture
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), view));
+    const glm::vec3 up = glm::cross(view, right);
+    const float tangent = k_filled * std::tan(glm::radians(0.5f * fov));
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const glm::bvec3 far((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+        const glm::vec3 p = glm::mix(box.min, box.max, far) - 0.5f * (box.min + box.max);
+        const float needed =
+            std::max(std::abs(glm::dot(p, right)) / (tangent * aspect), std::abs(glm::dot(p, up)) / tangent);
+        distance = std::max(distance, glm::dot(p, view) + needed);
+    }
+    return distance;
+}
+
+void frame_scene(voile::engine::Scene& scene, const SceneFile& file, const voile::engine::Bounds& box, float aspect)
 {
     scene.focus = 0.5f * (box.min + box.max);
     scene.focus_radius = std::max(0.5f * glm::distance(box.min, box.max), 1e-3f);
@@ -152,9 +164,10 @@ void frame_scene(voile::engine::Scene& scene, const SceneFile& file, const voile
         scene.camera = {file.camera->position, file.camera->target, file.camera->fov};
         return;
     }
-    const float distance = 1.05f * scene.focus_radius / std::sin(glm::radians(0.5f * scene.camera.fov));
+    const glm::vec3 view = glm::normalize(glm::vec3(0.45f, 0.4f, 1));
+    const float distance = viewing_distance(box, view, scene.camera.fov, aspect);
     scene.camera.target = scene.focus;
-    scene.camera.position = scene.focus + distance * glm::normalize(glm::vec3(0.45f, 0.4f, 1));
+    scene.camera.position = scene.focus + std::max(distance, 1e-3f) * view;
 }
 
 } // namespace
@@ -186,16 +199,17 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
                                 std::move(surface.faces), std::move(surface.texture_coordinates)});
     }
     const voile::engine::Bounds box = stage_bounds(stage.cloths, solids);
-    frame_scene(app.scene(), scene, box);
+    frame_scene(app.scene(), scene, box, static_cast<float>(options.width) / static_cast<float>(options.height));
     for (size_t i = 0; i < stage.cloths.size(); ++i)
     {
-        const StageCloth& cloth = stage.cloths[i];
+        StageCloth& cloth = stage.cloths[i];
         const voile::engine::Bounds extent = bounds_of(cloth.start);
         const glm::vec3 size = extent.max - extent.min;
-        app.scene()
-            .add(cloth.name)
-            .add<voile::component::Sheet>(world, app.uploads(), cloth.id,
-                                          cloth_surface(scene.cloths[i], i, std::max({size.x, size.y, size.z, 1e-3f})));
+        cloth.size = std::max({size.x, size.y, size.z, 1e-3f});
+        cloth.sheet = &app.scene()
+                           .add(cloth.name)
+                           .add<voile::component::Sheet>(world, app.uploads(), cloth.id,
+                                                         cloth_surface(scene.cloths[i], i, cloth.size));
     }
     SolidMeshes meshes(app.uploads(), glm::distance(box.min, box.max));
     for (const Solid& solid : solids)

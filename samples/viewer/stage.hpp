@@ -19,6 +19,8 @@ struct StageCloth
     uint32_t layers = 1;
     Faces faces{}; // for files
     std::vector<glm::vec2> texture_coordinates{};
+    voile::component::Sheet* sheet = nullptr; // owned by the scene
+    float size = 1;                           // m, the longest side of the box around the start
 };
 
 struct Stage

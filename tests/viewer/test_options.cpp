@@ -209,8 +209,11 @@ TEST_CASE("--debug accepts every mode")
     CHECK_FALSE(level.value().debug.contacts);
     CHECK(level.value().scene == "drape");
     CHECK(message({"--debug", "boxen"}) ==
-          "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals or intersections; did you mean "
-          "\"boxes\"?");
+          "--debug: \"boxen\" is not boxes, boxes:LEVEL, contacts, normals, intersections, strain or strain:PERCENT; "
+          "did you mean \"boxes\"?");
+    CHECK(parse_line("--debug strain").value().debug.strain == 5u);
+    CHECK(parse_line("--debug strain:12").value().debug.strain == 12u);
+    CHECK(message({"--debug", "strain:0"}) == "--debug strain: \"0\" is not within 1 to 100");
     CHECK(message({"--export", "a.objj"}) ==
           "--export: \"a.objj\" does not end in .obj, .ply, .pc2 or .usda; did you mean \".obj\"?");
     CHECK(message({"--debug", "boxes:49"}) == "--debug boxes: \"49\" is not within 0 to 48");

@@ -36,14 +36,15 @@ constexpr const char* k_all = R"({
     "integrator": "verlet",
     "self_collision": true,
     "layers": [0, 3],
-    "look": {"color": [0.5, 0.25, 0.125], "back_color": [0, 0, 1], "weave": "twill", "pattern": "stripes",
+    "look": {"color": [0.5, 0.25, 0.125], "back_color": [0, 0, 1], "weave": "twill", "pattern": "stripes", "threads": 250,
              "roughness": 0.5, "sheen": 0.25, "translucency": 0.75}
   }, {"name": "shirt", "mesh": "m/shirt.PLY", "material": "silk"}, {"name": "towel", "mesh": "towel.obj"}],
   "colliders": [
     {"mesh": "../heart.obj", "transform": {"rotate": [0, 90, 0]}, "friction": {"static": 0.5, "kinetic": 0.4},
      "motion": {"velocity": [0, 1, 0], "spin": [0, 45, 0], "pivot": [1, 1, 1]}, "sides": "one"},
     {"plane": {"y": -0.4}, "friction": {"static": 0.3, "kinetic": 0.3}},
-    {"sphere": {"center": [0, 1, 0], "radius": 0.5}, "transform": {}},
+    {"sphere": {"center": [0, 1, 0], "radius": 0.5}, "transform": {},
+     "look": {"color": [0.5, 0.25, 0], "roughness": 0.25, "metallic": 1}},
     {"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 0.2}},
     {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}},
     {"frames": "walk_%04d.obj", "rate": 30},

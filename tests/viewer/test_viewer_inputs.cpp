@@ -2,6 +2,7 @@
 #include "viewer/viewer_process.hpp"
 
 #include "samples/viewer/json_tree.hpp"
+#include "voile/engine/gpu/device.hpp"
 
 #include <doctest/doctest.h>
 
@@ -129,4 +130,16 @@ TEST_CASE("watched shaders need their files and a compiler, whose absence is rep
     const std::string line = "viewer: shaders: glslangValidator is not installed (or not in PATH)\n";
     CHECK(run.errors.find(line) == 0);
     CHECK(run.errors.rfind(line) == 0);
+}
+
+TEST_CASE("a device that is not there is named with the one that was likely meant")
+{
+    std::string name = voile::engine::list_devices().front().name;
+    name = name.substr(0, name.find(' ')); // its first word, with two letters swapped
+    std::string wrong = name;
+    std::swap(wrong[1], wrong[2]);
+    if (wrong == name)
+        wrong += 'x';
+    tests::check_refused(run_viewer("drape --headless --frames 0 --device " + wrong),
+                         {"--device: no device is called \"" + wrong + "\"; did you mean \"" + name + "\"?"});
 }

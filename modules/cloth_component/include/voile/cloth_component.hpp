@@ -54,6 +54,8 @@ public:
     Sheet(ClothWorld& world, engine::UploadBatch& uploads, const GridCloth& grid, const engine::Surface& surface);
 
     [[nodiscard]] ClothId cloth() const { return cloth_; }
+    // From the next frame on.
+    void set_surface(const engine::Surface& surface) { surface_ = surface; }
 
     void record_draw(VkCommandBuffer cmd, engine::View& view) override;
 
