@@ -248,7 +248,7 @@ TEST_CASE("a pin follows a mesh that deforms and moves")
 
 TEST_CASE("the dressed figure starts to walk, and no cloth intersects cloth or figure")
 {
-    const Run run = run_viewer("dressed --headless --size 64x36 --frames 24 --validate --verify");
+    const Run run = run_viewer("dressed --headless --size 64x36 --frames 12 --validate --verify");
     CAPTURE(run.errors);
     CAPTURE(run.output);
     CHECK(run.exit_code == 0);
