@@ -48,12 +48,13 @@ uint32_t substeps_per_list(float substep, uint32_t contact_period)
 }
 
 // Between contact passes nothing holds what features have pushed. Within two substeps springs hardly respond; within
-// more they would carry part of the load, and friction would lose its hold (bench/NOTES.md). Guards of pairs hold
-// vertices in every substep.
+// more they would carry part of the load, and friction would lose its hold (bench/NOTES.md). Without features more
+// would do, but then a cloth would move differently beside one that has features. Guards of pairs hold vertices in
+// every substep.
 uint32_t substeps_per_contact(const Solver::State& solver, float substep)
 {
     constexpr float k_rounding = 1e-3f;
-    const float most = solver.passes.pairs ? 1.f : solver.passes.features ? 2.f : 8.f;
+    const float most = solver.passes.pairs ? 1.f : 2.f;
     const float interval = solver.options.tuning.contact_interval;
     return std::max(1u, static_cast<uint32_t>(std::min(interval / substep + k_rounding, most)));
 }
