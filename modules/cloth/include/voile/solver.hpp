@@ -93,9 +93,9 @@ struct Tuning
     // vertex with more near pairs keeps the nearest, and moves less from one search to the next.
     uint32_t pair_capacity = 32;
 
-    // s: two substeps of Verlet within this time share one query of contact with colliders. Between two queries a vertex
-    // stays above the plane of the surface that it last touched, with friction. 0: a query in every substep, as with
-    // RK4, with normal_ray and with self-collision.
+    // s: two substeps of Verlet within this time share one query of contact with colliders. Between two queries a
+    // vertex stays above the plane of the surface that it last touched, with friction. 0: a query in every substep, as
+    // with RK4, with normal_ray and with self-collision.
     float contact_interval = 0.5e-3f;
 
     ContactMethod contact_method = ContactMethod::nearest_point;
