@@ -167,6 +167,7 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
     }
 }
 
+// One thread per vertex, because several merge contacts in another order.
 TEST_CASE("edges of a collider hold cloth equally whether the features near it are listed or not")
 {
     for (const bool mesh : {false, true})
@@ -175,7 +176,7 @@ TEST_CASE("edges of a collider hold cloth equally whether the features near it a
             CAPTURE(mesh);
             CAPTURE(fall);
             const auto fall_with = [&](uint32_t items)
-            { return fall_on_walls(mesh, {.tuning = {.feature_items = items}}, fall); };
+            { return fall_on_walls(mesh, {.tuning = {.feature_threads = 1, .feature_items = items}}, fall); };
             const std::vector<glm::vec4> listed = fall_with(8);
             CHECK(farthest(listed, fall_with(0)) < 5e-5f); // every vertex traverses; measured: 1.2e-5
             CHECK(farthest(listed, fall_with(1)) < 5e-5f); // some do

@@ -18,8 +18,8 @@ except ImportError:
 
 SUBSTEP = ["cloth rk4 stage"] * 4 + ["cloth feature tests", "cloth feature contact", "cloth contact"]
 # Before the first substep, and between substeps, with cloth that collides with itself.
-SEARCH = ["cloth pair sweeps", "cloth pair boxes", "cloth refit levels", "cloth refit levels", "cloth find candidates",
-          "cloth find pairs", "cloth match pairs", "cloth index pairs"]
+SEARCH = ["cloth pair clear", "cloth pair sweeps", "cloth pair boxes", "cloth refit levels", "cloth refit levels",
+          "cloth find candidates", "cloth find pairs", "cloth match pairs", "cloth index pairs"]
 PAIRS = ["cloth meet pairs", "cloth respond to pairs"]
 BUFFERS = pathlib.Path(__file__).parents[2] / "shaders/cloth/shared/buffers.h"
 
@@ -101,7 +101,7 @@ def check_order(frame):
             expect(passes in (SEARCH + PAIRS, []), f"after substep {k}: {passes}")
     expect(dispatches[len(cloth):] == ["cloth statistics", "cloth statistics reduce"], f"{dispatches[len(cloth):]}")
     order = [next(i for i, (labels, _) in enumerate(frame.steps) if label in labels)
-             for label in ("cloth", "shadow map", "scene", "sky")]
+             for label in ("cloth", "shadow map", "height map", "scene", "sky")]
     expect(order == sorted(order), f"passes begin at {order} of {names}")
     last_dispatch = max(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Dispatch)
     first_draw = min(i for i, (_, a) in enumerate(frame.steps) if a.flags & rd.ActionFlags.Drawcall)
@@ -119,7 +119,7 @@ def check_buffers(frame):
     draws = [(labels, action) for labels, action in frame.steps
              if "cloth" in labels[-1:] and action.flags & rd.ActionFlags.Drawcall]
     views = {labels[-2] for labels, _ in draws}
-    expect(views == {"shadow map", "scene"}, f"the cloth is drawn in {views}")
+    expect(views == {"shadow map", "height map", "scene"}, f"the cloth is drawn in {views}")
     bound = frame.bound_buffers(contact)
     # What contact.comp writes: the proposed state, in place, or the state before.
     written = [bound[binding_of(name)] for name in ("proposed_positions", "earlier_positions")]
