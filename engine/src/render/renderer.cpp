@@ -218,7 +218,7 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the sky covers the rest
     color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    const VkRenderingAttachmentInfoKHR depth = 
+    const VkRenderingAttachmentInfoKHR depth =
         depth_attachment(targets.depth.view(), VK_ATTACHMENT_STORE_OP_DONT_CARE, 0);
     VkRenderingInfoKHR rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO_KHR;
@@ -261,13 +261,11 @@ void Renderer::record(VkCommandBuffer cmd, const Scene& scene, const FrameInfo& 
     state_->bindings.bind(cmd, frame.slot, uniforms);
     {
         const gpu::LabelScope scope(state_->context, cmd, "shadow map", frame.timestamps);
-        state_->record_map(cmd, scene,
-                           {state_->shadow_map, uniforms.shadow_from_world, state_->pipelines->shadow()});
+        state_->record_map(cmd, scene, {state_->shadow_map, uniforms.shadow_from_world, state_->pipelines->shadow()});
     }
     {
         const gpu::LabelScope scope(state_->context, cmd, "height map", frame.timestamps);
-        state_->record_map(cmd, scene,
-                           {state_->height_map, uniforms.height_from_world, state_->pipelines->height()});
+        state_->record_map(cmd, scene, {state_->height_map, uniforms.height_from_world, state_->pipelines->height()});
     }
     const gpu::LabelScope scope(state_->context, cmd, "scene", frame.timestamps);
     state_->record_scene(cmd, scene, uniforms, modes);

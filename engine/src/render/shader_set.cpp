@@ -13,16 +13,16 @@ namespace voile::engine
 namespace
 {
 
-constexpr auto k_names =
-    std::to_array<std::string_view>({"dot.vert", "flagged_dot.vert", "height.vert", "line.vert", "mark.frag", "shadow.vert",
-                                     "sky.frag", "sky.vert", "surface.frag", "surface.vert", "wire.frag"});
+constexpr auto k_names = std::to_array<std::string_view>({"dot.vert", "flagged_dot.vert", "height.vert", "line.vert",
+                                                          "mark.frag", "shadow.vert", "sky.frag", "sky.vert",
+                                                          "surface.frag", "surface.vert", "wire.frag"});
 
 std::span<const uint32_t> embedded(std::string_view name)
 {
     const std::array<std::span<const uint32_t>, k_names.size()> code{
-        shaders::k_dot_vert,     shaders::k_flagged_dot_vert, shaders::k_height_vert, shaders::k_line_vert, shaders::k_mark_frag,
-        shaders::k_shadow_vert,  shaders::k_sky_frag,         shaders::k_sky_vert,  shaders::k_surface_frag,
-        shaders::k_surface_vert, shaders::k_wire_frag};
+        shaders::k_dot_vert,     shaders::k_flagged_dot_vert, shaders::k_height_vert, shaders::k_line_vert,
+        shaders::k_mark_frag,    shaders::k_shadow_vert,      shaders::k_sky_frag,    shaders::k_sky_vert,
+        shaders::k_surface_frag, shaders::k_surface_vert,     shaders::k_wire_frag};
     const auto* const found = std::ranges::find(k_names, name);
     assert(found != k_names.end());
     return code[static_cast<size_t>(found - k_names.begin())];
