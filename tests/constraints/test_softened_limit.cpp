@@ -3,6 +3,7 @@
 
 #include "support/cloth_meshes.hpp"
 #include "support/energy_balance.hpp"
+#include "support/recorded_dispatches.hpp"
 
 #include "voile/engine/assets/mesh.hpp"
 #include "voile/fabrics.hpp"
@@ -199,22 +200,10 @@ TEST_CASE("cloth gets and loses the limit of softened cloth with the substeps of
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(pinned(20)));
     harness.upload();
-    const auto recorded = [&](const voile::Step& step)
-    {
-        uint32_t dispatches = 0;
-        harness.run(
-            [&](VkCommandBuffer cmd)
-            {
-                voile::gpu::Recorder recorder(tests::solver_context(), cmd);
-                voile::engine::take(harness.solver.record(recorder, step));
-                dispatches = recorder.dispatches();
-            });
-        return dispatches;
-    };
-    (void)recorded(enough); // sets pins
+    (void)tests::recorded_dispatches(harness, enough); // sets pins
     CHECK(harness.solver.dispatches(none) == harness.solver.dispatches(fixed));
     CHECK(harness.solver.dispatches(few) > harness.solver.dispatches(none) + 8);
     for (const voile::Step& step : {few, enough, few, none, few, fixed, none, enough})
-        CHECK(recorded(step) == harness.solver.dispatches(step));
+        CHECK(tests::recorded_dispatches(harness, step) == harness.solver.dispatches(step));
     CHECK(stretch_99(harness.positions(id), 20) < 0.1);
 }

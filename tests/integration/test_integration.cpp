@@ -3,6 +3,7 @@
 #include "reference/cloth_reference.hpp"
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
+#include "support/recorded_dispatches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -293,14 +294,7 @@ TEST_CASE("a step has the reported dispatches, and as many for ten cloths as for
             {
                 harness.upload();
                 harness.step(step); // no edits from the second step on
-                uint32_t dispatches = 0;
-                harness.run(
-                    [&](VkCommandBuffer cmd)
-                    {
-                        voile::gpu::Recorder recorder(tests::solver_context(), cmd);
-                        voile::engine::take(harness.solver.record(recorder, step));
-                        dispatches = recorder.dispatches();
-                    });
+                const uint32_t dispatches = tests::recorded_dispatches(harness, step);
                 CHECK(dispatches == harness.solver.dispatches(step));
                 return dispatches;
             };

@@ -3,10 +3,9 @@
 
 #include "model/stability.hpp"
 
-#include "shared/strain_layout.h"
-
 #include "shared/grid_springs.h"
 #include "shared/pair_layout.h"
+#include "shared/strain_layout.h"
 
 #include <algorithm>
 #include <array>
