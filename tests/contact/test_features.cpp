@@ -114,8 +114,48 @@ voile::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>
     return {.positions = positions, .triangles = triangles};
 }
 
-// Cloth that falls on two crossing walls between its vertices. Returns its positions after two frames.
-std::vector<glm::vec4> fall_on_walls(bool mesh, const voile::SolverOptions& options, float speed = 2)
+// Two crossing walls between the vertices of the cloth.
+std::vector<voile::engine::Mesh> walls()
+{
+    std::vector<voile::engine::Mesh> result;
+    for (const glm::vec3& half : {glm::vec3(0.3f, 0.3f, 0.005f), glm::vec3(0.005f, 0.3f, 0.3f)})
+        result.push_back(voile::engine::make_box({-half.x, -0.6f, -half.z}, {half.x, 0, half.z}));
+    return result;
+}
+
+// More colliders with features near one vertex than a workgroup gathers features for.
+std::vector<voile::engine::Mesh> stack_of_walls()
+{
+    std::vector<voile::engine::Mesh> result;
+    for (int i = 9; i >= 1; --i) // those that hold the cloth come last
+        result.push_back(
+            voile::engine::make_box({-0.3f, -0.6f, -0.005f}, {0.3f, -0.0005f * static_cast<float>(i), 0.005f}));
+    for (const voile::engine::Mesh& wall : walls())
+        result.push_back(wall);
+    return result;
+}
+
+// One mesh with more features near a workgroup than it gathers.
+std::vector<voile::engine::Mesh> brush()
+{
+    voile::engine::Mesh result;
+    for (int x = -10; x <= 10; ++x)
+        for (int z = -10; z <= 10; ++z)
+        {
+            const glm::vec3 at(0.02f * static_cast<float>(x), 0, 0.02f * static_cast<float>(z));
+            const voile::engine::Mesh bristle =
+                voile::engine::make_box(at - glm::vec3(0.002f, 0.1f, 0.002f), at + glm::vec3(0.002f, 0, 0.002f));
+            const auto first = static_cast<uint32_t>(result.positions.size());
+            result.positions.insert(result.positions.end(), bristle.positions.begin(), bristle.positions.end());
+            for (const glm::uvec3& triangle : bristle.triangles)
+                result.triangles.push_back(triangle + first);
+        }
+    return {result};
+}
+
+// Cloth that falls on colliders. Returns its positions after two frames.
+std::vector<glm::vec4> fall_on(const std::vector<voile::engine::Mesh>& colliders, bool mesh,
+                               const voile::SolverOptions& options, float speed = 2)
 {
     tests::ClothHarness harness(options);
     voile::GridCloth sheet = tests::flat_sheet(12, 0.44f, 0.01f); // vertices 4 cm apart
@@ -129,12 +169,16 @@ std::vector<glm::vec4> fall_on_walls(bool mesh, const voile::SolverOptions& opti
     round.material = sheet.material;
     const voile::ClothId id = mesh ? voile::engine::take(harness.solver.add_cloth(round))
                                    : voile::engine::take(harness.solver.add_cloth(sheet));
-    for (const glm::vec3& half : {glm::vec3(0.3f, 0.3f, 0.005f), glm::vec3(0.005f, 0.3f, 0.3f)})
-        (void)voile::engine::take(harness.solver.add_collider(
-            tests::collider(voile::engine::make_box({-half.x, -0.6f, -half.z}, {half.x, 0, half.z}))));
+    for (const voile::engine::Mesh& collider : colliders)
+        (void)voile::engine::take(harness.solver.add_collider(tests::collider(collider)));
     harness.upload();
     harness.step({}, 2);
     return harness.positions(id);
+}
+
+std::vector<glm::vec4> fall_on_walls(bool mesh, const voile::SolverOptions& options, float speed = 2)
+{
+    return fall_on(walls(), mesh, options, speed);
 }
 
 float farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
@@ -181,6 +225,26 @@ TEST_CASE("edges of a collider hold cloth equally whether the features near it a
             CHECK(farthest(listed, fall_with(0)) < 5e-5f); // every vertex traverses; measured: 1.2e-5
             CHECK(farthest(listed, fall_with(1)) < 5e-5f); // some do
         }
+}
+
+TEST_CASE("edges of a collider hold cloth equally whether a workgroup has room for the features near it or not")
+{
+    const auto check = [](const std::vector<voile::engine::Mesh>& colliders)
+    {
+        const auto fall_with = [&](uint32_t items)
+        { return fall_on(colliders, false, {.tuning = {.feature_threads = 1, .feature_items = items}}); };
+        const std::vector<glm::vec4> listed = fall_with(8);
+        CHECK(farthest(listed, fall_on(colliders, false, {.feature_contact = false})) > 0.01f);
+        CHECK(farthest(listed, fall_with(0)) < 5e-5f); // measured: 3e-5 with many colliders, 0 with a dense one
+    };
+    SUBCASE("many colliders")
+    {
+        check(stack_of_walls());
+    }
+    SUBCASE("a dense one")
+    {
+        check(brush());
+    }
 }
 
 TEST_CASE("options with an invalid enumerator are refused")

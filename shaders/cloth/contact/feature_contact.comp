@@ -149,13 +149,16 @@ void visit_colliders(uint patch_index, uint part, uint parts)
         visit_collider(c, part, parts);
 }
 
-// The number of cells that the vertex is in, and one of them. In the cell to the left, for example, it is the vertex to
-// the right.
-uint cells_around() { return self.vertex.columns > 0 ? 4 : 1; }
-uint cell_around(uint i) { return neighbor(self.vertex.index, -k_cell[i], self.vertex.columns); }
+// The cells that the vertex is in: of a grid four, of a mesh one. In the cell to the left, for example, it is the vertex
+// to the right.
 bool has_cell(uint i)
 {
-    return self.vertex.columns == 0 || in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
+    return self.vertex.columns == 0 ? i == 0
+                                    : in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
+}
+uint cell_around(uint i)
+{
+    return has_cell(i) ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
 }
 
 // Merges the contacts of a cell, in which the vertex is the i-th one. `touched`: bits of the items from `first` on.
@@ -188,22 +191,20 @@ bool merge_cells()
     bool valid = true;
     uint firsts[4];
     uvec2 touched[4];
-    const uint count = cells_around();
-    for (uint i = 0; i < count; ++i)
-    {
-        touched[i] = uvec2(0);
-        if (!has_cell(i))
-            continue;
-        const FeatureCell cell = cells[cell_around(i)];
-        firsts[i] = cell.first;
-        touched[i] = uvec2(cell.touched[word], cell.touched[word + 1]);
-        valid = valid && cell.invalid != push.substep && cell.invalid != VOILE_EVERY_SUBSTEP;
-    }
     uvec2 any = uvec2(0);
-    for (uint i = 0; i < count; ++i)
+    for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
+    {
+        const bool has = has_cell(i);
+        const uint cell = cell_around(i);
+        firsts[i] = cells[cell].first;
+        touched[i] = uvec2(cells[cell].touched[word], cells[cell].touched[word + 1]);
+        touched[i] = has ? touched[i] : uvec2(0);
         any |= touched[i];
+        const uint invalid = cells[cell].invalid;
+        valid = valid && (!has || (invalid != push.substep && invalid != VOILE_EVERY_SUBSTEP));
+    }
     if (valid && any != uvec2(0) && load_self())
-        for (uint i = 0; i < count; ++i)
+        for (uint i = 0; i < 4; ++i)
         {
             merge_items(firsts[i], touched[i].x, i);
             merge_items(firsts[i] + 32, touched[i].y, i);

@@ -3,8 +3,9 @@
 // Lists the features near the pieces of all cloths, and the patches near features, until the next such pass.
 // test_features.comp runs over the listed features, feature_contact.comp over the patches, by indirect dispatches.
 //
-// Several threads per vertex (push.lanes) each take some of its pieces. They find the features near them twice: first
-// they count them, for four margins, then they write those within the widest margin with few enough. A vertex that has
+// The threads of a workgroup gather the features near its vertices (feature_gathering.glsl). Several threads per vertex
+// (push.lanes) each take some of its pieces. They test them twice: first they count the features near them, for four
+// margins, then they write those within the widest margin with few enough. A vertex that has
 // too many, or for which no room is left, has none, and feature_contact.comp traverses the hierarchies instead.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
@@ -42,6 +43,7 @@ layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 #include "colliders/collider_pose.glsl"
 #include "colliders/near_colliders.glsl"
 #include "contact/feature_fan.glsl"
+#include "contact/feature_gathering.glsl"
 #include "contact/rounding.glsl"
 #include "contact/triangle.glsl"
 
@@ -86,27 +88,24 @@ struct FeatureSearch
     Triangle shape;     // an edge repeats its second vertex
     uint collider;
     Box box;            // of the piece, grown by the margin
-    Box sweep;          // of all triangles around the vertex until the next pass
-    bool found;         // a feature in the sweep, or it is not looked for
     float query_radius; // m, the thickness with room for rounding
     float widest;       // m, the margin that is counted with
     float margin;       // m
     bool writes;
     uvec4 counts;       // within each margin
+    uint near;          // one bit per gathering that has a feature which may touch a triangle around the vertex
     uint next;          // item to write
     uint end;
 };
 
-// The first leaf in the sweep suffices.
-bool enters_node(FeatureSearch search, Box node)
-{
-    return overlap(search.box, node) || (!search.found && overlap(search.sweep, node));
-}
+bool enters_node(FeatureSearch search, Box node) { return overlap(search.box, node); }
 
 FinePosition position_of(uint vertex)
 {
     return FinePosition(positions[vertex].xyz, unpack_residual(residuals[vertex]));
 }
+
+#include "contact/feature_surrounding.glsl"
 
 vec3 position_in(Space space, uint vertex)
 {
@@ -114,12 +113,12 @@ vec3 position_in(Space space, uint vertex)
     return is_moved(space.flags) ? to_collider(space.pose, offset) : offset;
 }
 
-// m
-float feature_distance(Feature feature, Triangle t, bool edge)
+// m. `a`: with the feature's radius.
+float feature_distance(vec4 a, vec3 b, Triangle t, bool edge)
 {
     if (edge)
-        return segment_distance(t.a, t.b, feature.a, feature.b) - feature.radius;
-    return distance(feature.a, nearest_on_triangle(feature.a, t.a, t.b, t.c)) - feature.radius;
+        return segment_distance(t.a, t.b, a.xyz, b) - a.w;
+    return distance(a.xyz, nearest_on_triangle(a.xyz, t.a, t.b, t.c)) - a.w;
 }
 
 void write_item(inout FeatureSearch search, uint feature, float excess)
@@ -143,74 +142,23 @@ void add_item(inout FeatureSearch search, uint feature, float excess)
         search.counts += uvec4(lessThanEqual(vec4(excess), search.margin * vec4(k_fractions[0], k_fractions[1], k_fractions[2], k_fractions[3])));
 }
 
+void visit_feature(inout FeatureSearch search, uint f, vec4 a, vec3 b)
+{
+    const bool edge = search.piece.kind != VOILE_PIECE_TRIANGLE;
+    if ((a.xyz != b) != edge)
+        return;
+    const float excess = feature_distance(a, b, search.shape, edge) - search.query_radius;
+    add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
+}
+
 void visit_leaf(inout FeatureSearch search, uint first, uint count)
 {
-    search.found = true;
-    const bool edge = search.piece.kind != VOILE_PIECE_TRIANGLE;
     for (uint f = first; f < first + count; ++f)
-    {
-        const Feature feature = features[f];
-        if ((feature.a != feature.b) != edge || search.piece.kind == VOILE_PIECE_GUARD)
-            continue;
-        const float excess = feature_distance(feature, search.shape, edge) - search.query_radius;
-        add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
-    }
+        visit_feature(search, f, vec4(features[f].a, features[f].radius), features[f].b);
 }
 
 #define VOILE_QUERY FeatureSearch
 #include "colliders/bvh.glsl"
-
-// The vertices of the triangles around a vertex, and of its cell.
-uint around_count(PatchVertex self) { return self.columns > 0 ? 8 : cell_count(self); }
-
-// False: outside of the grid.
-bool find_around(PatchVertex self, uint i, out uint vertex)
-{
-    if (self.columns == 0)
-        return find_in_cell(self, i, vertex);
-    const ivec2 to = i == 0 ? ivec2(0) : i == 7 ? ivec2(1) : k_ring[i - 1];
-    vertex = neighbor(self.index, to, self.columns);
-    return in_grid(self.column_row + to, self.columns, self.rows);
-}
-
-// The triangles around a vertex in the space of a collider.
-struct Surrounding
-{
-    Box box;       // now
-    Box later;     // at the next pass, where the velocities lead
-    float longest; // m, the longest displacement of a vertex
-};
-
-Surrounding surrounding(PatchVertex self, uint c, uint flags)
-{
-    Surrounding result = Surrounding(Box(vec3(3e38), vec3(-3e38)), Box(vec3(3e38), vec3(-3e38)), 0);
-    const bool moves = is_moved(flags);
-    Pose start;
-    Pose end;
-    if (moves)
-    {
-        start = pose_at(c, push.progress_from);
-        end = pose_at(c, push.progress_to);
-    }
-    const uint count = around_count(self);
-    for (uint i = 0; i < count; ++i)
-    {
-        uint vertex;
-        if (!find_around(self, i, vertex))
-            continue;
-        vec3 from = from_origin(c, flags, position_of(vertex));
-        vec3 to = from + push.time * velocities[vertex].xyz;
-        if (moves)
-        {
-            from = to_collider(start, from);
-            to = to_collider(end, to);
-        }
-        result.box = joined(result.box, Box(from, from));
-        result.later = joined(result.later, Box(to, to));
-        result.longest = max(result.longest, distance(from, to));
-    }
-    return result;
-}
 
 bool may_touch(uint c, PatchVertex self)
 {
@@ -258,23 +206,37 @@ bool find_piece(PatchVertex self, uint i, out PieceKind piece)
     return true;
 }
 
-// Finds the features of collider c near the pieces of this lane. The first lane returns whether a feature may touch a
-// triangle around the vertex before the next pass.
-bool search_collider(inout FeatureSearch search, uint c, uint lane)
+// m: the thickness with room for rounding. `far`: m, from the origin of the collider's space.
+float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth].thickness + rounding(far); }
+
+// Gathers the features of collider c near the workgroup. All of its threads take part, those without a vertex, too.
+Gathering gather_near(inout FeatureSearch search, bool exists, uint c, uint lane, uint index)
+{
+    const FeatureSet set = feature_sets[c];
+    GroupBoxes own;
+    if (exists)
+    {
+        const Surrounding around = surrounding(search.self, c, colliders[c].flags);
+        const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
+        const float reach = max(search.widest, max(around.longest, push.sudden * push.time));
+        own.pieces = grown(around.cell, radius + search.widest);
+        own.sweep = grown(joined(around.box, around.later), radius + reach);
+        exists = overlap(own.sweep, Box(set.box_min, set.box_max));
+    }
+    const Gathering gathering = gather(index, joined_of_group(exists && lane == 0, own), set);
+    if (exists && gathering.near)
+        search.near |= 1u << min(index, 31);
+    return gathering;
+}
+
+// Finds the features of a collider near the pieces of this lane.
+void search_pieces(inout FeatureSearch search, uint c, uint lane, Gathering gathering)
 {
     const FeatureSet set = feature_sets[c];
     Space space = Space(c, colliders[c].flags, Pose(vec4(0, 0, 0, 1), vec3(0)));
     if (is_moved(space.flags))
         space.pose = pose_at(c, push.progress_from);
-    const Surrounding around = surrounding(search.self, c, space.flags);
-    const vec3 far = max(abs(around.box.min), abs(around.box.max));
-    search.query_radius = 1.01 * cloths[search.self.cloth].thickness + rounding(far);
-    const float room = search.query_radius + max(search.widest, max(around.longest, push.sudden * push.time));
-    search.sweep = grown(joined(around.box, around.later), room);
-    if (!overlap(search.sweep, Box(set.box_min, set.box_max)))
-        return false;
     search.collider = c;
-    search.found = lane > 0;
     const uint count = piece_count(search.self);
     for (uint i = lane; i < count; i += push.lanes)
     {
@@ -282,34 +244,42 @@ bool search_collider(inout FeatureSearch search, uint c, uint lane)
             continue;
         const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
         search.shape = Triangle(position_in(space, v.x), position_in(space, v.y), position_in(space, v.z));
-        search.box = grown(joined(box_around(search.shape.a, search.shape.b), Box(search.shape.c, search.shape.c)),
-                           search.query_radius + search.margin);
-        traverse_bvh(search, set.first_node, set.first_feature);
+        const Box shape = joined(box_around(search.shape.a, search.shape.b), Box(search.shape.c, search.shape.c));
+        search.query_radius = query_radius(search.self, max(abs(shape.min), abs(shape.max)));
+        search.box = grown(shape, search.query_radius + search.margin);
+        if (gathering.crowded)
+            traverse_bvh(search, set.first_node, set.first_feature);
+        for (uint f = gathering.first; f < gathering.end; ++f)
+        {
+            const vec4 a = gathered_starts[f];
+            const vec3 b = gathered_ends[f].xyz;
+            if (overlap(search.box, grown(box_around(a.xyz, b), a.w)))
+                visit_feature(search, gathered[f], a, b);
+        }
     }
-    if (lane == 0 && !search.found) // its pieces do not exist
-    {
-        search.box = search.sweep;
-        search.piece.kind = VOILE_PIECE_GUARD;
-        traverse_bvh(search, set.first_node, set.first_feature);
-    }
-    return lane == 0 && search.found;
+    if (lane > 0)
+        return;
+    search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
+    add_item(search, floatBitsToUint(search.margin), 0);
 }
 
-// Finds the features near the pieces of this lane.
-bool search_colliders(inout FeatureSearch search, Box walked, uint lane)
+// Finds the features near the pieces of this lane. `walked`: of the workgroup, whose threads all call this.
+void search_colliders(inout FeatureSearch search, bool searches, Box walked, uint lane)
 {
-    bool near = false;
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
-    while (next_collider(walk, c))
+    for (uint index = 0; next_collider(walk, c); ++index)
     {
-        if (!may_touch(c, search.self) || !search_collider(search, c, lane))
+        if (!may_touch(c, search.self))
             continue;
-        near = true;
-        search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
-        add_item(search, floatBitsToUint(search.margin), 0);
+        Gathering gathering = Gathering(0, 0, true, true);
+        if (!search.writes)
+            gathering = gather_near(search, searches, c, lane, index);
+        else if (index < k_most_gatherings)
+            gathering = gatherings[index];
+        if (searches && (search.near & 1u << min(index, 31)) != 0)
+            search_pieces(search, c, lane, gathering);
     }
-    return near;
 }
 
 // Whether the pieces of the vertex can be written as items.
@@ -395,6 +365,7 @@ void main()
     search.self = patch_vertex(patch_of_group(),
                                (gl_WorkGroupID.x % push.lanes * gl_WorkGroupSize.x + thread) / push.lanes);
     search.counts = uvec4(0);
+    search.near = 0;
     search.widest = 0;
     Box walked = Box(vec3(0), vec3(0));
     bool searches = search.self.exists;
@@ -408,15 +379,19 @@ void main()
             feature_centers[search.self.index] =
                 FeatureCenter(position, 0, residuals[search.self.index], uvec2(0));
     }
+    if (push.near_stride != 0) // else all colliders are walked over
+        walked = joined_of_group(searches && lane == 0, GroupBoxes(walked, walked)).sweep;
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)
     {
         search.writes = round == 1;
-        if (searches && search_colliders(search, walked, lane))
+        search_colliders(search, searches, walked, lane);
+        if (search.writes)
+            continue;
+        if (search.near != 0)
             atomicOr(near_vertices, 1);
-        if (round == 0)
-            searches = allocate(search, searches && has_numbers(search.self), lane, in_group);
+        searches = allocate(search, searches && has_numbers(search.self), lane, in_group);
     }
     while (search.next < search.end)
         items[search.next++].vertex = VOILE_NO_VERTEX;
