@@ -5,6 +5,7 @@
 #include "voile/engine/gpu/frames.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace viewer
@@ -12,11 +13,40 @@ namespace viewer
 namespace
 {
 
-std::vector<glm::vec3> download_vectors(const voile::engine::Device& device, VkBuffer buffer,
-                                        const voile::VertexStreams& streams)
+// The vectors of one cloth after another, from padded ones.
+class DownloadedVectors
 {
-    const auto values = voile::engine::download_values<glm::vec4>(device, buffer, streams.offset, streams.vertices);
-    return {values.begin(), values.end()};
+public:
+    explicit DownloadedVectors(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+    std::vector<glm::vec3> next(uint32_t count)
+    {
+        std::vector<glm::vec4> padded(count);
+        if (count > 0)
+            std::memcpy(padded.data(), bytes_.data() + begin_, count * sizeof(glm::vec4));
+        begin_ += count * sizeof(glm::vec4);
+        return {padded.begin(), padded.end()};
+    }
+
+private:
+    std::vector<std::byte> bytes_;
+    size_t begin_ = 0;
+};
+
+// Positions, velocities and, on request, normals of each cloth.
+DownloadedVectors download_vectors(const voile::engine::Device& device, const Stage& stage, bool normals)
+{
+    std::vector<voile::engine::BufferRange> ranges;
+    for (const StageCloth& cloth : stage.cloths)
+    {
+        const voile::VertexStreams streams = stage.world->solver().vertices(cloth.id);
+        const VkDeviceSize bytes = streams.vertices * sizeof(glm::vec4);
+        ranges.push_back({streams.positions, streams.offset, bytes});
+        ranges.push_back({streams.velocities, streams.offset, bytes});
+        if (normals)
+            ranges.push_back({streams.normals, streams.offset, bytes});
+    }
+    return DownloadedVectors(voile::engine::download(device, ranges));
 }
 
 // Records and waits.
@@ -55,15 +85,16 @@ std::vector<FinalCloth> download_state(const voile::engine::Device& device, cons
     const bool at_start = solver.needs_upload();
     if (at_start)
         upload_start(device, solver);
+    DownloadedVectors vectors = download_vectors(device, stage, !at_start);
     std::vector<FinalCloth> result;
     for (const StageCloth& cloth : stage.cloths)
     {
-        const voile::VertexStreams streams = solver.vertices(cloth.id);
-        std::vector<glm::vec3> positions = download_vectors(device, streams.positions, streams);
-        std::vector<glm::vec3> normals =
-            at_start ? surface_normals(positions, cloth.faces) : download_vectors(device, streams.normals, streams);
-        result.push_back({cloth.name, std::move(positions), download_vectors(device, streams.velocities, streams),
-                          std::move(normals), solver.triangles(cloth.id)});
+        const uint32_t vertices = solver.vertices(cloth.id).vertices;
+        std::vector<glm::vec3> positions = vectors.next(vertices);
+        std::vector<glm::vec3> velocities = vectors.next(vertices);
+        std::vector<glm::vec3> normals = at_start ? surface_normals(positions, cloth.faces) : vectors.next(vertices);
+        result.push_back(
+            {cloth.name, std::move(positions), std::move(velocities), std::move(normals), solver.triangles(cloth.id)});
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// Copies device buffers to the host, one submission per copy.
+// Copies device buffers to the host.
 #include "voile/engine/gpu/download.hpp"
 
 #include "voile/engine/gpu/frames.hpp"
@@ -8,8 +8,11 @@
 namespace voile::engine
 {
 
-std::vector<std::byte> download(const Device& device, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes)
+std::vector<std::byte> download(const Device& device, std::span<const BufferRange> ranges)
 {
+    VkDeviceSize bytes = 0;
+    for (const BufferRange& range : ranges)
+        bytes += range.bytes;
     if (bytes == 0)
         return {};
     const gpu::Context& context = device.context();
@@ -21,8 +24,14 @@ std::vector<std::byte> download(const Device& device, VkBuffer buffer, VkDeviceS
     gpu::Recorder recorder(context, frame.cmd);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT_KHR, VK_ACCESS_2_MEMORY_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_READ_BIT_KHR);
-    const VkBufferCopy region{offset, 0, bytes};
-    context.fn.vkCmdCopyBuffer(frame.cmd, buffer, host.handle(), 1, &region);
+    VkDeviceSize filled = 0;
+    for (const BufferRange& range : ranges)
+    {
+        const VkBufferCopy region{range.offset, filled, range.bytes};
+        if (range.bytes > 0)
+            context.fn.vkCmdCopyBuffer(frame.cmd, range.buffer, host.handle(), 1, &region);
+        filled += range.bytes;
+    }
     recorder.barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_HOST_BIT_KHR, VK_ACCESS_2_HOST_READ_BIT_KHR);
     ring.submit(frame);

@@ -5,19 +5,29 @@
 
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace voile::engine
 {
 
-// Returns `bytes` bytes from `offset`. The buffer must have TRANSFER_SRC usage and its writers must be submitted. Waits
-// for all work of the device. StartupError if memory runs out or the device is lost.
-std::vector<std::byte> download(const Device& device, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes);
+struct BufferRange
+{
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0; // bytes
+    VkDeviceSize bytes = 0;
+};
+
+// Returns the bytes of all ranges, one after another, in one submission. The buffers must have TRANSFER_SRC usage and
+// their writers must be submitted. Waits for all work of the device. StartupError if memory runs out or the device is
+// lost.
+std::vector<std::byte> download(const Device& device, std::span<const BufferRange> ranges);
 
 template <typename T>
 std::vector<T> download_values(const Device& device, VkBuffer buffer, VkDeviceSize offset, size_t count)
 {
-    const std::vector<std::byte> bytes = download(device, buffer, offset, count * sizeof(T));
+    const BufferRange range{buffer, offset, count * sizeof(T)};
+    const std::vector<std::byte> bytes = download(device, std::span(&range, 1));
     std::vector<T> values(count);
     if (count > 0)
         std::memcpy(values.data(), bytes.data(), bytes.size());
