@@ -110,17 +110,28 @@ TEST_CASE("a second Ctrl-C ends a run at once")
 {
     const TestFolder folder;
     folder.write("c.pc2", "complete");
-    ViewerProcess viewer({"drape", "--headless", "--frames", "1000", "--size", "64x36", "--cloth-resolution", "200",
-                          "--export", (folder / "c.pc2").string(), "--out", (folder / "frames").string()});
+    // An encoder that never ends keeps the viewer from finishing, however fast its frames are.
+    const fs::path encoder = folder.write("ffmpeg", "#!/bin/sh\ncat >/dev/null\nexec sleep 600\n");
+    fs::permissions(encoder, fs::perms::owner_all);
+    const auto with_encoder = [&]
+    {
+        const char* path = std::getenv("PATH");
+        ::setenv("PATH", (folder.path().string() + ":" + (path != nullptr ? path : "")).c_str(), 1);
+    };
+    ViewerProcess viewer(with(k_endless, {"--export", (folder / "c.pc2").string(), "--video",
+                                          (folder / "f.mp4").string(), "--out", (folder / "frames").string()}),
+                         with_encoder);
     REQUIRE(ViewerProcess::wait_until([&] { return fs::exists(folder / "frames/frame_0000.png"); }));
     viewer.send(SIGINT);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // a frame takes seconds
+    const auto asked = [&] { return viewer.errors().find("Again: ends at once") != std::string::npos; };
+    REQUIRE(ViewerProcess::wait_until(asked));
     viewer.send(SIGINT);
     const Ending ending = viewer.wait();
     CHECK(ending.signal == SIGINT);
     CHECK(ending.errors.find("viewer: interrupted by SIGINT; unfinished files are gone") != std::string::npos);
     CHECK(unfinished(folder).empty());
     CHECK(folder.read("c.pc2") == "complete");
+    CHECK(!fs::exists(folder / "f.mp4"));
 }
 
 TEST_CASE("a file size limit is an error like a full disk")
