@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
+#include <string_view>
 
 namespace voile::gpu
 {
@@ -59,11 +61,21 @@ void require_push(const Kernel& kernel, std::span<const std::byte> push)
 
 void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push)
 {
-    context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0, nullptr);
-    if (!push.empty())
-        context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                       static_cast<uint32_t>(push.size()), push.data());
+    const bool same_kernel = bound_.pipeline == kernel.pipeline();
+    if (!same_kernel)
+        context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+    if (!same_kernel || bound_.set != set)
+        context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
+                                            nullptr);
+    bound_.pipeline = kernel.pipeline();
+    bound_.set = set;
+    const bool kept = push.size() <= bound_.push.size();
+    if (push.empty() || (same_kernel && kept && std::memcmp(push.data(), bound_.push.data(), push.size()) == 0))
+        return;
+    context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   static_cast<uint32_t>(push.size()), push.data());
+    if (kept)
+        std::memcpy(bound_.push.data(), push.data(), push.size());
 }
 
 void Recorder::compute_barrier()
@@ -76,8 +88,10 @@ void Recorder::compute_barrier()
 void Recorder::finish_dispatch()
 {
     ++dispatches_;
-    if (split_ != nullptr && !is_dry())
-        cmd_ = split_(split_user_, cmd_);
+    if (split_ == nullptr || is_dry())
+        return;
+    cmd_ = split_(split_user_, cmd_);
+    forget_bindings();
 }
 
 void Recorder::dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t threads, uint32_t group_size,
@@ -122,7 +136,24 @@ void Recorder::begin_group(const char* name, uint32_t number, uint32_t count)
     if (!groups())
         return;
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%s %u/%u", name, number, count);
+    size_t used = 0;
+    const auto add = [&](std::string_view part)
+    {
+        const size_t fits = std::min(part.size(), text.size() - 1 - used);
+        std::copy_n(part.data(), fits, text.data() + used);
+        used += fits;
+    };
+    const auto add_number = [&](uint32_t value)
+    {
+        std::array<char, 10> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        add({digits.data(), static_cast<size_t>(end - digits.data())});
+    };
+    add(name);
+    add(" ");
+    add_number(number);
+    add("/");
+    add_number(count);
     begin_label(context_, cmd_, text.data());
 }
 

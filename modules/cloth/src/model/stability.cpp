@@ -60,11 +60,12 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
 StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
 {
     const float own = std::visit([](const auto& m) { return m.strain_limit; }, cloth.material);
+    const StrainLimit of_material{own, VOILE_STRAIN_PASSES};
+    if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || cloth.mesh)
+        return of_material;
     const uint32_t needed = stable_substeps(cloth.record, static_cast<double>(step.duration));
-    const bool softened = step.substeps == 0 && !cloth.mesh && plan.substeps_of(plan.level_of(needed)) < needed;
-    if (own == 0 && softened && step.softened_strain_limit > 0)
-        return {step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES};
-    return {own, VOILE_STRAIN_PASSES};
+    const bool softened = plan.substeps_of(plan.level_of(needed)) < needed;
+    return softened ? StrainLimit{step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES} : of_material;
 }
 
 double largest_eigenvalue(double xx, double xy, double yy)

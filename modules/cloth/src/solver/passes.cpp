@@ -70,7 +70,9 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
     {
         if (!is_active(cloth))
             continue;
-        const uint32_t level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
+        uint32_t level = 0;
+        if (next.levels > 1)
+            level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
         changes |= std::exchange(cloth.level, level) != level;
         if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
         {

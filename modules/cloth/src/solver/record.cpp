@@ -91,9 +91,11 @@ HostScopes host_scopes(const SolverOptions& options)
     return options.host_scopes.value_or(k_default);
 }
 
-// Earlier draws and copies have read the buffers, uploads and earlier steps have written them.
+// Earlier draws and copies have read the buffers, uploads and earlier steps have written them. The host may have bound
+// anything since the recorder's last dispatch.
 void begin_scope(gpu::Recorder& recorder, const SolverOptions& options)
 {
+    recorder.forget_bindings();
     const Scope before = host_scopes(options).before;
     recorder.barrier(before.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
                      before.accesses | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,

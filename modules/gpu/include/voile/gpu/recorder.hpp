@@ -5,6 +5,8 @@
 #include "voile/gpu/kernel.hpp"
 #include "voile/gpu/timestamps.hpp"
 
+#include <array>
+
 namespace voile::gpu
 {
 
@@ -32,6 +34,8 @@ enum class Ordering
     unordered,
 };
 
+// Records what a dispatch needs beyond the one before: the same kernel, set or push constants are bound once. Call
+// forget_bindings after other code has bound compute state in the command buffer.
 class VOILE_GPU_API Recorder
 {
 public:
@@ -90,6 +94,9 @@ public:
         dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
     }
 
+    // The next dispatch binds everything.
+    void forget_bindings() { bound_ = {}; }
+
     // Copies of the host's bytes, a multiple of 4, into a buffer. It may have any size: each command takes 64 KiB.
     void update(VkBuffer buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
     // Sets all words of a buffer.
@@ -118,10 +125,19 @@ private:
     void finish_dispatch(); // counts it and splits the command buffer
     [[nodiscard]] bool groups() const { return !dry_ && split_ == nullptr && context_.begin_label != nullptr; }
 
+    // Of the command buffer. Layouts of two kernels differ, so another kernel takes another set and push constants.
+    struct Bound
+    {
+        VkPipeline pipeline = VK_NULL_HANDLE;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        std::array<std::byte, 128> push; // more are bound each time
+    };
+
     const Context& context_;
     VkCommandBuffer cmd_ = VK_NULL_HANDLE;
     Timestamps* timestamps_ = nullptr;
     bool dry_ = false;
+    Bound bound_{};
     Split split_ = nullptr;
     void* split_user_ = nullptr;
     uint32_t dispatches_ = 0;
