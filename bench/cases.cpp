@@ -60,22 +60,35 @@ Cloths add_reference_scene(voile::Solver& solver)
     return add_reference_cloth<128>(solver);
 }
 
-// A field of 10 x 10 cloths, a spacing apart.
-Cloths add_hundred_cloths(voile::Solver& solver)
+// A field of along x along cloths of side x side vertices, a spacing apart.
+Cloths add_field(voile::Solver& solver, uint32_t along, uint32_t side, voile::Integrator integrator)
 {
-    constexpr uint32_t k_along = 10;
-    constexpr uint32_t k_side = 13;
     Cloths cloths;
-    for (uint32_t row = 0; row < k_along; ++row)
-        for (uint32_t column = 0; column < k_along; ++column)
+    for (uint32_t row = 0; row < along; ++row)
+        for (uint32_t column = 0; column < along; ++column)
         {
-            const float pitch = k_reference_spacing * k_side;
+            const float pitch = k_reference_spacing * static_cast<float>(side);
             voile::GridCloth grid =
-                reference_grid(k_side, pitch * static_cast<float>(column), pitch * static_cast<float>(row));
+                reference_grid(side, pitch * static_cast<float>(column), pitch * static_cast<float>(row));
             grid.name = "cloth " + std::to_string(cloths.size());
+            grid.integrator = integrator;
             cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }
     return cloths;
+}
+
+Cloths add_hundred_cloths(voile::Solver& solver)
+{
+    return add_field(solver, 10, 13, voile::Integrator::rk4);
+}
+
+// 262,144 vertices.
+template <uint32_t along, bool ground>
+Cloths add_verlet_field(voile::Solver& solver)
+{
+    if (ground)
+        (void)voile::engine::take(solver.add_collider(voile::PlaneCollider{}));
+    return add_field(solver, along, 512 / along, voile::Integrator::verlet);
 }
 
 template <uint32_t side>
@@ -346,6 +359,14 @@ constexpr Case k_cases[] = {
      upright_folds<512>},
     {"hundred-cloths", "100 cloths of 13 x 13 in one solver fall freely", add_hundred_cloths},
     {"one-cloth", "as many vertices in one cloth of 130 x 130", add_reference_cloth<130>},
+    {"thousand-cloths", "1,024 cloths of 16 x 16 with Verlet fall freely", add_verlet_field<32, false>, k_nearest, 0,
+     false, k_interleaved, 0, 0, true},
+    {"one-cloth-512", "as many vertices in one cloth of 512 x 512", add_verlet_field<1, false>, k_nearest, 0, false,
+     k_interleaved, 0, 0, true},
+    {"thousand-on-ground", "the 1,024 cloths lie on a plane", add_verlet_field<32, true>, k_nearest, k_sphere_frames,
+     true, k_interleaved, 0, 0, true},
+    {"one-on-ground", "the one cloth lies on it", add_verlet_field<1, true>, k_nearest, k_sphere_frames, true,
+     k_interleaved, 0, 0, true},
 };
 
 } // namespace

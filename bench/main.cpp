@@ -2,8 +2,14 @@
 #include "add_mesh.hpp"
 #include "cases.hpp"
 #include "device_probe.hpp"
+#include "frame_plot.hpp"
 #include "measure.hpp"
+#include "peers.hpp"
+#include "record_cost.hpp"
 #include "report.hpp"
+#include "results_file.hpp"
+
+#include "voile/engine/assets/atomic_file.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +32,10 @@ struct Options
     uint32_t repetitions = 0; // 0: by device
     uint32_t workgroup = voile::Tuning().workgroup_size;
     bool passes = false;
+    std::vector<std::string> compared; // two files of results
+    std::string plot;
+    std::string results; // that the plot shows
+    bool peers = false;
 };
 
 void declare(CLI::App& app, Options& options)
@@ -53,6 +63,22 @@ void declare(CLI::App& app, Options& options)
     app.add_flag("--passes", options.passes, "Print the time of each pass before the row of a case of the solver");
 }
 
+// What needs no device.
+void declare_results(CLI::App& app, Options& options)
+{
+    app.add_option("--compare", options.compared,
+                   "Compare the cases of two files of --csv and stop: both medians, B / A, and whether they differ by "
+                   "more than their repetitions do")
+        ->type_name("A.csv B.csv")
+        ->expected(2);
+    CLI::Option* results =
+        app.add_option("--results", options.results, "The file of --csv that --plot shows")->type_name("FILE");
+    app.add_option("--plot", options.plot, "Draw the frames of the drape scene beside those of other solvers and stop")
+        ->type_name("FILE.svg")
+        ->needs(results);
+    app.add_flag("--peers", options.peers, "Print the times of other solvers, and how they were taken, and stop");
+}
+
 struct Chosen
 {
     std::vector<const bench::Case*> cases;
@@ -62,6 +88,7 @@ struct Chosen
     std::vector<const bench::AddCase*> adds;
     bool costs = false;
     bool levels = false;
+    bool recording = false;
 };
 
 const bench::RealCase* find_real_case(std::span<const bench::RealCase> reals, const std::string& name)
@@ -91,6 +118,8 @@ Chosen choose(const std::vector<std::string>& names, std::span<const bench::Real
             chosen.costs = true;
         else if (name == bench::k_levels_case)
             chosen.levels = true;
+        else if (name == bench::k_record_case)
+            chosen.recording = true;
         else
             throw voile::engine::StartupError("--case " + name + ": no such case; --list shows them");
     }
@@ -112,6 +141,7 @@ Chosen choose(const std::vector<std::string>& names, std::span<const bench::Real
         chosen.adds.push_back(&item);
     chosen.costs = true;
     chosen.levels = true;
+    chosen.recording = true;
     return chosen;
 }
 
@@ -132,6 +162,7 @@ void list_cases(std::span<const bench::RealCase> reals)
     std::printf("%-28s adding cloth meshes and cooked data; adding and removing beside much else\n",
                 bench::k_cost_case);
     std::printf("%-28s a soft sheet beside a stiff one that needs more substeps\n", bench::k_levels_case);
+    std::printf("%-28s what recording costs the host, command by command\n", bench::k_record_case);
 }
 
 std::vector<bench::RealCase> real_cases_of(const Options& options)
@@ -203,6 +234,23 @@ void run(const Options& options)
         bench::print_costs(bench::measure_costs(queue));
     if (chosen.levels)
         bench::print_levels(bench::measure_levels(queue, repetitions));
+    if (chosen.recording)
+        bench::print_record_cost(bench::measure_record_cost(queue));
+}
+
+void compare_files(const std::vector<std::string>& paths)
+{
+    const auto a = voile::engine::take(bench::read_results(paths[0]));
+    const auto b = voile::engine::take(bench::read_results(paths[1]));
+    std::fputs(bench::comparison_table(bench::compare(a, b)).c_str(), stdout);
+}
+
+void write_plot(const std::string& path, const std::string& results)
+{
+    const std::string svg = voile::engine::take(bench::plot_frames(voile::engine::take(bench::read_results(results))));
+    auto file = voile::engine::take(voile::engine::AtomicFile::create(path));
+    file.write(svg);
+    voile::engine::take(file.commit());
 }
 
 // CLI11's messages span several lines.
@@ -221,8 +269,15 @@ int main(int argc, char** argv)
     try
     {
         declare(app, options);
+        declare_results(app, options);
         app.parse(argc, argv);
-        if (options.list)
+        if (!options.compared.empty())
+            compare_files(options.compared);
+        else if (!options.plot.empty())
+            write_plot(options.plot, options.results);
+        else if (options.peers)
+            std::fputs(bench::peer_report().c_str(), stdout);
+        else if (options.list)
             list_cases(real_cases_of(options));
         else if (options.list_devices)
             list_devices();

@@ -161,6 +161,18 @@ void print_levels(std::span<const LevelsMeasurement> levels)
     std::fflush(stdout);
 }
 
+void print_record_cost(std::span<const RecordCost> costs)
+{
+    std::printf("\nWhat recording takes of the host, medians per command or pass.\n\n%-40s %9s %9s\n", "command",
+                "host ns", "GPU us");
+    for (const RecordCost& cost : costs)
+        if (cost.gpu > 0)
+            std::printf("%-40s %9.0f %9.2f\n", cost.what, cost.host, cost.gpu);
+        else
+            std::printf("%-40s %9.0f\n", cost.what, cost.host);
+    std::fflush(stdout);
+}
+
 voile::Result<CsvFile> CsvFile::open(const std::string& path)
 {
     std::string first_line;

@@ -8,6 +8,7 @@
 #include "levels.hpp"
 #include "measure.hpp"
 #include "real_mesh.hpp"
+#include "record_cost.hpp"
 #include "refit_case.hpp"
 
 #include <string>
@@ -35,6 +36,7 @@ void print_add_row(const AddCase& item, const AddMeasurement& measurement);
 
 void print_costs(std::span<const HostCost> costs);
 void print_levels(std::span<const LevelsMeasurement> levels);
+void print_record_cost(std::span<const RecordCost> costs);
 
 // The fraction of the copy bandwidth that a case reaches.
 double bandwidth_fraction(const Measurement& measurement, const DeviceProbe& probe);

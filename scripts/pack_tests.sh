@@ -64,7 +64,9 @@ sed 's|"library_path": *"[^"]*"|"library_path": "./lib'"$layer_name"'.so"|' "$ma
 cp -r build/release/scenes "$pack/scenes"
 cp -r tests/golden "$pack/sources/tests/golden"
 cp -r shaders "$pack/sources/shaders"
-cp docs/buffers.md "$pack/sources/docs/"
+cp docs/buffers.md docs/frames.svg "$pack/sources/docs/"
+mkdir -p "$pack/sources/bench"
+cp -r bench/results "$pack/sources/bench/results"
 cp -r samples/scenes "$pack/sources/samples/scenes"
 cp scripts/run_packed_tests.sh "$pack/run.sh"
 git log -1 --format='%h %s' >"$pack/version" 2>/dev/null || true

@@ -34,6 +34,7 @@ quick(test_attachments
     "tethers measure distances along the cloth"
     "attachments and tethers refuse bad input, and nothing changes"
     "vertices are attached to a collider's surface")
+quick(test_bench)
 quick(test_bvh)
 quick(test_contact
     "a substep with planes and spheres equals their formulas"

@@ -138,3 +138,23 @@ voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal
 voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_output SOURCES solver/test_output.cpp solver/test_previous_positions.cpp solver/test_vertex_streams.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp LIBRARIES voile::cloth voile::engine voile_scene_meshes)
+
+# The benchmark's files of results, and its options for them.
+if(TARGET cloth_bench)
+    voile_add_test(test_bench SOURCES bench/test_bench.cpp LIBRARIES voile_bench_results)
+    set(results ${PROJECT_SOURCE_DIR}/bench/results)
+    add_test(NAME "cloth_bench: --compare shows both devices"
+             COMMAND cloth_bench --compare ${results}/lavapipe-2-cores.csv ${results}/nvidia-h200.csv)
+    set_tests_properties("cloth_bench: --compare shows both devices" PROPERTIES
+                         PASS_REGULAR_EXPRESSION "A  llvmpipe.*B  NVIDIA H200.*grid-128 .*faster")
+    add_test(NAME "cloth_bench: --compare names a missing file"
+             COMMAND cloth_bench --compare ${results}/lavapipe-2-cores.csv nosuch.csv)
+    set_tests_properties("cloth_bench: --compare names a missing file" PROPERTIES
+                         PASS_REGULAR_EXPRESSION "^cloth_bench: nosuch.csv: cannot be read")
+    add_test(NAME "cloth_bench: --plot needs results" COMMAND cloth_bench --plot plot.svg)
+    set_tests_properties("cloth_bench: --plot needs results" PROPERTIES
+                         PASS_REGULAR_EXPRESSION "^cloth_bench: --plot requires --results")
+    add_test(NAME "cloth_bench: --peers says how they were measured" COMMAND cloth_bench --peers)
+    set_tests_properties("cloth_bench: --peers says how they were measured" PROPERTIES
+                         PASS_REGULAR_EXPRESSION "How they were taken")
+endif()
