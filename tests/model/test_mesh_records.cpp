@@ -113,7 +113,7 @@ uint64_t hash_model(voile::Model model)
     voile::ActiveLists active;
     voile::list_patches(model, voile::assigned_level, 32, active);
     hash.add_all(active.patches);
-    hash.add(active.levels[0].rk4_patches);
+    hash.add(active.batches[0].patches.count);
     add_lists(hash, joined_lists(model, false));
     add_lists(hash, joined_lists(model, true));
     return hash.value();

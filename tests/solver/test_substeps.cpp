@@ -24,7 +24,6 @@ voile::SolverOptions with_levels()
 {
     voile::SolverOptions options;
     options.tuning.dispatch_vertices = 1;
-    options.tuning.contact_interval = 0; // substeps share contact only on levels without RK4
     return options;
 }
 

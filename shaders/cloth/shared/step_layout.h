@@ -11,6 +11,8 @@
 
 // Groups of cloths by the length of their substeps: each level's are twice as long as those of the level below.
 #define VOILE_SUBSTEP_LEVELS 5
+// The cloths of a level have dispatches of their own for each integrator.
+#define VOILE_SUBSTEP_BATCHES (2 * VOILE_SUBSTEP_LEVELS)
 
 #define VOILE_EDIT_MASSES 0    // sets inverse masses from areas and density
 #define VOILE_EDIT_RESET 1     // sets the state to the start

@@ -1,4 +1,4 @@
-// ActiveLists: the patches, attachments and tethers that the dispatches of a step work on, ordered by level.
+// ActiveLists: the patches, attachments and tethers that the dispatches of a step work on, ordered by batch.
 #pragma once
 
 #include "geometry/padded_tree.hpp"
@@ -19,19 +19,30 @@ struct EntryRange
     uint32_t count = 0;
 };
 
-// The entries of cloths that take the same number of substeps.
-struct LevelLists
+// A batch: the cloths of a level that use the same integrator. It has dispatches of its own, so that the passes of a
+// cloth do not depend on others. Level 0 comes first, and within a level RK4.
+struct Batch
+{
+    uint32_t level = 0;
+    Integrator integrator = Integrator::rk4;
+};
+constexpr Batch batch_at(uint32_t index)
+{
+    return {index / 2, index % 2 == 0 ? Integrator::rk4 : Integrator::verlet};
+}
+
+// The entries of a batch.
+struct BatchLists
 {
     EntryRange patches;
-    uint32_t rk4_patches = 0; // the first ones; the others use Verlet
-    EntryRange attachments;   // others than pins
+    EntryRange attachments; // others than pins
     EntryRange tethers;
 };
 
-// Of the active cloths, level 0 first.
+// Of the active cloths.
 struct ActiveLists
 {
-    std::array<LevelLists, VOILE_SUBSTEP_LEVELS> levels;
+    std::array<BatchLists, VOILE_SUBSTEP_BATCHES> batches;
     std::vector<shared::Patch> patches;
     std::vector<shared::AttachmentRecord> attachments;
     uint32_t pins = 0;       // the first ones, of all levels
@@ -61,6 +72,10 @@ AttachmentCounts count_attachments(const Model& model);
 
 // The level of a cloth: the assigned one, or that of a plan.
 using LevelOf = std::function<uint32_t(const ClothModel&)>;
+inline bool is_in_batch(const ClothModel& cloth, const Batch& batch, const LevelOf& level_of)
+{
+    return is_active(cloth) && level_of(cloth) == batch.level && cloth.integrator == batch.integrator;
+}
 inline uint32_t assigned_level(const ClothModel& cloth)
 {
     return cloth.level;

@@ -194,13 +194,13 @@ void list_attachments(const Model& model, const LevelOf& level_of, ActiveLists& 
     const auto attachments = [&] { return static_cast<uint32_t>(lists.attachments.size()); };
     const auto tethers = [&] { return static_cast<uint32_t>(lists.tethers.size()); };
     lists.pins = attachments();
-    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
+    for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
     {
-        LevelLists& list = lists.levels[level];
+        BatchLists& list = lists.batches[i];
         list.attachments.first = attachments();
         list.tethers.first = tethers();
         for (const auto [index, cloth] : model.cloths)
-            if (is_active(cloth) && level_of(cloth) == level)
+            if (is_in_batch(cloth, batch_at(i), level_of))
             {
                 add(cloth, index, false);
                 lists.tethers.insert(lists.tethers.end(), cloth.tethers.begin(), cloth.tethers.end());

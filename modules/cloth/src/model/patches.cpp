@@ -77,19 +77,14 @@ void list_trees(const Model& model, ActiveLists& lists)
 void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgroup_size, ActiveLists& lists)
 {
     lists.patches.clear();
-    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
+    for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
     {
-        LevelLists& list = lists.levels[level];
-        list.patches.first = lists.patch_count();
-        for (const Integrator integrator : {Integrator::rk4, Integrator::verlet})
-        {
-            for (const auto [index, cloth] : model.cloths)
-                if (is_active(cloth) && level_of(cloth) == level && cloth.integrator == integrator)
-                    add_patches(cloth, index, workgroup_size, lists.patches);
-            if (integrator == Integrator::rk4)
-                list.rk4_patches = lists.patch_count() - list.patches.first;
-        }
-        list.patches.count = lists.patch_count() - list.patches.first;
+        EntryRange& patches = lists.batches[i].patches;
+        patches.first = lists.patch_count();
+        for (const auto [index, cloth] : model.cloths)
+            if (is_in_batch(cloth, batch_at(i), level_of))
+                add_patches(cloth, index, workgroup_size, lists.patches);
+        patches.count = lists.patch_count() - patches.first;
     }
 }
 

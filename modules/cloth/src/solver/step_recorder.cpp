@@ -1,4 +1,4 @@
-// The passes of one step: those of all levels in the order of time, then the strain limit.
+// The passes of one step: those of all batches in the order of time, then the strain limit.
 #include "solver/substeps.hpp"
 
 #include "solver/pairs.hpp"
@@ -13,35 +13,41 @@ StepRecorder::StepRecorder(const StepContext& context)
       device_(*solver_.device), threads_(context.lists.patch_count() * solver_.options.tuning.workgroup_size),
       group_(solver_.options.tuning.workgroup_size)
 {
-    for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
-        if (context.lists.levels[level].patches.count > 0)
-            levels_[level].emplace(context, level);
+    for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
+        if (context.lists.batches[i].patches.count > 0)
+            batches_[i].emplace(context, i);
 }
 
 template <typename Use>
-void StepRecorder::for_each_level(const Use& use)
+void StepRecorder::for_each_batch(const Use& use)
 {
-    for (std::optional<LevelRecorder>& level : levels_)
-        if (level)
-            use(*level);
+    for (std::optional<LevelRecorder>& batch : batches_)
+        if (batch)
+            use(*batch);
+}
+
+bool StepRecorder::in_stage_b(uint32_t substep) const
+{
+    const std::optional<LevelRecorder>& any = batches_[0] ? batches_[0] : batches_[1];
+    return any->in_stage_b(substep);
 }
 
 void StepRecorder::record_near_colliders()
 {
-    for_each_level([](LevelRecorder& level) { level.record_near_colliders(0); });
+    for_each_batch([](LevelRecorder& batch) { batch.record_near_colliders(0); });
 }
 
-// The first contact pass of a level starts from the state, which Verlet overwrites if there is more than one substep
+// The first contact pass of a batch starts from the state, which Verlet overwrites if there is more than one substep
 // before that pass.
 void StepRecorder::keep_contact_start()
 {
     bool keeps = false;
-    for_each_level([&](const LevelRecorder& level) { keeps |= level.contact_period() > 1; });
+    for_each_batch([&](const LevelRecorder& batch) { keeps |= batch.contact_period() > 1; });
     if (keeps)
         keep_state(k_contact_start, false);
 }
 
-// A level takes its substep at the beginning of the time that the substep covers.
+// A batch takes its substep at the beginning of the time that the substep covers.
 void StepRecorder::record()
 {
     if (context_.passes.strain_spacing > 0)
@@ -53,12 +59,12 @@ void StepRecorder::record()
     {
         const bool after_pairs = context_.passes.pairs && pairs.begins(substep);
         if (after_pairs)
-            pairs.record(substep, levels_[0]->in_stage_b(substep));
-        for (uint32_t level = 0; level < VOILE_SUBSTEP_LEVELS; ++level)
-            if (levels_[level] && substep % (1u << level) == 0)
-                levels_[level]->record_substep(substep >> level, after_pairs);
+            pairs.record(substep, in_stage_b(substep));
+        for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
+            if (const uint32_t level = batch_at(i).level; batches_[i] && substep % (1u << level) == 0)
+                batches_[i]->record_substep(substep >> level, after_pairs);
     }
-    for_each_level([](LevelRecorder& level) { level.finish(); });
+    for_each_batch([](LevelRecorder& batch) { batch.finish(); });
     if (context_.passes.strain_spacing > 0)
         record_strain_limit();
 }
@@ -68,7 +74,7 @@ void StepRecorder::record_strain_limit()
 {
     record_limit_passes();
     keep_state(k_before_limit);
-    for_each_level([](LevelRecorder& level) { level.record_bounds(); });
+    for_each_batch([](LevelRecorder& batch) { batch.record_bounds(); });
     record_limit_guard();
 }
 
@@ -94,11 +100,11 @@ void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
 void StepRecorder::record_limit_guard()
 {
     for (const VkDescriptorSet set : device_.sets.limit_work)
-        for_each_level([&](LevelRecorder& level) { level.record_limit_work(set); });
+        for_each_batch([&](LevelRecorder& batch) { batch.record_limit_work(set); });
     for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
     {
         if (measurement > 0) // of what remains of the limit's changes
-            for_each_level([&](LevelRecorder& level) { level.record_limit_work(device_.sets.limit_work[3]); });
+            for_each_batch([&](LevelRecorder& batch) { batch.record_limit_work(device_.sets.limit_work[3]); });
         recorder_.dispatch(
             kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
             shared::LimitScalePush{context_.lists.patch_count(), 1 / context_.step.duration, measurement});

@@ -1,4 +1,4 @@
-// The passes of the cloths of one level of substeps, as ARCHITECTURE.md lists them.
+// The passes of one batch of cloths, as ARCHITECTURE.md lists them.
 #include "solver/substeps.hpp"
 
 #include "solver/pairs.hpp"
@@ -61,14 +61,15 @@ uint32_t substeps_per_contact(const Solver::State& solver, float substep)
 
 } // namespace
 
-LevelRecorder::LevelRecorder(const StepContext& context, uint32_t level)
+LevelRecorder::LevelRecorder(const StepContext& context, uint32_t batch)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
-      device_(*solver_.device), lists_(context.lists.levels[level]), level_(level),
-      group_(solver_.options.tuning.workgroup_size), substeps_(context.plan.substeps_of(level)),
-      h_(context.step.duration / static_cast<float>(substeps_)), has_contact_(context.passes.contact),
+      device_(*solver_.device), lists_(context.lists.batches[batch]), batch_(batch), level_(batch_at(batch).level),
+      verlet_(batch_at(batch).integrator == Integrator::verlet), group_(solver_.options.tuning.workgroup_size),
+      substeps_(context.plan.substeps_of(level_)), h_(context.step.duration / static_cast<float>(substeps_)),
+      has_contact_(context.passes.contact),
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
-      contact_period_(swaps_ && lists_.rk4_patches == 0 ? substeps_per_contact(solver_, h_) : 1),
+      contact_period_(swaps_ && verlet_ ? substeps_per_contact(solver_, h_) : 1),
       list_period_(substeps_per_list(h_, contact_period_))
 {
 }
@@ -80,8 +81,10 @@ void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
         record_near_colliders(substep);
     if (solver_.passes.features && substep % list_period_ == 0)
         record_near_features(substep);
-    record_rk4(substep);
-    record_verlet(make_push(substep), substep);
+    if (verlet_)
+        record_verlet(make_push(substep), substep);
+    else
+        record_rk4(substep);
     record_attachments(substep, h_);
     if (!contact_is_due(substep))
         return;
@@ -113,11 +116,6 @@ size_t LevelRecorder::proposal(uint32_t substep) const
     return (keeps_contact_start(substep) ? 2u : 0u) + (has_contact_ && in_stage_b(substep) ? 1u : 0u);
 }
 
-EntryRange LevelRecorder::verlet_patches() const
-{
-    return {lists_.patches.first + lists_.rk4_patches, lists_.patches.count - lists_.rk4_patches};
-}
-
 shared::StagePush LevelRecorder::make_push(double substeps) const
 {
     shared::StagePush push{};
@@ -143,7 +141,7 @@ void LevelRecorder::record_rk4(uint32_t substep)
         shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
         push.stage = stage;
         dispatch(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
-                 {lists_.patches.first, lists_.rk4_patches}, push);
+                 lists_.patches, push);
     }
 }
 
@@ -155,15 +153,17 @@ void LevelRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
         set = device_.sets.verlet_first;
-    dispatch(kernels_.verlet, set, verlet_patches(), push);
+    dispatch(kernels_.verlet, set, lists_.patches, push);
 }
 
 void LevelRecorder::finish()
 {
+    if (!verlet_)
+        return;
     shared::StagePush push = make_push(substeps_);
     push.kick = 0.5f * h_;
     dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
-             verlet_patches(), push);
+             lists_.patches, push);
 }
 
 void LevelRecorder::record_attachments(uint32_t substep, float duration)
@@ -217,7 +217,7 @@ LevelRecorder::ItemRange LevelRecorder::feature_items() const
 
 void LevelRecorder::record_near_features(uint32_t substep)
 {
-    const uint32_t word = level_ * VOILE_FEATURE_DISPATCH_WORDS;
+    const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     // Each patch has that many workgroups.
     uint32_t lanes = solver_.options.tuning.feature_threads;
     while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
@@ -248,7 +248,7 @@ void LevelRecorder::record_near_features(uint32_t substep)
 
 void LevelRecorder::record_features(uint32_t substep)
 {
-    const uint32_t word = level_ * VOILE_FEATURE_DISPATCH_WORDS;
+    const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
     const shared::FeaturePush push{h_ * static_cast<float>(interval.count),
                                    progress(interval.first),

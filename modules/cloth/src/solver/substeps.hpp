@@ -1,4 +1,4 @@
-// The passes of one step: those of each level of substeps, and their order.
+// The passes of one step: those of each batch of cloths, and their order.
 #pragma once
 
 #include "solver/solver_state.hpp"
@@ -19,11 +19,11 @@ struct StepContext
     uint32_t first_substep = 0; // counted over all steps
 };
 
-// The passes of the cloths that take the same number of substeps.
+// The passes of a batch: of the cloths of one level of substeps that use one integrator.
 class LevelRecorder
 {
 public:
-    LevelRecorder(const StepContext& context, uint32_t level);
+    LevelRecorder(const StepContext& context, uint32_t batch);
 
     // Lists the colliders near each patch, until the next query. Records nothing with few colliders. The first query
     // comes before all other passes of the step that read colliders.
@@ -78,7 +78,6 @@ private:
     [[nodiscard]] size_t proposal(uint32_t substep) const;
     // Contact of odd numbers of substeps ends with a pass over one, which copies its result into the state.
     [[nodiscard]] bool ends_alone() const { return contact_period_ > 1 && substeps_ % 2 == 1; }
-    [[nodiscard]] EntryRange verlet_patches() const;
     template <typename Push>
     void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, EntryRange patches, Push push)
     {
@@ -90,9 +89,11 @@ private:
     const Solver::State& solver_;
     const Kernels& kernels_;
     const DeviceState& device_;
-    const LevelLists& lists_;
+    const BatchLists& lists_;
     uint32_t feature_passes_ = 0; // since near features were listed
+    uint32_t batch_;              // its index
     uint32_t level_;
+    bool verlet_;
     uint32_t group_;
     uint32_t substeps_;
     float h_;          // s
@@ -102,7 +103,7 @@ private:
     uint32_t list_period_; // substeps from one refresh of lists of near triangles, features and colliders to the next
 };
 
-// The passes of all levels, in the order of time, and the strain limit at the end.
+// The passes of all batches, in the order of time, and the strain limit at the end.
 class StepRecorder
 {
 public:
@@ -119,7 +120,9 @@ private:
     // Copies the state's positions and residuals, and velocities on request.
     void keep_state(const StateBuffers& kept, bool velocities = true);
     template <typename Use>
-    void for_each_level(const Use& use);
+    void for_each_batch(const Use& use);
+    // Whether the substep begins in stage B, for the passes over pairs. With these there is one level.
+    [[nodiscard]] bool in_stage_b(uint32_t substep) const;
 
     const StepContext& context_;
     gpu::Recorder& recorder_;
@@ -128,7 +131,7 @@ private:
     const DeviceState& device_;
     uint32_t threads_; // for all patches
     uint32_t group_;
-    std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_LEVELS> levels_; // none for a level without cloths
+    std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_BATCHES> batches_; // none for one without cloths
 };
 
 } // namespace voile
