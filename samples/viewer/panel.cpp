@@ -51,8 +51,8 @@ void feed_keys(ImGuiIO& io, const Input& input)
     for (const auto& [name, key] : k_keys)
     {
         // A key that went down and up since the last frame is down for one frame.
-        const bool down = input.is_held(key) || std::ranges::any_of(input.keys, [&](const voile::engine::KeyPress& p)
-                                                                    { return p.key == key; });
+        const bool down =
+            input.is_held(key) || std::ranges::find(input.keys, key, &voile::engine::KeyPress::key) != input.keys.end();
 #if IMGUI_VERSION_NUM >= 18700
         io.AddKeyEvent(static_cast<ImGuiKey>(name), down);
 #else

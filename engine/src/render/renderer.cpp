@@ -137,7 +137,7 @@ struct Renderer::State
     {
     }
 
-    [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene, const ViewModes& modes) const;
+    [[nodiscard]] shared::FrameUniforms uniforms(const Scene& scene, const ViewModes& wanted) const;
     struct DepthMap
     {
         const Image& image;
@@ -146,11 +146,11 @@ struct Renderer::State
     };
     void record_map(VkCommandBuffer cmd, const Scene& scene, const DepthMap& map) const;
     void record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
-                      const ViewModes& modes);
+                      const ViewModes& wanted);
     void transition_targets(VkCommandBuffer cmd) const;
 };
 
-shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewModes& modes) const
+shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewModes& wanted) const
 {
     shared::FrameUniforms result{};
     result.clip_from_world = camera_matrix(scene.camera, options.extent, scene.focus_radius);
@@ -165,7 +165,7 @@ shared::FrameUniforms Renderer::State::uniforms(const Scene& scene, const ViewMo
     result.sun_irradiance = scene.sun.irradiance;
     result.focus = scene.focus;
     result.focus_radius = scene.focus_radius;
-    result.full_strain = modes.full_strain;
+    result.full_strain = wanted.full_strain;
     return result;
 }
 
@@ -206,7 +206,7 @@ void Renderer::State::transition_targets(VkCommandBuffer cmd) const
 }
 
 void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, const shared::FrameUniforms& uniforms,
-                                   const ViewModes& modes)
+                                   const ViewModes& wanted)
 {
     transition_targets(cmd);
     VkRenderingAttachmentInfoKHR color{};
@@ -232,7 +232,7 @@ void Renderer::State::record_scene(VkCommandBuffer cmd, const Scene& scene, cons
     PassView view(View::Kind::camera, uniforms.clip_from_world, context,
                   {.layout = bindings.layout(),
                    .surfaces = pipelines->surfaces(),
-                   .wires = modes.wires && device.draws_wires() ? pipelines->wires() : VK_NULL_HANDLE,
+                   .wires = wanted.wires && device.draws_wires() ? pipelines->wires() : VK_NULL_HANDLE,
                    .marks = pipelines.get(),
                    .extent = options.extent});
     scene.record_draw(cmd, view);
