@@ -120,7 +120,7 @@ std::string microseconds(double value)
     return formatted(value < 100 ? "%.2f" : "%.0f", value);
 }
 
-std::string padded(std::string text, size_t width)
+std::string padded(const std::string& text, size_t width)
 {
     return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
@@ -180,6 +180,7 @@ std::vector<Comparison> compare(const std::vector<CaseResult>& a, const std::vec
         return found == results.end() ? std::nullopt : std::optional(*found);
     };
     std::vector<Comparison> comparisons;
+    comparisons.reserve(a.size() + b.size());
     for (const CaseResult& result : a)
         comparisons.push_back({result.name, result, find(b, result.name)});
     for (const CaseResult& result : b)

@@ -130,7 +130,7 @@ private:
     {
         VkPipeline pipeline = VK_NULL_HANDLE;
         VkDescriptorSet set = VK_NULL_HANDLE;
-        std::array<std::byte, 128> push; // more are bound each time
+        std::array<std::byte, 128> push{}; // more are bound each time
     };
 
     const Context& context_;
