@@ -232,8 +232,10 @@ TEST_CASE("a sheet through a box intersects its twelve triangles")
         const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(tests::flat_grid(9, 12)));
         voile::engine::take(harness.solver.add_collider(box));
         harness.upload();
+        // From before the step: rounding in it may leave 1e-19 m in place of 0, which is too small beside the box.
+        const std::vector<glm::vec4> flat = harness.positions(cloth);
         harness.step(k_short);
-        for (const auto& positions : positions_through(harness.positions(cloth)))
+        for (const auto& positions : positions_through(flat))
         {
             harness.place(cloth, positions);
             CHECK(check(harness, cloth, exact_box(box, turned)) > 20);
