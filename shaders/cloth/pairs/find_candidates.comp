@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 // Finds the vertices whose primitives may be near those of a vertex: its candidates. One thread per vertex. The vertices
-// that have any are listed, in no order, for find_pairs.comp.
+// that have many are listed, in no order, for find_pairs.comp, and the candidates of the others for
+// sift_candidates.comp.
 //
 // Most vertices that are near each other are neighbors in cloth that is almost flat (flat.glsl). They are no candidates.
 #include "shared/bindings.h"
@@ -21,7 +22,8 @@ layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carr
 layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; };
 layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint candidates[]; };
-layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint searching_vertices[]; };
+layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint candidate_places[]; };
+layout(VOILE_BINDING(pair_masks)) writeonly buffer PairMasks { uint searching_vertices[]; };
 layout(VOILE_BINDING(pair_lists)) writeonly buffer PairLists { PairList pair_lists[]; };
 layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
 
@@ -180,6 +182,8 @@ Search search_of(uint vertex, uint cloth)
     return search;
 }
 
+uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
+
 // A vertex with too many candidates searches again in a smaller range, at last with as many as fit and no range at all.
 void find(inout Search search)
 {
@@ -194,34 +198,52 @@ void find(inout Search search)
     }
 }
 
+// The next places in the lists of vertices that search and of candidates to sift, first of the workgroup, then of all.
 shared uint shared_vertices;
+shared uint shared_candidates;
+
+void reserve()
+{
+    if (shared_vertices > 0)
+    {
+        const uint count = shared_vertices;
+        shared_vertices = atomicAdd(pair_passes[VOILE_PAIR_FIND].entries, count);
+        atomicMax(pair_passes[VOILE_PAIR_FIND].groups, groups_of((shared_vertices + count) * push.lanes));
+    }
+    if (shared_candidates > 0)
+    {
+        const uint count = shared_candidates;
+        shared_candidates = atomicAdd(pair_passes[VOILE_PAIR_SIFT].entries, count);
+        atomicMax(pair_passes[VOILE_PAIR_SIFT].groups, groups_of(shared_candidates + count));
+    }
+}
 
 void main()
 {
     const uint at = gl_GlobalInvocationID.x;
     if (gl_LocalInvocationID.x == 0)
-        shared_vertices = 0;
-    bool found = false;
+        shared_vertices = shared_candidates = 0;
     uint vertex = 0;
+    uint count = 0;
     if (at < push.places && collides_with_itself(pair_order[at].y))
     {
         vertex = pair_order[at].x;
         Search search = search_of(vertex, pair_order[at].y);
         find(search);
-        pair_lists[vertex] = PairList(search.range, min(search.count, VOILE_PAIR_CANDIDATES), search.cloth, 0);
-        found = search.count > 0;
+        count = min(search.count, VOILE_PAIR_CANDIDATES);
+        pair_lists[vertex] = PairList(search.range, 0, search.cloth, count);
     }
+    // What has many candidates is almost surely near one of them.
+    const bool searches = count > push.sifted;
     barrier();
-    const uint place = found ? atomicAdd(shared_vertices, 1) : 0;
+    uint place = searches ? atomicAdd(shared_vertices, 1) : count > 0 ? atomicAdd(shared_candidates, count) : 0;
     barrier();
-    if (gl_LocalInvocationID.x == 0 && shared_vertices > 0)
-    {
-        const uint count = shared_vertices;
-        shared_vertices = atomicAdd(pair_passes[VOILE_PAIR_FIND].entries, count);
-        atomicMax(pair_passes[VOILE_PAIR_FIND].groups,
-                  ((shared_vertices + count) * push.lanes + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
-    }
+    if (gl_LocalInvocationID.x == 0)
+        reserve();
     barrier();
-    if (found)
+    if (searches)
         searching_vertices[shared_vertices + place] = vertex;
+    else
+        for (uint k = 0; k < count; ++k)
+            candidate_places[shared_candidates + place + k] = vertex * VOILE_PAIR_CANDIDATES + k;
 }

@@ -83,6 +83,9 @@ shared uint shared_pairs;
 shared uint shared_vertices;
 shared uint shared_references;
 
+// Only vertices that have found pairs were matched.
+uint mask_of(PairList list) { return list.counts == 0 ? 0 : list.mask; }
+
 uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 
 void reserve()
@@ -148,7 +151,7 @@ void main()
     if (gl_GlobalInvocationID.x == 0)
         pair_passes[VOILE_PAIR_CLEAR] = PairDispatch(0, 0, 0, 0);
     if (gl_GlobalInvocationID.x == 0)
-        pair_passes[VOILE_PAIR_FIND] = PairDispatch(0, 1, 1, 0);
+        pair_passes[VOILE_PAIR_FIND] = pair_passes[VOILE_PAIR_SIFT] = PairDispatch(0, 1, 1, 0);
     if (gl_LocalInvocationID.x == 0)
         shared_pairs = shared_vertices = shared_references = 0;
     uint own = 0;
@@ -158,15 +161,16 @@ void main()
     {
         fan = fan_of(self.cloth, i);
         float reach = pair_lists[i].range;
-        own = pair_lists[i].mask;
+        own = mask_of(pair_lists[i]);
         for (uint k = 0; k < owner_count(fan); ++k)
         {
             uint owner;
             uint mask = 0;
             if (owner_of(fan, k, owner))
             {
-                reach = min(reach, pair_lists[owner].range);
-                mask = k == 0 ? own : pairs_around(i, owner, pair_lists[owner].mask);
+                const PairList list = pair_lists[owner];
+                reach = min(reach, list.range);
+                mask = k == 0 ? own : pairs_around(i, owner, mask_of(list));
             }
             pair_masks[mask_place(fan, k, push.vertices)] = mask;
             references += bitCount(mask);

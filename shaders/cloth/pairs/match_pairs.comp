@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Of the pairs that a vertex lists (find_pairs.comp), those that the owner of the other side lists, too. Only these are
 // pairs. Up to the nearest of the others, the list is complete. As in find_pairs.comp, push.lanes neighboring threads
-// share a vertex that has candidates, each takes a part of its list.
+// share a vertex that searches, each takes a part of its list.
 //
 // Whether both sides list a pair cannot be derived from its distance, because each side leaves out pairs by boxes, by
 // flat neighborhoods and by a range of its own. Let d be the distance of a pair that at most one side lists. The range
@@ -16,7 +16,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_distances)) readonly buffer PairDistances { float pair_distances[]; };
-layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint searching_vertices[]; };
+layout(VOILE_BINDING(pair_masks)) readonly buffer PairMasks { uint searching_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_lists)) buffer PairLists { PairList pair_lists[]; };
 

@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 // The boxes of the leaves of the hierarchy of pairs (pair_tree.glsl), around the sweeps of all primitives that their
-// vertices own, and how flat the cloth around each vertex is. One thread per vertex, the first of them have a slot of a
-// leaf each. The box of a leaf also contains its number. refit.comp folds the boxes.
+// vertices own, and how flat the cloth around each vertex is. One thread per vertex that a slot of a leaf can have; as
+// many as there are vertices also have one of them. The box of a leaf contains its number, too. refit.comp folds the
+// boxes.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/padded_layout.h"
@@ -49,32 +50,42 @@ Box fan_box(Fan fan, Viewpoint from)
     return grown(box, rounding(box.min) + rounding(box.max));
 }
 
-Box leaf_box(uint leaf)
+Box place_box(uint place)
 {
-    Box box = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u))); // empty
-    const Viewpoint from = Viewpoint(vec3(0), tree_carry());
-    const uint first = leaf * VOILE_PAIR_LEAF;
-    for (uint place = first; place < min(first + VOILE_PAIR_LEAF, push.places); ++place)
-    {
-        const uvec2 entry = pair_order[place];
-        if (collides_with_itself(entry.y))
-            box = joined(box, fan_box(fan_of(entry.y, entry.x), from));
-    }
-    return box;
+    const Box empty = Box(vec3(uintBitsToFloat(0x7f800000u)), vec3(uintBitsToFloat(0xff800000u)));
+    if (place >= push.places)
+        return empty;
+    const uvec2 entry = pair_order[place];
+    if (!collides_with_itself(entry.y))
+        return empty;
+    return fan_box(fan_of(entry.y, entry.x), Viewpoint(vec3(0), tree_carry()));
+}
+
+shared Box shared_boxes[gl_WorkGroupSize.x];
+
+// Each of the threads of a leaf has the box of a vertex, the first one joins them.
+void write_leaf(uint thread, uint slot)
+{
+    const uint width = 1u << findMSB(2 * push.leaves - 1); // of the level of leaves
+    const uint lane = thread % VOILE_PAIR_LEAF;
+    const uint leaf = slot < width ? leaf_of_slot(slot, push.leaves) : 0;
+    if (slot < width)
+        shared_boxes[thread] = place_box(leaf * VOILE_PAIR_LEAF + lane);
+    barrier();
+    if (slot >= width || lane != 0)
+        return;
+    Box box = shared_boxes[thread];
+    for (uint k = 1; k < VOILE_PAIR_LEAF; ++k)
+        box = joined(box, shared_boxes[thread + k]);
+    boxes[width - 1 + slot] = PaddedBox(box.min, leaf, box.max, 0);
 }
 
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
+    write_leaf(gl_LocalInvocationID.x, place / VOILE_PAIR_LEAF);
     if (place >= push.places)
         return;
-    const uint width = 1u << findMSB(2 * push.leaves - 1); // of the level of leaves, not above the number of places
-    if (place < width)
-    {
-        const uint leaf = leaf_of_slot(place, push.leaves);
-        const Box box = leaf_box(leaf);
-        boxes[width - 1 + place] = PaddedBox(box.min, leaf, box.max, 0);
-    }
     const uvec2 entry = pair_order[place];
     if (!collides_with_itself(entry.y))
         return;

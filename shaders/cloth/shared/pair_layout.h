@@ -12,11 +12,12 @@
 #define VOILE_PAIR_COUNT_MASK 0xffu
 
 // The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
-// patch, folds of levels.
+// patch, folds of levels, and one per vertex of a slot of a leaf.
 #define VOILE_PAIR_SEARCHES 8
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
 #define VOILE_PAIR_FOLDS 2
+#define VOILE_PAIR_OF_LEAVES 7
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
 // had.
 #define VOILE_PAIR_FORCED 0
@@ -32,18 +33,23 @@
 // there was none in this step.
 #define VOILE_PAIR_STOPPED 7
 #define VOILE_PAIR_STOPPED_PASSES 16
-// The most candidates of a vertex. They take the memory of the references to pairs.
+// The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
+#define VOILE_PAIR_FAR_BIT (1u << 31)
+// During a search the mask of a list has the number of candidates, and whether any is near.
+#define VOILE_PAIR_CANDIDATE_MASK 0xffu
+#define VOILE_PAIR_NEAR_BIT (1u << 31)
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
 #define VOILE_PAIR_RESPOND 1
 // No dispatch: counts the references to pairs.
 #define VOILE_PAIR_REFERENCES 2
-// Of a search, over the vertices that have candidates.
+// Of a search, over the vertices that have near candidates, and over the candidates that are sifted.
 #define VOILE_PAIR_FIND 3
+#define VOILE_PAIR_SIFT 4
 // No dispatch: during a search the sum of the velocities of vertices that are clear of colliders, and their number.
-#define VOILE_PAIR_CLEAR 4
-#define VOILE_PAIR_PASSES 5
+#define VOILE_PAIR_CLEAR 5
+#define VOILE_PAIR_PASSES 6
 // Velocities are summed up in this unit, as a part of the mean.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 // s: the clock of the lists ends there.
@@ -75,7 +81,7 @@ struct PairList
     float range; // m, up to which it has all pairs
     uint counts; // the lengths of its parts
     uint cloth;
-    uint mask; // the places of pairs that both sides list
+    uint mask; // the places of pairs that both sides list, if there are any
 };
 
 // Where a vertex may be until the lists are made again. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
@@ -146,6 +152,7 @@ struct PairPush
     uint lanes;    // per vertex in find_pairs.comp
     uint capacity; // of a list, at most VOILE_PAIRS
     uint colliders;
+    uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
 };
 
 #ifdef __cplusplus

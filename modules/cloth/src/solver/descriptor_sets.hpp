@@ -58,6 +58,7 @@ struct DescriptorSets
     VkDescriptorSet pair_boxes{};
     VkDescriptorSet pair_refit{};
     VkDescriptorSet find_candidates{};
+    VkDescriptorSet sift_candidates{};
     VkDescriptorSet find_pairs{};
     VkDescriptorSet match_pairs{};
     std::array<VkDescriptorSet, 2> index_pairs{};

@@ -68,6 +68,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.pair_sweeps, "cloth pair sweeps", shaders::k_pair_sweeps_comp, with_lists);
     add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
     add(kernels.find_candidates, "cloth find candidates", shaders::k_find_candidates_comp, with_lists);
+    add(kernels.sift_candidates, "cloth sift candidates", shaders::k_sift_candidates_comp, with_lists);
     add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
     add(kernels.match_pairs, "cloth match pairs", shaders::k_match_pairs_comp, plain);
     add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, with_lists);

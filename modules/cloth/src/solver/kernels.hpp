@@ -35,6 +35,7 @@ struct Kernels
     gpu::Kernel pair_sweeps;
     gpu::Kernel pair_boxes;
     gpu::Kernel find_candidates;
+    gpu::Kernel sift_candidates;
     gpu::Kernel find_pairs;
     gpu::Kernel match_pairs;
     gpu::Kernel index_pairs;

@@ -29,6 +29,17 @@ uint32_t lanes_per_search(const Tuning& tuning)
     return tuning.feature_threads == 1 ? 1 : std::min<uint32_t>(VOILE_PAIR_LANES, tuning.workgroup_size);
 }
 
+// The most candidates of a vertex that are sifted. A small cloth waits for its slowest thread, so that a pass more
+// gains nothing (bench/NOTES.md). On CPU devices threads do not hold up each other.
+uint32_t most_sifted(const Tuning& tuning, uint32_t vertices)
+{
+    constexpr uint32_t k_most = 24;
+    constexpr uint32_t k_large = 32768;
+    if (tuning.sifting_vertices == 0 && tuning.feature_threads == 1)
+        return 0;
+    return vertices >= (tuning.sifting_vertices > 0 ? tuning.sifting_vertices : k_large) ? k_most : 0;
+}
+
 VkDeviceSize offset_of(uint32_t dispatch)
 {
     return dispatch * sizeof(shared::PairDispatch);
@@ -73,6 +84,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.lanes = lanes_per_search(solver_.options.tuning);
     push.capacity = solver_.options.tuning.pair_capacity;
     push.colliders = solver_.passes.colliders;
+    push.sifted = most_sifted(solver_.options.tuning, push.places);
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
@@ -90,6 +102,7 @@ void PairRecorder::write_sizes()
     std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(leaves_);
+    sizes[VOILE_PAIR_OF_LEAVES] = {((VOILE_PAIR_LEAF << fold.bottom) + group - 1) / group, 1, 1, 0};
     sizes[VOILE_PAIR_OF_PLACES] = {(solver_.device->pair_places + group - 1) / group, 1, 1, 0};
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
@@ -110,7 +123,7 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PLACES), push);
-    recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_PLACES),
+    recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_LEAVES),
                                 push);
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(leaves_);
@@ -121,6 +134,12 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
                                 offset_of(VOILE_PAIR_OF_PLACES), push);
     publish_dispatch(recorder_);
     const VkBuffer passes = (*solver_.device)[buffer::pair_passes].handle();
+    if (push.sifted > 0)
+    {
+        recorder_.dispatch_indirect(solver_.kernels.sift_candidates, sets.sift_candidates, passes,
+                                    offset_of(VOILE_PAIR_SIFT), push);
+        publish_dispatch(recorder_);
+    }
     recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, passes, offset_of(VOILE_PAIR_FIND), push);
     recorder_.dispatch_indirect(solver_.kernels.match_pairs, sets.match_pairs, passes, offset_of(VOILE_PAIR_FIND),
                                 push);

@@ -266,6 +266,7 @@ void Describer::add_pairs()
     }
     add(sets_.pair_boxes, kernels_.pair_boxes);
     add(sets_.find_candidates, kernels_.find_candidates);
+    add(sets_.sift_candidates, kernels_.sift_candidates);
     add(sets_.find_pairs, kernels_.find_pairs);
     add(sets_.match_pairs, kernels_.match_pairs);
     add(sets_.pair_refit, kernels_.refit.levels,
