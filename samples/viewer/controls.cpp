@@ -19,7 +19,7 @@ using voile::engine::Key;
 
 constexpr auto k_help = std::to_array<ControlHelp>({
     {"left drag on the cloth", "pull at it"},
-    {"left drag beside it, or with Alt", "orbit"},
+    {"left drag beside it, on a solid, or with Alt", "orbit"},
     {"middle drag, shift + left drag", "pan"},
     {"wheel", "zoom"},
     {"right drag", "look around; with W A S D Q E fly, with shift faster"},
@@ -50,7 +50,7 @@ std::span<const ControlHelp> control_help()
 }
 
 Controls::Controls(voile::engine::App& app, LoadedScene& scene)
-    : paused(scene.options.paused), app_(app), scene_(scene), pictures_(app), grab_(app, scene.stage)
+    : paused(scene.options.paused), app_(app), scene_(scene), pictures_(app), grab_(app, scene.stage, scene.solids)
 {
 }
 

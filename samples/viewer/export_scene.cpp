@@ -13,19 +13,6 @@ namespace
 constexpr uint32_t k_rings = 32;        // of round shapes, from pole to pole
 constexpr float k_plane_half_size = 10; // of a plane's square, in extents of the scene
 
-voile::engine::Mesh mesh_of(const Solid& solid, float extent)
-{
-    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
-        return voile::engine::make_ground(k_plane_half_size * extent, plane->y);
-    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
-        return voile::engine::make_sphere(sphere->center, sphere->radius, k_rings);
-    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
-        return voile::engine::make_capsule(capsule->from, capsule->to, capsule->radius, k_rings);
-    if (const auto* box = std::get_if<BoxShape>(&solid.shape))
-        return voile::engine::make_box(box->min, box->max);
-    return std::get<voile::engine::Mesh>(solid.shape);
-}
-
 std::vector<glm::vec3> moved(std::vector<glm::vec3> positions, const glm::mat4& transform)
 {
     for (glm::vec3& p : positions)
@@ -65,6 +52,19 @@ ExportObject solid_object(const Solid& solid, size_t number, float extent)
 }
 
 } // namespace
+
+voile::engine::Mesh mesh_of(const Solid& solid, float extent)
+{
+    if (const auto* plane = std::get_if<PlaneShape>(&solid.shape))
+        return voile::engine::make_ground(k_plane_half_size * extent, plane->y);
+    if (const auto* sphere = std::get_if<SphereShape>(&solid.shape))
+        return voile::engine::make_sphere(sphere->center, sphere->radius, k_rings);
+    if (const auto* capsule = std::get_if<CapsuleShape>(&solid.shape))
+        return voile::engine::make_capsule(capsule->from, capsule->to, capsule->radius, k_rings);
+    if (const auto* box = std::get_if<BoxShape>(&solid.shape))
+        return voile::engine::make_box(box->min, box->max);
+    return std::get<voile::engine::Mesh>(solid.shape);
+}
 
 ExportScene::ExportScene(const Stage& stage, const std::vector<Solid>& solids, const std::vector<FinalCloth>& start,
                          float extent, const Options& options)

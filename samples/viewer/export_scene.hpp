@@ -17,7 +17,11 @@ struct ExportObject
     std::optional<size_t> solid{}; // its number; a cloth has none
 };
 
-// The cloths, then the solids if any export has them. Formula shapes become meshes, a plane a large square.
+// A solid at time 0 in its own space. A formula shape becomes a mesh, a plane a large square. `extent`: m, of the
+// scene.
+voile::engine::Mesh mesh_of(const Solid& solid, float extent);
+
+// The cloths, then the solids if any export has them.
 class ExportScene
 {
 public:

@@ -1,6 +1,8 @@
 // Grab.
 #include "samples/viewer/grab.hpp"
 
+#include "samples/viewer/export_scene.hpp"
+
 #include "voile/engine/gpu/download.hpp"
 #include "voile/ranges.hpp"
 
@@ -83,7 +85,23 @@ std::optional<Grab::Target> Grab::pick(const Ray& ray) const
         nearest = picked->distance;
         target = Target{i, picked->vertex, std::move(positions)};
     }
+    if (target && hidden(ray, nearest))
+        return std::nullopt;
     return target;
+}
+
+bool Grab::hidden(const Ray& ray, float distance) const
+{
+    for (size_t i = 0; i < solids_.size(); ++i)
+    {
+        const voile::engine::Mesh mesh = mesh_of(solids_[i], 2 * app_.scene().focus_radius);
+        const std::vector<glm::vec3>* deformed = stage_.motions->positions(i);
+        const auto hit = hit_distance(ray, stage_.motions->pose(i) * solids_[i].transform,
+                                      deformed != nullptr ? *deformed : mesh.positions, mesh.triangles);
+        if (hit && *hit < distance)
+            return true;
+    }
+    return false;
 }
 
 bool Grab::begin(const glm::vec2& cursor)

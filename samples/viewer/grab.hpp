@@ -12,9 +12,13 @@ namespace viewer
 class Grab
 {
 public:
-    Grab(voile::engine::App& app, const Stage& stage) : app_(app), stage_(stage) {}
+    Grab(voile::engine::App& app, const Stage& stage, const std::vector<Solid>& solids)
+        : app_(app), stage_(stage), solids_(solids)
+    {
+    }
 
-    // Picks the cloth under the cursor. Waits for the device. False: there is none, or the solver refuses the springs.
+    // Picks the cloth under the cursor. Waits for the device. False: there is none, a solid hides it, or the solver
+    // refuses the springs.
     bool begin(const glm::vec2& cursor);
     void move(const glm::vec2& cursor);
     void end();
@@ -31,10 +35,12 @@ private:
         std::vector<glm::vec4> positions; // of the cloth
     };
     [[nodiscard]] std::optional<Target> pick(const Ray& ray) const;
+    [[nodiscard]] bool hidden(const Ray& ray, float distance) const; // by a solid
     [[nodiscard]] Ray ray_at(const glm::vec2& cursor) const;
 
     voile::engine::App& app_;
     const Stage& stage_;
+    const std::vector<Solid>& solids_;
     std::optional<voile::AnchorId> anchor_;
     glm::vec3 point_{0.f}; // m, of the anchor
 };

@@ -12,7 +12,7 @@ namespace
 {
 
 // The distance to a triangle, or nothing (Möller and Trumbore 1997), from either side.
-std::optional<float> hit_distance(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+std::optional<float> triangle_distance(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
 {
     const glm::vec3 ab = b - a;
     const glm::vec3 ac = c - a;
@@ -28,6 +28,28 @@ std::optional<float> hit_distance(const Ray& ray, const glm::vec3& a, const glm:
     if (u < 0 || v < 0 || u + v > 1 || distance <= 0)
         return std::nullopt;
     return distance;
+}
+
+struct Hit
+{
+    size_t triangle = 0;
+    float distance = 0;
+};
+
+// The first triangle that the ray hits. Positions have three numbers or four.
+template <typename Position>
+std::optional<Hit> first_hit(const Ray& ray, std::span<const Position> positions, std::span<const glm::uvec3> triangles)
+{
+    std::optional<Hit> hit;
+    for (size_t i = 0; i < triangles.size(); ++i)
+    {
+        const glm::uvec3& triangle = triangles[i];
+        const auto distance =
+            triangle_distance(ray, positions[triangle.x], positions[triangle.y], positions[triangle.z]);
+        if (distance && (!hit || *distance < hit->distance))
+            hit = Hit{i, *distance};
+    }
+    return hit;
 }
 
 } // namespace
@@ -51,30 +73,32 @@ glm::vec3 point_in_plane(const voile::engine::Camera& camera, const Ray& ray, co
 std::optional<PickedVertex> pick_vertex(const Ray& ray, std::span<const glm::vec4> positions,
                                         std::span<const glm::uvec3> triangles)
 {
-    float nearest = std::numeric_limits<float>::infinity();
-    const glm::uvec3* hit = nullptr;
-    for (const glm::uvec3& triangle : triangles)
-    {
-        const auto distance = hit_distance(ray, positions[triangle.x], positions[triangle.y], positions[triangle.z]);
-        if (!distance || *distance >= nearest)
-            continue;
-        nearest = *distance;
-        hit = &triangle;
-    }
-    if (hit == nullptr)
+    const auto hit = first_hit(ray, positions, triangles);
+    if (!hit)
         return std::nullopt;
-    const glm::vec3 point = ray.origin + nearest * ray.direction;
+    const glm::vec3 point = ray.origin + hit->distance * ray.direction;
+    const glm::uvec3& corners = triangles[hit->triangle];
     std::optional<PickedVertex> picked;
     float least = std::numeric_limits<float>::infinity();
-    for (const uint32_t vertex : {hit->x, hit->y, hit->z})
+    for (const uint32_t vertex : {corners.x, corners.y, corners.z})
     {
         const float distance = glm::distance(glm::vec3(positions[vertex]), point);
         if (positions[vertex].w <= 0 || distance >= least)
             continue;
         least = distance;
-        picked = PickedVertex{vertex, nearest};
+        picked = PickedVertex{vertex, hit->distance};
     }
     return picked;
+}
+
+std::optional<float> hit_distance(const Ray& ray, const glm::mat4& placed, std::span<const glm::vec3> positions,
+                                  std::span<const glm::uvec3> triangles)
+{
+    const glm::mat4 back = glm::inverse(placed);
+    // Not of unit length, so that distances stay those of the world.
+    const Ray seen{glm::vec3(back * glm::vec4(ray.origin, 1)), glm::mat3(back) * ray.direction};
+    const auto hit = first_hit(seen, positions, triangles);
+    return hit ? std::optional(hit->distance) : std::nullopt;
 }
 
 } // namespace viewer

@@ -36,4 +36,8 @@ struct PickedVertex
 std::optional<PickedVertex> pick_vertex(const Ray& ray, std::span<const glm::vec4> positions,
                                         std::span<const glm::uvec3> triangles);
 
+// The distance along the ray to a mesh, m. `placed`: world from mesh.
+std::optional<float> hit_distance(const Ray& ray, const glm::mat4& placed, std::span<const glm::vec3> positions,
+                                  std::span<const glm::uvec3> triangles);
+
 } // namespace viewer

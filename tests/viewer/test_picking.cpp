@@ -3,6 +3,7 @@
 #include "samples/viewer/picking.hpp"
 
 #include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <array>
 #include <cmath>
@@ -38,6 +39,19 @@ TEST_CASE("the nearest free corner of the first triangle under the cursor is pic
     CHECK(pick(0.8f, 0.9f)->vertex == 5);  // beside the first square
     CHECK_FALSE(viewer::pick_vertex({{0, 0, 2}, {0, 0, 1}}, positions, triangles).has_value()); // behind the camera
     CHECK(pick(0.3f, 0.7f)->distance == doctest::Approx(std::sqrt(4 + 2 * 0.64)));
+}
+
+TEST_CASE("the distance to a mesh is that along the ray, where its matrix places it")
+{
+    const std::array<glm::vec3, 3> positions{{{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}}};
+    const std::array<glm::uvec3, 1> triangles{{{0, 1, 2}}};
+    const viewer::Ray ray = viewer::ray_through(k_camera, {0.5f, 0.5f}, 1);
+    const auto distance = [&](const glm::mat4& placed)
+    { return viewer::hit_distance(ray, placed, positions, triangles); };
+    CHECK(distance(glm::mat4(1)) == doctest::Approx(2));
+    CHECK(distance(glm::scale(glm::translate(glm::mat4(1), {0, 0, -3}), glm::vec3(0.1f))) == doctest::Approx(5));
+    CHECK_FALSE(distance(glm::translate(glm::mat4(1), {2, 0, 0})).has_value()); // beside the ray
+    CHECK_FALSE(distance(glm::translate(glm::mat4(1), {0, 0, 3})).has_value()); // behind the camera
 }
 
 TEST_CASE("a point follows the cursor in the plane that faces the camera")

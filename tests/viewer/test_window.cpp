@@ -137,6 +137,14 @@ constexpr const char* k_sheet = R"({
               "transform": {"translate": [0, 1, 0]}}],
   "camera": {"position": [0, 3, 2], "target": [0, 1, 0], "fov": 60}
 })";
+// The same sheet behind a box, which no cloth touches.
+constexpr const char* k_hidden_sheet = R"({
+  "cloths": [{"grid": {"vertices": [17, 17], "size": [1, 1]}, "pins": ["corner:0", "corner:1"],
+              "transform": {"translate": [0, 1, 0]}}],
+  "colliders": [{"box": {"min": [-0.1, -0.1, -0.1], "max": [0.1, 0.1, 0.1]}, "transform": {"translate": [0, 2, 1]},
+                 "layers": []}],
+  "camera": {"position": [0, 3, 2], "target": [0, 1, 0], "fov": 60}
+})";
 constexpr uint32_t k_vertices = 17 * 17;
 constexpr uint32_t k_middle = 8 * 17 + 8;
 
@@ -284,28 +292,33 @@ TEST_CASE("the mouse grabs a vertex, which follows the cursor until it is releas
     CHECK(released > 3 * held);
 }
 
-TEST_CASE("dragging beside the cloth orbits, and the cloth is left alone")
+TEST_CASE("dragging beside the cloth, or on a solid before it, orbits, and the cloth is left alone")
 {
     const XServer display;
     if (is_missing(display))
         return;
     const TestFolder folder;
-    const std::filesystem::path scene = folder.write("sheet.json", k_sheet);
+    const std::filesystem::path scene = folder.write("sheet.json", k_hidden_sheet);
     const std::string stats = (folder / "stats.json").string();
     Session session(display, folder, {scene.string(), "--stats", stats});
     XWindow& window = session.window;
     (void)hide_panel(window);
     session.step(1);
     const voile::engine::Picture before = window.picture();
-    const auto turned = [&](const voile::engine::Picture& picture) { return difference(before, picture, 0, 320) > 1; };
-    window.move(300, 10);
+    window.move(160, 90); // on the box
+    window.button(1, true);
+    window.move(120, 110);
+    window.button(1, false);
+    const auto differs_from = [](const voile::engine::Picture& other)
+    { return [&](const voile::engine::Picture& picture) { return difference(other, picture, 0, 320) > 1; }; };
+    const voile::engine::Picture turned = picture_when(window, differs_from(before));
+    window.move(300, 10); // beside both
     window.button(1, true);
     window.move(200, 40);
     window.button(1, false);
-    const voile::engine::Picture after = picture_when(window, turned);
+    const voile::engine::Picture after = picture_when(window, differs_from(turned));
     window.press(XK_Home);
-    (void)picture_when(window,
-                       [&](const voile::engine::Picture& picture) { return difference(after, picture, 0, 320) > 1; });
+    (void)picture_when(window, differs_from(after));
     session.step(1);
     session.close();
     CHECK(read_statistics(stats).hash == headless(folder, {scene.string()}, 2).hash);
