@@ -10,6 +10,7 @@ function(voile_add_shaders)
     set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${generated}/spirv)
     set(declarations "")
+    set(names "")
     foreach(shader IN LISTS ARG_SHADERS)
         get_filename_component(name ${shader} NAME)
         string(REPLACE "." "_" symbol ${name})
@@ -33,6 +34,7 @@ function(voile_add_shaders)
             COMMAND_EXPAND_LISTS VERBATIM)
         target_sources(${ARG_TARGET} PRIVATE ${cpp})
         string(APPEND declarations "extern const std::span<const uint32_t> k_${symbol};\n")
+        string(APPEND names "    {\"${name}\", &k_${symbol}},\n")
     endforeach()
     file(GENERATE OUTPUT ${generated}/${ARG_TARGET}_shaders.hpp CONTENT
 "// Generated: the SPIR-V of this library's shaders.
@@ -43,7 +45,16 @@ function(voile_add_shaders)
 
 namespace ${ARG_NAMESPACE}
 {
-${declarations}} // namespace ${ARG_NAMESPACE}
+${declarations}
+struct NamedShader
+{
+    const char* file;
+    const std::span<const uint32_t>* code;
+};
+inline constexpr NamedShader k_all[] = {
+${names}};
+
+} // namespace ${ARG_NAMESPACE}
 ")
     target_include_directories(${ARG_TARGET} PRIVATE ${generated})
 endfunction()

@@ -36,6 +36,14 @@ constexpr auto k_help = std::to_array<ControlHelp>({
     {"Esc", "close"},
 });
 
+constexpr const char* k_records = "a run that writes its frames does not start again";
+
+// Files that hold every frame of a run cannot start again.
+bool records(const Options& options)
+{
+    return options.out || options.video || is_animated(options);
+}
+
 // Where files go that the user asks for.
 std::filesystem::path folder_of(const Options& options)
 {
@@ -158,21 +166,33 @@ void Controls::request_capture()
         say("captures need RenderDoc from the start: run the viewer with --capture key");
 }
 
-// Files that hold every frame of a run cannot start again.
 bool Controls::may_restart()
 {
-    const Options& options = scene_.options;
-    const bool records = options.out || options.video || is_animated(options);
-    if (records)
-        say("a run that writes its frames does not start again");
-    return !records;
+    if (records(scene_.options))
+        say(k_records);
+    return !records(scene_.options);
 }
 
 void Controls::restart()
 {
     if (!may_restart())
         return;
-    started_again(viewer::restart(app_, scene_));
+    started_again(viewer::restart(app_, scene_, scene_.options));
+}
+
+voile::Result<void> Controls::use_cloth_shaders(const std::vector<voile::engine::ShaderCode>& shaders)
+{
+    if (records(scene_.options))
+        return voile::Error{k_records};
+    Options options = scene_.options;
+    for (const voile::engine::ShaderCode& shader : shaders)
+    {
+        std::erase_if(options.cloth_shaders, [&](const auto& former) { return former.name == shader.name; });
+        options.cloth_shaders.push_back(shader);
+    }
+    auto done = viewer::restart(app_, scene_, options);
+    started_again({});
+    return done;
 }
 
 void Controls::started_again(const voile::Result<void>& done)

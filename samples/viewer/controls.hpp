@@ -55,6 +55,8 @@ public:
     void restart();
     void open_scene(const std::string& name);
     void add_colliders(const std::vector<std::filesystem::path>& files);
+    // Starts again with these in place of those of their names. If that fails, the scene starts again as it was.
+    voile::Result<void> use_cloth_shaders(const std::vector<voile::engine::ShaderCode>& shaders);
 
     // A line for the user, on standard output, too.
     void say(const std::string& text);

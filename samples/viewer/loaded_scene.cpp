@@ -50,6 +50,7 @@ voile::Result<LoadedScene> load(const Options& options)
 }
 
 voile::Result<void> set_up(voile::engine::App& app, LoadedScene& loaded)
+try
 {
     auto stage = set_stage(app, loaded.file, loaded.solids, loaded.options);
     if (!stage)
@@ -59,6 +60,10 @@ voile::Result<void> set_up(voile::engine::App& app, LoadedScene& loaded)
     if (app.has_window() || loaded.options.debug.any())
         loaded.debug = &app.scene().add("debug").add<DebugView>(app, loaded.stage, loaded.solids, loaded.options.debug);
     return {};
+}
+catch (const voile::engine::StartupError& error) // of a component
+{
+    return voile::Error{error.what()};
 }
 
 voile::Result<void> replace(voile::engine::App& app, LoadedScene& loaded, LoadedScene next)
@@ -74,10 +79,10 @@ voile::Result<void> replace(voile::engine::App& app, LoadedScene& loaded, Loaded
     return done;
 }
 
-voile::Result<void> restart(voile::engine::App& app, LoadedScene& loaded)
+voile::Result<void> restart(voile::engine::App& app, LoadedScene& loaded, const Options& options)
 {
     LoadedScene next;
-    next.options = loaded.options;
+    next.options = options;
     next.file = loaded.file;
     next.solids = loaded.solids;
     const voile::engine::Camera camera = app.scene().camera;

@@ -6,10 +6,10 @@
 #include "samples/viewer/output_check.hpp"
 #include "samples/viewer/panel.hpp"
 #include "samples/viewer/progress.hpp"
-#include "samples/viewer/shader_reload.hpp"
 #include "samples/viewer/softening_notes.hpp"
 #include "samples/viewer/text.hpp"
 #include "samples/viewer/verify.hpp"
+#include "samples/viewer/watched_shaders.hpp"
 
 #include "voile/engine/app/signals.hpp"
 #include "voile/engine/gpu/capture.hpp"
@@ -253,6 +253,7 @@ int run_scene(const Options& options)
         capture.emplace((options.out.value_or(".") / name).string());
     }
 
+    WatchedShaders shaders(scene.options);
     voile::engine::App app(app_options(options, scene.file));
     if (!app.has_window() && !options.headless)
         std::fprintf(stderr, "viewer: no display, running headless\n");
@@ -267,14 +268,10 @@ int run_scene(const Options& options)
                     voile::engine::take(AnimationExports::create(app, scene.stage, animated, scene.file, options))};
     Measured measured;
     Controls controls(app, scene);
-    std::optional<ShaderReload> shaders;
-    if (options.shaders)
-        shaders.emplace(app.renderer(), *options.shaders);
-    Panel panel(app, scene, controls, shaders ? &*shaders : nullptr);
+    Panel panel(app, scene, controls, shaders);
     const voile::engine::IdleGuard idle(app.device());
     connect(app, scene, outputs, measured, controls, panel);
-    if (shaders)
-        app.before_frame = [&] { shaders->update(); };
+    shaders.connect(app, controls);
     const voile::engine::EarlyFinish early;
     run_frames(app, scene, outputs, controls, measured, capture ? &*capture : nullptr, early);
 

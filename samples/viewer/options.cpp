@@ -114,8 +114,8 @@ void declare_output(CLI::App& app, Typed& typed, Options& options)
         ->type_name("boxes[:LEVEL]|contacts|normals|intersections|strain[:PERCENT]")
         ->group(group);
     app.add_option("--shaders", typed.shaders,
-                   "Draws with the shaders of this folder (shaders/render, or a copy), and compiles\n"
-                   "them when their files change; needs glslangValidator")
+                   "Draws and simulates with the shaders of this folder (shaders, or a copy; or the\n"
+                   "render shaders alone), and compiles them when their files change; needs\nglslangValidator")
         ->type_name("DIR")
         ->group(group);
     app.add_flag("--verify", options.verify,

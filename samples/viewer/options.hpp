@@ -1,6 +1,7 @@
 // The viewer's command line.
 #pragma once
 
+#include "voile/engine/render/renderer.hpp"
 #include "voile/result.hpp"
 
 #include <cstdint>
@@ -68,7 +69,9 @@ struct Options
     bool capture_key = false;          // F12 in the window captures a frame
     bool paused = false;               // the window opens paused
     bool verify = false;
-    std::optional<std::filesystem::path> shaders{}; // a folder of render shaders that is watched
+    std::optional<std::filesystem::path> shaders{}; // a folder that is watched
+    // What was compiled from it in place of the cloth's own; without folders in the names. No option has it.
+    std::vector<voile::engine::ShaderCode> cloth_shaders{};
     DebugOptions debug{};
 
     // Not empty: print this on standard output and leave with exit code 0 (--help, --version).

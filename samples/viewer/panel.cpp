@@ -145,7 +145,7 @@ struct Panel::State
     voile::engine::OverlayTriangles triangles{};
 };
 
-Panel::Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const ShaderReload* shaders)
+Panel::Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const WatchedShaders& shaders)
     : state_(new State{.contents = {.app = app, .scene = scene, .controls = controls, .shaders = shaders}})
 {
     if (!app.has_window())

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "samples/viewer/controls.hpp"
-#include "samples/viewer/shader_reload.hpp"
+#include "samples/viewer/watched_shaders.hpp"
 
 #include <memory>
 
@@ -12,8 +12,7 @@ namespace viewer
 class Panel
 {
 public:
-    // `shaders`: may be null.
-    Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const ShaderReload* shaders);
+    Panel(voile::engine::App& app, LoadedScene& scene, Controls& controls, const WatchedShaders& shaders);
     ~Panel();
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;

@@ -85,12 +85,13 @@ void show_boxes(DebugOptions& debug)
         debug.boxes = static_cast<uint32_t>(level);
 }
 
-void show_shader_errors(const ShaderReload* shaders)
+void show_shader_errors(const WatchedShaders& shaders)
 {
-    if (shaders == nullptr || shaders->errors().empty())
+    const std::string errors = shaders.errors();
+    if (errors.empty())
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 120, 100, 255));
-    ImGui::TextWrapped("shaders: %s", shaders->errors().c_str());
+    ImGui::TextWrapped("shaders: %s", errors.c_str());
     ImGui::PopStyleColor();
 }
 

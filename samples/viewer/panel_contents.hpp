@@ -3,7 +3,7 @@
 
 #include "samples/viewer/controls.hpp"
 #include "samples/viewer/frame_history.hpp"
-#include "samples/viewer/shader_reload.hpp"
+#include "samples/viewer/watched_shaders.hpp"
 
 namespace viewer
 {
@@ -13,7 +13,7 @@ struct PanelContents
     voile::engine::App& app;
     LoadedScene& scene;
     Controls& controls;
-    const ShaderReload* shaders = nullptr; // null: none are watched
+    const WatchedShaders& shaders;
     FrameHistory history{};
     float frame_seconds = 0; // between the last two frames, smoothed
     std::vector<std::string> scene_names{};

@@ -10,7 +10,7 @@ struct Panel::State
     bool told = false;
 };
 
-Panel::Panel(voile::engine::App&, LoadedScene&, Controls& controls, const ShaderReload*) : state_(new State{controls})
+Panel::Panel(voile::engine::App&, LoadedScene&, Controls& controls, const WatchedShaders&) : state_(new State{controls})
 {
 }
 Panel::~Panel() = default;

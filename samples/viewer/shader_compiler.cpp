@@ -41,14 +41,13 @@ struct Compilation
 };
 
 // An errno, 0 for none.
-int start(Compilation& compilation, const std::string& program)
+int start(Compilation& compilation, const fs::path& folder, const std::string& program)
 {
     if (!compilation.words)
         return errno;
     const int words = ::fileno(compilation.words.get());
     (void)::fcntl(words, F_SETFD, FD_CLOEXEC);
-    const std::string folder = fs::path(compilation.file).parent_path().string();
-    return start_program({program, "--quiet", "-V", "--target-env", "vulkan1.2", "-I" + folder, "-o",
+    return start_program({program, "--quiet", "-V", "--target-env", "vulkan1.2", "-I" + folder.string(), "-o",
                           compilation.result.path().string(), compilation.file},
                          {.output = words, .errors = words}, compilation.process);
 }
@@ -111,7 +110,7 @@ CompiledShader finish(Compilation& compilation)
 
 } // namespace
 
-voile::Result<std::vector<CompiledShader>> compile_shaders(std::span<const fs::path> files,
+voile::Result<std::vector<CompiledShader>> compile_shaders(std::span<const fs::path> files, const fs::path& folder,
                                                            const std::vector<std::string>& programs)
 {
     std::vector<std::unique_ptr<Compilation>> running;
@@ -122,7 +121,7 @@ voile::Result<std::vector<CompiledShader>> compile_shaders(std::span<const fs::p
         running.push_back(std::make_unique<Compilation>(file));
         while (program < programs.size())
         {
-            problem = start(*running.back(), programs[program]);
+            problem = start(*running.back(), folder, programs[program]);
             if (!is_missing(problem, programs[program]))
                 break;
             ++program;

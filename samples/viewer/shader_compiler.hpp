@@ -21,10 +21,10 @@ struct CompiledShader
     std::vector<std::string> errors; // "FILE:LINE: REASON"
 };
 
-// Compiles several shaders at once, one process each. Includes are searched beside each file. Error: no such program,
-// or it cannot be started.
+// Compiles several shaders at once, one process each. Includes are searched beside each file, then in `folder`. Error:
+// no such program, or it cannot be started.
 voile::Result<std::vector<CompiledShader>>
-compile_shaders(std::span<const std::filesystem::path> files,
+compile_shaders(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
                 const std::vector<std::string>& programs = k_glslang_programs);
 
 } // namespace viewer

@@ -37,12 +37,12 @@ std::string joined(const std::vector<std::string>& lines)
 
 } // namespace
 
-ShaderReload::ShaderReload(voile::engine::Renderer& renderer, fs::path folder)
-    : renderer_(renderer), folder_(std::move(folder))
+ShaderReload::ShaderReload(fs::path folder, std::vector<fs::path> files, Take taker)
+    : take(std::move(taker)), folder_(std::move(folder)), files_(std::move(files))
 {
-    for (const std::string_view name : voile::engine::shader_names())
-        if (!fs::exists(folder_ / name))
-            throw voile::engine::StartupError("--shaders: " + path_in_quotes(folder_) + " has no " + std::string(name));
+    for (const fs::path& file : files_)
+        if (!fs::exists(folder_ / file))
+            throw voile::engine::StartupError("--shaders: " + path_in_quotes(folder_) + " has no " + file.string());
     update();
 }
 
@@ -50,8 +50,10 @@ ShaderReload::FolderState ShaderReload::look() const
 {
     FolderState state;
     std::error_code problem;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, problem))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_, problem))
     {
+        if (!entry.is_regular_file(problem))
+            continue;
         FileState file{entry.last_write_time(problem), 0};
         file.size = entry.file_size(problem);
         if (!problem)
@@ -74,31 +76,30 @@ void ShaderReload::update()
 
 void ShaderReload::compile()
 {
-    const auto names = voile::engine::shader_names();
     std::vector<fs::path> files;
-    for (const std::string_view name : names)
-        files.push_back(folder_ / name);
-    auto compiled = compile_shaders(files);
+    for (const fs::path& file : files_)
+        files.push_back(folder_ / file);
+    auto compiled = compile_shaders(files, folder_);
     if (!compiled)
         return report(compiled.error().message);
     std::vector<std::string> errors;
     std::vector<voile::engine::ShaderCode> changed;
-    for (size_t i = 0; i < names.size(); ++i)
+    for (size_t i = 0; i < files.size(); ++i)
     {
         CompiledShader& shader = compiled.value()[i];
         add_errors(shader.errors, errors);
-        const std::string name(names[i]);
-        if (shader.errors.empty() && shown_[name] != shader.spirv)
+        const std::string name = files[i].filename().string();
+        if (shader.errors.empty() && taken_[name] != shader.spirv)
             changed.push_back({name, std::move(shader.spirv)});
     }
     // All or none: the stages of a pipeline belong together.
     if (errors.empty() && !changed.empty())
     {
-        if (const auto replaced = renderer_.replace_shaders(changed); !replaced)
-            errors.push_back(replaced.error().message);
+        if (const auto done = take(changed); !done)
+            errors.push_back(done.error().message);
         else
             for (voile::engine::ShaderCode& shader : changed)
-                shown_[shader.name] = std::move(shader.spirv);
+                taken_[shader.name] = std::move(shader.spirv);
     }
     report(joined(errors));
 }

@@ -1,12 +1,14 @@
-// ShaderReload: compiles the renderer's shaders when their files change, and keeps the last ones that work.
+// ShaderReload: compiles the shaders of a folder when their files change. The last ones that work stay.
 #pragma once
 
 #include "voile/engine/render/renderer.hpp"
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace viewer
 {
@@ -14,13 +16,20 @@ namespace viewer
 class ShaderReload
 {
 public:
-    // Watches a folder with the files of shaders/render, and compiles them at once. StartupError if it lacks one.
-    ShaderReload(voile::engine::Renderer& renderer, std::filesystem::path folder);
+    // Shaders whose code has changed, named without their folders: takes all of them, or none and says why.
+    using Take = std::function<voile::Result<void>(const std::vector<voile::engine::ShaderCode>&)>;
+
+    // Watches `folder`, where includes are searched, too, and compiles `files` (in it) at once. StartupError if it
+    // lacks one.
+    ShaderReload(std::filesystem::path folder, std::vector<std::filesystem::path> files, Take take);
 
     // Between frames: looks for changes, four times per second at most, and compiles.
     void update();
 
-    // What is wrong with the files as they are, a line per error; empty: the picture shows them.
+    // Who takes what will be compiled.
+    Take take;
+
+    // What is wrong with the files as they are, a line per error; empty: they are in use.
     [[nodiscard]] const std::string& errors() const { return errors_; }
 
 private:
@@ -37,10 +46,10 @@ private:
     void compile();
     void report(const std::string& errors);
 
-    voile::engine::Renderer& renderer_;
     std::filesystem::path folder_;
+    std::vector<std::filesystem::path> files_;
     FolderState state_;
-    std::map<std::string, std::vector<uint32_t>> shown_; // SPIR-V that the renderer has
+    std::map<std::string, std::vector<uint32_t>> taken_; // SPIR-V by name
     std::string errors_;
     Clock::time_point next_{};
 };

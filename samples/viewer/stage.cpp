@@ -177,6 +177,10 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
 {
     Stage stage;
     voile::SolverOptions solver_options;
+    std::vector<voile::ShaderReplacement> shaders;
+    for (const voile::engine::ShaderCode& shader : options.cloth_shaders)
+        shaders.push_back({shader.name, shader.spirv});
+    solver_options.shaders = shaders;
     solver_options.intersections = options.debug.intersections || options.verify || app.has_window();
     auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots(), solver_options);
     stage.world = &world;

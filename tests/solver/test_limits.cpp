@@ -50,6 +50,20 @@ TEST_CASE("a device that meets requirements() is enough for the default options"
               std::to_string(voile::requirements().storage_buffers - 1) + " per stage");
 }
 
+TEST_CASE_FIXTURE(tests::GpuFixture,
+                  "shaders in place of the module's own are used by their file's name, unknown names are refused")
+{
+    const auto created = [&](const char* file)
+    {
+        const std::vector<uint32_t> no_spirv{1, 2, 3};
+        const voile::ShaderReplacement shader{file, no_spirv};
+        return reason(voile::Solver::create(context().handles, {.shaders = {&shader, 1}}));
+    };
+    CHECK(created("verlet.comp").find("kernel \"cloth verlet\"") == 0);
+    CHECK(created("refit.comp").find("kernel \"cloth refit leaves\"") == 0);
+    CHECK(created("velvet.comp") == "SolverOptions: shaders: no shader is called \"velvet.comp\"");
+}
+
 namespace
 {
 

@@ -36,7 +36,7 @@ TEST_CASE("shaders are compiled at run time, and errors name file and line, in i
                                                         "#extension GL_GOOGLE_include_directive : require\n"
                                                         "#include \"part.glsl\"\nvoid main() {}\n");
     const std::vector<fs::path> files{good, broken, folder / "nosuch.frag"};
-    const auto compiled = viewer::compile_shaders(files);
+    const auto compiled = viewer::compile_shaders(files, folder.path());
     REQUIRE(compiled);
     REQUIRE(compiled.value().size() == 3);
     CHECK(compiled.value()[0].errors.empty());
@@ -52,12 +52,12 @@ TEST_CASE("shaders are compiled at run time, and errors name file and line, in i
 TEST_CASE("a compiler that is missing is an error, and another name is tried")
 {
     const std::vector<fs::path> files{tests::source("shaders/render/sky.frag")};
-    const auto missing = viewer::compile_shaders(files, {"no_such_compiler"});
+    const auto missing = viewer::compile_shaders(files, tests::source("shaders/render"), {"no_such_compiler"});
     REQUIRE(!missing);
     CHECK(missing.error().message == "no_such_compiler is not installed (or not in PATH)");
     if (!has_compiler())
         return;
-    const auto second = viewer::compile_shaders(files, {"no_such_compiler", "glslangValidator"});
+    const auto second = viewer::compile_shaders(files, tests::source("shaders/render"), {"no_such_compiler", "glslangValidator"});
     REQUIRE(second);
     CHECK(second.value()[0].errors.empty());
 }

@@ -353,6 +353,37 @@ TEST_CASE("a dropped mesh becomes a collider, and the saved scene is what runs")
     CHECK(hash != headless(folder, {scene}, 8).hash); // it has touched the mesh
 }
 
+TEST_CASE("a changed shader of the cloth starts the scene again, and one that is refused is reported")
+{
+    const TestFolder folder;
+    std::filesystem::copy(tests::source("shaders"), folder / "shaders", std::filesystem::copy_options::recursive);
+    const std::filesystem::path cloth = folder / "shaders" / "cloth";
+    const auto write = [&](const char* file, const std::string& part, const std::string& by)
+    {
+        std::string changed = tests::text_of(tests::source("shaders/cloth") / file);
+        REQUIRE(changed.find(part) != std::string::npos);
+        std::ofstream(cloth / file) << changed.replace(changed.find(part), part.size(), by);
+    };
+    const std::vector<std::string> arguments = with(k_reference, {"--shaders", (folder / "shaders").string()});
+    const std::string stats = (folder / "stats.json").string();
+    Session session(folder, with(arguments, {"--stats", stats}));
+    XWindow& window = session.window;
+    session.step(2);
+    write("forces/forces.glsl", "* push.gravity;", "* -push.gravity;");
+    REQUIRE(window.wait_for_title("at frame 0"));
+    write("constraints/pin.comp", "void main()",
+          "layout(constant_id = 99) const int odd = 1; int f() { return odd; } void main()");
+    REQUIRE(session.wait_for_errors("kernel \"cloth pins\": specialization constant 99"));
+    write("constraints/pin.comp", "void main()", "void main(");
+    REQUIRE(session.wait_for_errors("pin.comp:"));
+    session.step(2); // with the last shaders that work
+    session.close(true);
+    write("constraints/pin.comp", "void main()", "void main()");
+    const std::string hash = read_statistics(stats).hash;
+    CHECK(hash == headless(folder, arguments, 2).hash);
+    CHECK(hash != headless(folder, k_reference, 2).hash);
+}
+
 TEST_CASE("a changed shader changes the picture, and a broken one is reported by its line")
 {
     const XServer display;

@@ -106,6 +106,14 @@ struct Tuning
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
+// SPIR-V in place of the module's own, for work on its shaders. Bindings, push constants, specialization constants and
+// structs must stay those of the file.
+struct ShaderReplacement
+{
+    std::string_view file;           // of shaders/cloth, without folders: "contact.comp"
+    std::span<const uint32_t> spirv; // read during Solver::create
+};
+
 struct SolverOptions
 {
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
@@ -134,6 +142,7 @@ struct SolverOptions
     std::optional<bool> lifetime_checks{};
     Tuning tuning{};
     Jobs jobs{}; // the host's job system, for add_cloth, add_collider and record_upload (voile/jobs.hpp)
+    std::span<const ShaderReplacement> shaders{}; // read during Solver::create
 };
 
 // Vertices in a buffer of the host, three floats each. The buffer needs TRANSFER_SRC usage.

@@ -12,7 +12,8 @@
 namespace voile
 {
 
-Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size)
+Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size,
+                                          std::span<const uint32_t> code)
 {
     const auto& limits = context.limits;
     const uint32_t most = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
@@ -24,7 +25,8 @@ Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t 
     const auto create = [&](const char* name, uint32_t from_leaves)
     {
         const Specialization specialization{.workgroup_size = kernels.group, .from_leaves = from_leaves};
-        return gpu::Kernel::create(context, {name, shaders::k_refit_comp, specialization.values()});
+        return gpu::Kernel::create(context,
+                                   {name, code.empty() ? shaders::k_refit_comp : code, specialization.values()});
     };
     auto leaves = create("cloth refit leaves", 1);
     if (!leaves)

@@ -19,8 +19,12 @@ struct RefitKernels
     uint32_t levels_per_dispatch = 0;
 };
 
-// `workgroup_size`: a power of two, 2 to the device's limit; more than the device's limit is lowered to it.
-Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = 256);
+constexpr uint32_t k_refit_workgroup = 256;
+
+// `workgroup_size`: a power of two, 2 to the device's limit; more than the device's limit is lowered to it. `code`: in
+// place of the module's own, unless it is empty.
+Result<RefitKernels> create_refit_kernels(const gpu::Context& context, uint32_t workgroup_size = k_refit_workgroup,
+                                          std::span<const uint32_t> code = {});
 
 // Records a refit in the dispatches that it takes, each with its barrier to what follows. Positions
 // must have been made visible to compute reads, and earlier reads of the boxes must be done. All boxes of the tree are

@@ -21,6 +21,24 @@ struct Request
     gpu::KernelDescription description;
 };
 
+// The module's own code, or the host's in its place.
+std::span<const uint32_t> code_of(std::span<const uint32_t> own, const SolverOptions& options)
+{
+    for (const ShaderReplacement& replacement : options.shaders)
+        for (const shaders::NamedShader& shader : shaders::k_all)
+            if (shader.code->data() == own.data() && replacement.file == shader.file)
+                return replacement.spirv;
+    return own;
+}
+
+Result<void> check_replacements(const SolverOptions& options)
+{
+    for (const ShaderReplacement& replacement : options.shaders)
+        if (std::ranges::none_of(shaders::k_all, [&](const auto& shader) { return replacement.file == shader.file; }))
+            return Error{"SolverOptions: shaders: no shader is called \"" + std::string(replacement.file) + '"'};
+    return {};
+}
+
 std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
     const uint32_t group = options.tuning.workgroup_size;
@@ -29,7 +47,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     std::vector<Request> requests;
     const auto add = [&](gpu::Kernel& kernel, const char* name, std::span<const uint32_t> spirv,
                          const Specialization& specialization) {
-        requests.push_back({&kernel, {name, spirv, specialization.values()}});
+        requests.push_back({&kernel, {name, code_of(spirv, options), specialization.values()}});
     };
     const Specialization plain{.workgroup_size = group};
     const Specialization with_lists{.workgroup_size = group, .interleaved = interleaved};
@@ -124,6 +142,8 @@ Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOpti
 
 Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions& options)
 {
+    if (auto known = check_replacements(options); !known)
+        return known.error();
     if (auto within = check_limits(context.limits, options); !within) // before any is compiled
         return within.error();
     Kernels kernels;
@@ -134,7 +154,7 @@ Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions&
             return kernel.error();
         *request.kernel = std::move(kernel.value());
     }
-    auto refit = create_refit_kernels(context);
+    auto refit = create_refit_kernels(context, k_refit_workgroup, code_of(shaders::k_refit_comp, options));
     if (!refit)
         return refit.error();
     kernels.refit = std::move(refit.value());

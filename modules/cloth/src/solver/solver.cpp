@@ -120,6 +120,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     auto state = std::make_unique<State>();
     state->context = context.value();
     state->options = options;
+    state->options.shaders = {};
     state->options.tuning.feature_threads = feature_threads(state->context, options);
     state->options.tuning.dispatch_vertices = dispatch_vertices(state->context, options);
     state->model.limits = {options.tuning.workgroup_size, state->context.limits.maxComputeWorkGroupCount[0],
