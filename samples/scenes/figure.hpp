@@ -37,8 +37,8 @@ private:
 };
 
 // Around the waist down to the knees, and over the shoulders and the back, outside of the figure at phase 0. Texture
-// coordinates in meters, u along the hem.
-voile::engine::Mesh make_skirt();
-voile::engine::Mesh make_cape();
+// coordinates in meters, u along the hem. `coarseness` divides the numbers of columns and rows, 1 to 4.
+voile::engine::Mesh make_skirt(uint32_t coarseness = 1);
+voile::engine::Mesh make_cape(uint32_t coarseness = 1);
 
 } // namespace scenes

@@ -60,7 +60,7 @@ voile::engine::Mesh make_cone(const Cone& cone)
 
 } // namespace
 
-voile::engine::Mesh make_skirt()
+voile::engine::Mesh make_skirt(uint32_t coarseness)
 {
     return make_cone({.ring = {0.152f, 0.112f},
                       .hem = {0.40f, 0.37f},
@@ -70,11 +70,11 @@ voile::engine::Mesh make_skirt()
                       .hem_z = 0.f,
                       .half_angle = std::numbers::pi_v<float>,
                       .back = false,
-                      .columns = 64,
-                      .rows = 20});
+                      .columns = 64 / coarseness,
+                      .rows = 20 / coarseness});
 }
 
-voile::engine::Mesh make_cape()
+voile::engine::Mesh make_cape(uint32_t coarseness)
 {
     return make_cone({.ring = {0.145f, 0.1f},
                       .hem = {0.42f, 0.42f},
@@ -84,8 +84,8 @@ voile::engine::Mesh make_cape()
                       .hem_z = -0.1f,
                       .half_angle = 1.15f,
                       .back = true,
-                      .columns = 28,
-                      .rows = 36});
+                      .columns = 28 / coarseness,
+                      .rows = 36 / coarseness});
 }
 
 } // namespace scenes

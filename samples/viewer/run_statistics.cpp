@@ -139,6 +139,7 @@ void RunStatistics::completed(const Stage& stage, const voile::engine::FrameInfo
     entry.contacts = measured.contacts;
     entry.candidates = measured.candidates;
     entry.contact_overflows = measured.overflowing_vertices;
+    entry.forced_pairs = measured.forced_pairs;
     if (frame.timestamps != nullptr)
         for (const voile::gpu::PassTime& pass : frame.timestamps->read(frame.slot))
         {

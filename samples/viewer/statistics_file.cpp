@@ -44,7 +44,8 @@ Json measurements_json(const Measurements& values)
             {"nan_vertices", count(values.nan_vertices)},
             {"contacts", count(values.contacts)},
             {"candidates", count(values.candidates)},
-            {"contact_overflows", count(values.contact_overflows)}};
+            {"contact_overflows", count(values.contact_overflows)},
+            {"forced_pairs", count(values.forced_pairs)}};
 }
 
 Json summary_json(const StatisticsSummary& summary)
@@ -126,7 +127,8 @@ Measurements larger_of(const Measurements& a, const Measurements& b)
             std::max(a.nan_vertices, b.nan_vertices),
             std::max(a.contacts, b.contacts),
             std::max(a.candidates, b.candidates),
-            std::max(a.contact_overflows, b.contact_overflows)};
+            std::max(a.contact_overflows, b.contact_overflows),
+            std::max(a.forced_pairs, b.forced_pairs)};
 }
 
 Percentiles percentiles(std::span<const double> values)

@@ -72,7 +72,8 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                             "nan_vertices",
                             "contacts",
                             "candidates",
-                            "contact_overflows"};
+                            "contact_overflows",
+                            "forced_pairs"};
     CHECK(keys(json["summary"]["maxima"]) == measurements);
     Keys last = measurements;
     last.insert(last.end(), {"self_intersections", "verified"});
@@ -86,8 +87,8 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
     CHECK(keys(json["per_frame"][0]) == Keys{"frame", "substeps", "max_stretch", "mean_stretch", "kinetic_energy",
                                              "penetrating_vertices", "deepest_penetration", "intersecting_cloth_pairs",
                                              "intersecting_collider_pairs", "uncertain_pairs", "nan_vertices",
-                                             "contacts", "candidates", "contact_overflows", "gpu_frame_ms",
-                                             "gpu_cloth_ms", "cpu_record_ms"});
+                                             "contacts", "candidates", "contact_overflows", "forced_pairs",
+                                             "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
 }
 
 TEST_CASE("values survive a round trip, and unmeasured ones are null")

@@ -2,6 +2,7 @@
 // cannot be used is refused.
 #include "viewer/viewer_scenes.hpp"
 
+#include "samples/scenes/figure.hpp"
 #include "voile/engine/assets/obj.hpp"
 
 namespace
@@ -254,4 +255,25 @@ TEST_CASE("the dressed figure starts to walk, and no cloth intersects cloth or f
     CHECK(run.exit_code == 0);
     CHECK(run.output.find("verified: 0 penetrating vertices, deepest 0 mm, 0 self-intersections") != std::string::npos);
     CHECK(run.output.find("intersections: 0 pairs of cloth, 0 of cloth and collider") != std::string::npos);
+}
+
+TEST_CASE("the dressed figure has walked for five seconds in coarse clothes, and no cloth intersects cloth")
+{
+    const TestFolder folder;
+    const fs::path built = tests::program("../scenes");
+    fs::copy(built / "dressed.json", folder / "dressed.json");
+    for (uint32_t i = 0; i < scenes::k_walk_frames; ++i)
+    {
+        const std::string file = "figure_" + std::to_string(i) + ".obj";
+        fs::create_symlink(fs::absolute(built / file), folder / file);
+    }
+    constexpr uint32_t k_coarseness = 3; // a tenth of the vertices, a third of the substeps
+    voile::engine::take(voile::engine::save_obj(folder / "skirt.obj", scenes::make_skirt(k_coarseness)));
+    voile::engine::take(voile::engine::save_obj(folder / "cape.obj", scenes::make_cape(k_coarseness)));
+    const Run run = run_viewer((folder / "dressed.json").string() + " --headless --size 16x16 --frames 300 --verify");
+    CAPTURE(run.errors);
+    CAPTURE(run.output);
+    CHECK(run.exit_code == 0); // and so all vertices are finite
+    CHECK(run.output.find("verified: 0 penetrating vertices, deepest 0 mm, 0 self-intersections") != std::string::npos);
+    CHECK(run.output.find("intersections: 0 pairs of cloth, ") != std::string::npos);
 }
