@@ -41,7 +41,8 @@ if $film; then
     "$viewer" "$part" --headless --frames 300 --size 640x360 --video "$parts/$part.mp4" ${arguments[@]+"${arguments[@]}"}
     printf "file '%s'\n" "$parts/$part.mp4" >>"$parts/list"
   done
-  ffmpeg -hide_banner -loglevel error -y -f concat -safe 0 -i "$parts/list" -c copy -movflags +faststart "$out/voile.mp4"
+  ffmpeg -hide_banner -loglevel error -f concat -safe 0 -i "$parts/list" -c copy -movflags +faststart "$parts/voile.mp4"
+  mv "$parts/voile.mp4" "$out/voile.mp4"
   echo "wrote $out/voile.mp4"
   exit
 fi

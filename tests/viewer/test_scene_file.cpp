@@ -281,6 +281,15 @@ TEST_CASE("a transform scales, then rotates about x, y, z, then translates")
     CHECK(viewer::matrix(odd, 0) == glm::mat4(1));
 }
 
+TEST_CASE("a motion with a ramp starts at rest and has its speed after that time")
+{
+    const viewer::MotionEntry motion{.velocity = {3, 0, 0}, .ramp = 0.5f};
+    const auto x = [&](double seconds) { return viewer::matrix(motion, seconds)[3].x; };
+    CHECK(x(0.25) == tests::close_to(3 * 0.25 * 0.25 / (2 * 0.5), 1e-6)); // a t^2 / 2
+    CHECK(x(0.5) == tests::close_to(3 * 0.25, 1e-6));
+    CHECK(x(2) - x(1) == tests::close_to(3, 1e-6));
+}
+
 TEST_CASE("the reference scene is that of the report")
 {
     const fs::path path = tests::source("samples/scenes/reference.json");

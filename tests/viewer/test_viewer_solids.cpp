@@ -262,3 +262,32 @@ TEST_CASE("the moving scene runs at a coarse resolution, and its cloths stay out
     CHECK(run.exit_code == 0);
     CHECK(run.output.find("verified: 0 penetrating vertices") != std::string::npos);
 }
+
+TEST_CASE("without a camera the picture shows the whole scene, and the scene fills most of it")
+{
+    SceneRuns runs;
+    for (const char* size : {"[4, 0.5]", "[0.5, 4]"})
+    {
+        CAPTURE(size);
+        const voile::engine::Picture picture = runs.picture(
+            R"({"gravity": [0, 0, 0], "cloths": [{"grid": {"vertices": [4, 4], "size": )" + std::string(size) +
+                R"(}, "transform": {"rotate": [90, 0, 0]}, "look": {"color": "#ff0000", "pattern": "none"}}]})",
+            1);
+        glm::uvec2 low(picture.width, picture.height);
+        glm::uvec2 high(0);
+        for (uint32_t y = 0; y < picture.height; ++y)
+            for (uint32_t x = 0; x < picture.width; ++x)
+            {
+                const uint8_t* p = &picture.rgba[size_t{4} * (size_t{y} * picture.width + x)];
+                if (p[0] < 2 * p[1])
+                    continue;
+                low = glm::min(low, glm::uvec2(x, y));
+                high = glm::max(high, glm::uvec2(x, y));
+            }
+        CHECK(low.x > 0);
+        CHECK(low.y > 0);
+        CHECK(high.x < picture.width - 1);
+        CHECK(high.y < picture.height - 1);
+        CHECK((high.x - low.x > picture.width * 2 / 3 || high.y - low.y > picture.height * 2 / 3));
+    }
+}
