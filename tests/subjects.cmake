@@ -73,7 +73,7 @@ endif()
 find_program(XVFB Xvfb)
 find_package(X11 QUIET)
 if(XVFB AND X11_FOUND AND X11_XTest_FOUND)
-    voile_add_test(test_window SOURCES viewer/test_window.cpp viewer/x_display.cpp
+    voile_add_test(test_window SOURCES viewer/test_window.cpp viewer/test_window_shaders.cpp viewer/x_display.cpp
                    LIBRARIES voile_viewer_parts voile::engine X11::X11 X11::Xtst)
     target_compile_definitions(test_window PRIVATE VOILE_HAS_PANEL=$<BOOL:${ImGui_FOUND}>)
     add_dependencies(test_window viewer scene_meshes)
