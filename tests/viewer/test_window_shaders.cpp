@@ -75,7 +75,7 @@ TEST_CASE("a changed shader changes the picture, and a broken one is reported by
     const voile::engine::Picture before = hide_panel(window);
     write("return gradient + glow;", "return vec3(1, 0, 0);");
     const voile::engine::Picture red = picture_when(window, [&](const voile::engine::Picture& picture)
-                                                    { return difference(picture, before, 0, 320) > 20; });
+                                                    { return difference(picture, before, 0, 320) > 10; });
     write("return gradient + glow;", "return gradient + gloom;");
     REQUIRE(session.wait_for_errors("sky.glsl:15: 'gloom' : undeclared identifier"));
     session.step(1); // a frame with the last shaders that work
