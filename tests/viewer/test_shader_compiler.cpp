@@ -57,7 +57,8 @@ TEST_CASE("a compiler that is missing is an error, and another name is tried")
     CHECK(missing.error().message == "no_such_compiler is not installed (or not in PATH)");
     if (!has_compiler())
         return;
-    const auto second = viewer::compile_shaders(files, tests::source("shaders/render"), {"no_such_compiler", "glslangValidator"});
+    const auto second =
+        viewer::compile_shaders(files, tests::source("shaders/render"), {"no_such_compiler", "glslangValidator"});
     REQUIRE(second);
     CHECK(second.value()[0].errors.empty());
 }
