@@ -268,7 +268,8 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
 {
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
-    for (uint index = 0; next_collider(walk, c); ++index)
+    uint index = 0; // of the colliders that are gathered
+    while (next_collider(walk, c))
     {
         if (!may_touch(c, search.self))
             continue;
@@ -279,6 +280,7 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
             gathering = gatherings[index];
         if (searches && (search.near & 1u << min(index, 31)) != 0)
             search_pieces(search, c, lane, gathering);
+        ++index;
     }
 }
 
