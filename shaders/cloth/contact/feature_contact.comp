@@ -156,10 +156,6 @@ bool has_cell(uint i)
     return self.vertex.columns == 0 ? i == 0
                                     : in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
 }
-uint cell_around(uint i)
-{
-    return has_cell(i) ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
-}
 
 // Merges the contacts of a cell, in which the vertex is the i-th one. `touched`: bits of the items from `first` on.
 void merge_items(uint first, uint touched, uint i)
@@ -195,7 +191,7 @@ bool merge_cells()
     for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
     {
         const bool has = has_cell(i);
-        const uint cell = cell_around(i);
+        const uint cell = has ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
         firsts[i] = cells[cell].first;
         touched[i] = uvec2(cells[cell].touched[word], cells[cell].touched[word + 1]);
         touched[i] = has ? touched[i] : uvec2(0);

@@ -58,7 +58,7 @@ const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 // Of the workgroup.
 shared uint near_vertices;
 shared uint items_of_group;
-shared uint first_of_group;                      // of the level's items; VOILE_NO_SUBSTEP: there is no room
+shared uint first_of_group;                      // of the batch's items; VOILE_NO_SUBSTEP: there is no room
 shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
 shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen
 shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items

@@ -33,6 +33,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "shared/box.glsl"
 #include "pairs/flat.glsl"
 #include "pairs/pair_tree.glsl"
+#include "pairs/reservation.glsl"
 #include "pairs/tree_carry.glsl"
 
 // The search of a vertex.
@@ -182,8 +183,6 @@ Search search_of(uint vertex, uint cloth)
     return search;
 }
 
-uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
-
 // A vertex with too many candidates searches again in a smaller range, at last with as many as fit and no range at all.
 void find(inout Search search)
 {
@@ -201,22 +200,6 @@ void find(inout Search search)
 // The next places in the lists of vertices that search and of candidates to sift, first of the workgroup, then of all.
 shared uint shared_vertices;
 shared uint shared_candidates;
-
-void reserve()
-{
-    if (shared_vertices > 0)
-    {
-        const uint count = shared_vertices;
-        shared_vertices = atomicAdd(pair_passes[VOILE_PAIR_FIND].entries, count);
-        atomicMax(pair_passes[VOILE_PAIR_FIND].groups, groups_of((shared_vertices + count) * push.lanes));
-    }
-    if (shared_candidates > 0)
-    {
-        const uint count = shared_candidates;
-        shared_candidates = atomicAdd(pair_passes[VOILE_PAIR_SIFT].entries, count);
-        atomicMax(pair_passes[VOILE_PAIR_SIFT].groups, groups_of(shared_candidates + count));
-    }
-}
 
 void main()
 {
@@ -239,7 +222,10 @@ void main()
     uint place = searches ? atomicAdd(shared_vertices, 1) : count > 0 ? atomicAdd(shared_candidates, count) : 0;
     barrier();
     if (gl_LocalInvocationID.x == 0)
-        reserve();
+    {
+        reserve(shared_vertices, VOILE_PAIR_FIND, push.lanes);
+        reserve(shared_candidates, VOILE_PAIR_SIFT, 1);
+    }
     barrier();
     if (searches)
         searching_vertices[shared_vertices + place] = vertex;

@@ -23,6 +23,7 @@ layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
+#include "pairs/reservation.glsl"
 #include "pairs/search.glsl"
 
 void insert(inout Search search, uvec4 vertices, bool edges, float at) { ++search.count; }
@@ -61,13 +62,8 @@ void main()
     }
     const uint place = searches ? atomicAdd(shared_vertices, 1) : 0;
     barrier();
-    if (gl_LocalInvocationID.x == 0 && shared_vertices > 0)
-    {
-        const uint count = shared_vertices;
-        shared_vertices = atomicAdd(pair_passes[VOILE_PAIR_FIND].entries, count);
-        atomicMax(pair_passes[VOILE_PAIR_FIND].groups,
-                  ((shared_vertices + count) * push.lanes + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
-    }
+    if (gl_LocalInvocationID.x == 0)
+        reserve(shared_vertices, VOILE_PAIR_FIND, push.lanes);
     barrier();
     if (searches)
         searching_vertices[shared_vertices + place] = vertex;

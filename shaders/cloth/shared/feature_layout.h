@@ -17,7 +17,7 @@
 #define VOILE_PIECE_GUARD 3 // no feature: the item checks that the items of the vertex suffice
 #define VOILE_ITEM_CLOTH_BITS 20
 #define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
-// The sizes of the dispatches of a level: over items, their number, over patches near features, the number of items for
+// The sizes of the dispatches of a batch: over items, their number, over patches near features, the number of items for
 // which there was no room or was.
 #define VOILE_FEATURE_DISPATCH_WORDS 8
 #define VOILE_DISPATCH_ITEMS 3

@@ -21,20 +21,20 @@ StepRecorder::StepRecorder(const StepContext& context)
 template <typename Use>
 void StepRecorder::for_each_batch(const Use& use)
 {
-    for (std::optional<LevelRecorder>& batch : batches_)
+    for (std::optional<BatchRecorder>& batch : batches_)
         if (batch)
             use(*batch);
 }
 
 bool StepRecorder::in_stage_b(uint32_t substep) const
 {
-    const std::optional<LevelRecorder>& any = batches_[0] ? batches_[0] : batches_[1];
+    const std::optional<BatchRecorder>& any = batches_[0] ? batches_[0] : batches_[1];
     return any->in_stage_b(substep);
 }
 
 void StepRecorder::record_near_colliders()
 {
-    for_each_batch([](LevelRecorder& batch) { batch.record_near_colliders(0); });
+    for_each_batch([](BatchRecorder& batch) { batch.record_near_colliders(0); });
 }
 
 // The first contact pass of a batch starts from the state, which Verlet overwrites if there is more than one substep
@@ -42,7 +42,7 @@ void StepRecorder::record_near_colliders()
 void StepRecorder::keep_contact_start()
 {
     bool keeps = false;
-    for_each_batch([&](const LevelRecorder& batch) { keeps |= batch.contact_period() > 1; });
+    for_each_batch([&](const BatchRecorder& batch) { keeps |= batch.contact_period() > 1; });
     if (keeps)
         keep_state(k_contact_start, false);
 }
@@ -64,7 +64,7 @@ void StepRecorder::record()
             if (const uint32_t level = batch_at(i).level; batches_[i] && substep % (1u << level) == 0)
                 batches_[i]->record_substep(substep >> level, after_pairs);
     }
-    for_each_batch([](LevelRecorder& batch) { batch.finish(); });
+    for_each_batch([](BatchRecorder& batch) { batch.finish(); });
     if (context_.passes.strain_spacing > 0)
         record_strain_limit();
 }
@@ -74,7 +74,7 @@ void StepRecorder::record_strain_limit()
 {
     record_limit_passes();
     keep_state(k_before_limit);
-    for_each_batch([](LevelRecorder& batch) { batch.record_bounds(); });
+    for_each_batch([](BatchRecorder& batch) { batch.record_bounds(); });
     record_limit_guard();
 }
 
@@ -100,11 +100,11 @@ void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
 void StepRecorder::record_limit_guard()
 {
     for (const VkDescriptorSet set : device_.sets.limit_work)
-        for_each_batch([&](LevelRecorder& batch) { batch.record_limit_work(set); });
+        for_each_batch([&](BatchRecorder& batch) { batch.record_limit_work(set); });
     for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
     {
         if (measurement > 0) // of what remains of the limit's changes
-            for_each_batch([&](LevelRecorder& batch) { batch.record_limit_work(device_.sets.limit_work[3]); });
+            for_each_batch([&](BatchRecorder& batch) { batch.record_limit_work(device_.sets.limit_work[3]); });
         recorder_.dispatch(
             kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
             shared::LimitScalePush{context_.lists.patch_count(), 1 / context_.step.duration, measurement});

@@ -61,7 +61,7 @@ uint32_t substeps_per_contact(const Solver::State& solver, float substep)
 
 } // namespace
 
-LevelRecorder::LevelRecorder(const StepContext& context, uint32_t batch)
+BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
     : context_(context), recorder_(context.recorder), solver_(context.solver), kernels_(solver_.kernels),
       device_(*solver_.device), lists_(context.lists.batches[batch]), batch_(batch), level_(batch_at(batch).level),
       verlet_(batch_at(batch).integrator == Integrator::verlet), group_(solver_.options.tuning.workgroup_size),
@@ -74,7 +74,7 @@ LevelRecorder::LevelRecorder(const StepContext& context, uint32_t batch)
 {
 }
 
-void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
+void BatchRecorder::record_substep(uint32_t substep, bool after_pairs)
 {
     const gpu::GroupScope group(recorder_, k_group_names[level_], substep + 1, substeps_);
     if (substep > 0 && substep % list_period_ == 0)
@@ -93,30 +93,30 @@ void LevelRecorder::record_substep(uint32_t substep, bool after_pairs)
     record_contact(substep, after_pairs);
 }
 
-bool LevelRecorder::contact_is_due(uint32_t substep) const
+bool BatchRecorder::contact_is_due(uint32_t substep) const
 {
     const uint32_t left = substeps_ - 1 - substep;
     return has_contact_ && (left == 0 || (left == 1 && ends_alone()) || substep % contact_period_ == 0);
 }
 
-LevelRecorder::ContactInterval LevelRecorder::contact_interval(uint32_t substep) const
+BatchRecorder::ContactInterval BatchRecorder::contact_interval(uint32_t substep) const
 {
     const bool alone = substep == 0 || substep >= substeps_ || (substep + 1 == substeps_ && ends_alone());
     const uint32_t count = alone ? 1 : (substep - 1) % contact_period_ + 1;
     return {substep + 1 - count, count};
 }
 
-bool LevelRecorder::keeps_contact_start(uint32_t substep) const
+bool BatchRecorder::keeps_contact_start(uint32_t substep) const
 {
     return contact_period_ > 1 && in_stage_b(substep) != in_stage_b(substep + 1);
 }
 
-size_t LevelRecorder::proposal(uint32_t substep) const
+size_t BatchRecorder::proposal(uint32_t substep) const
 {
     return (keeps_contact_start(substep) ? 2u : 0u) + (has_contact_ && in_stage_b(substep) ? 1u : 0u);
 }
 
-shared::StagePush LevelRecorder::make_push(double substeps) const
+shared::StagePush BatchRecorder::make_push(double substeps) const
 {
     shared::StagePush push{};
     push.gravity = context_.step.gravity;
@@ -132,7 +132,7 @@ shared::StagePush LevelRecorder::make_push(double substeps) const
     return push;
 }
 
-void LevelRecorder::record_rk4(uint32_t substep)
+void BatchRecorder::record_rk4(uint32_t substep)
 {
     constexpr double k_stage_times[] = {0, 0.5, 0.5, 1}; // of the substep
     const auto& sets = device_.sets.stages[has_contact_ && in_stage_b(substep) ? 1 : 0];
@@ -145,7 +145,7 @@ void LevelRecorder::record_rk4(uint32_t substep)
     }
 }
 
-void LevelRecorder::record_verlet(shared::StagePush push, uint32_t substep)
+void BatchRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 {
     push.planes = contact_period_ > 1 && substep > 0 ? 1 : 0;
     push.kick = substep == 0 ? 0.5f * h_ : h_;
@@ -156,7 +156,7 @@ void LevelRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     dispatch(kernels_.verlet, set, lists_.patches, push);
 }
 
-void LevelRecorder::finish()
+void BatchRecorder::finish()
 {
     if (!verlet_)
         return;
@@ -166,7 +166,7 @@ void LevelRecorder::finish()
              lists_.patches, push);
 }
 
-void LevelRecorder::record_attachments(uint32_t substep, float duration)
+void BatchRecorder::record_attachments(uint32_t substep, float duration)
 {
     const size_t from = in_stage_b(substep) ? 1 : 0;
     shared::AttachmentPush push{lists_.attachments.first, lists_.attachments.count, duration, progress(substep + 1),
@@ -178,19 +178,19 @@ void LevelRecorder::record_attachments(uint32_t substep, float duration)
 }
 
 // Passes after the last substep, for the strain limit, see all colliders at the step's end.
-float LevelRecorder::progress(uint32_t substeps_done) const
+float BatchRecorder::progress(uint32_t substeps_done) const
 {
     return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
 }
 
 // An upper bound for the speed of a vertex that something hits or drags.
-float LevelRecorder::sudden_speed() const
+float BatchRecorder::sudden_speed() const
 {
     constexpr float k_sudden = 10; // m/s
     return std::max(k_sudden, solver_.farthest_motion / context_.step.duration);
 }
 
-void LevelRecorder::record_near_colliders(uint32_t substep)
+void BatchRecorder::record_near_colliders(uint32_t substep)
 {
     if (device_.near_stride == 0)
         return;
@@ -205,7 +205,7 @@ void LevelRecorder::record_near_colliders(uint32_t substep)
     dispatch(kernels_.near_colliders, device_.sets.near_colliders, lists_.patches, push);
 }
 
-LevelRecorder::ItemRange LevelRecorder::feature_items() const
+BatchRecorder::ItemRange BatchRecorder::feature_items() const
 {
     const uint32_t per_vertex = std::min(solver_.options.tuning.feature_items, uint32_t{VOILE_FEATURE_ITEMS});
     const uint64_t capacity = device_.capacities.features == 0 ? 0 : device_.capacities.vertices * per_vertex;
@@ -215,7 +215,7 @@ LevelRecorder::ItemRange LevelRecorder::feature_items() const
     return {first, before(lists_.patches.first + lists_.patches.count) - first};
 }
 
-void LevelRecorder::record_near_features(uint32_t substep)
+void BatchRecorder::record_near_features(uint32_t substep)
 {
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     // Each patch has that many workgroups.
@@ -246,7 +246,7 @@ void LevelRecorder::record_near_features(uint32_t substep)
     publish_dispatch(recorder_);
 }
 
-void LevelRecorder::record_features(uint32_t substep)
+void BatchRecorder::record_features(uint32_t substep)
 {
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
@@ -274,7 +274,7 @@ void LevelRecorder::record_features(uint32_t substep)
                                 (word + VOILE_DISPATCH_PATCHES) * sizeof(uint32_t), push);
 }
 
-void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
+void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
 {
     shared::ContactPush push{};
     const ContactInterval interval = contact_interval(substep);
@@ -310,7 +310,7 @@ void LevelRecorder::record_contact(uint32_t substep, bool after_pairs)
     dispatch(contact_kernel(), device_.sets.contact[proposal(substep)], lists_.patches, push);
 }
 
-const gpu::Kernel& LevelRecorder::contact_kernel() const
+const gpu::Kernel& BatchRecorder::contact_kernel() const
 {
     const bool pairs = solver_.passes.pairs;
     if (device_.near_stride > 0)
@@ -322,13 +322,13 @@ const gpu::Kernel& LevelRecorder::contact_kernel() const
     return pairs ? kernels_.contact_pairs : kernels_.contact;
 }
 
-void LevelRecorder::record_bounds()
+void BatchRecorder::record_bounds()
 {
     record_attachments(substeps_, 0);
     record_contact(substeps_);
 }
 
-void LevelRecorder::record_limit_work(VkDescriptorSet set)
+void BatchRecorder::record_limit_work(VkDescriptorSet set)
 {
     shared::StagePush push{};
     push.gravity = context_.step.gravity;

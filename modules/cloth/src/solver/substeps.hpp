@@ -20,10 +20,10 @@ struct StepContext
 };
 
 // The passes of a batch: of the cloths of one level of substeps that use one integrator.
-class LevelRecorder
+class BatchRecorder
 {
 public:
-    LevelRecorder(const StepContext& context, uint32_t batch);
+    BatchRecorder(const StepContext& context, uint32_t batch);
 
     // Lists the colliders near each patch, until the next query. Records nothing with few colliders. The first query
     // comes before all other passes of the step that read colliders.
@@ -131,7 +131,7 @@ private:
     const DeviceState& device_;
     uint32_t threads_; // for all patches
     uint32_t group_;
-    std::array<std::optional<LevelRecorder>, VOILE_SUBSTEP_BATCHES> batches_; // none for one without cloths
+    std::array<std::optional<BatchRecorder>, VOILE_SUBSTEP_BATCHES> batches_; // none for one without cloths
 };
 
 } // namespace voile
