@@ -75,7 +75,7 @@ quick(test_intersections
     "a flat sheet does not intersect itself, a rolled one does"
     "sheets intersect where they cross, overlap in a plane, or touch in one vertex"
     "intersections are counted exactly far from the origin"
-    "coordinates too far apart in size for an exact sign are reported as uncertain"
+    "small coordinates beside large ones have exact signs"
     "only cloths with a common layer intersect, and removed and disabled ones do not"
     "a solver counts intersections only if its options say so"
     "a deforming collider intersects cloth where its vertices are"

@@ -57,7 +57,7 @@ BoxShape parse_box(SceneReader& reader, const Field& field)
     return box;
 }
 
-// Two coefficients, or one number for both. If one of the two is missing, it equals the other.
+// Two coefficients, or one number for both.
 FrictionEntry parse_friction(SceneReader& reader, const Field& field)
 {
     FrictionEntry friction;
@@ -71,14 +71,8 @@ FrictionEntry parse_friction(SceneReader& reader, const Field& field)
         reader.fail(field, std::string("is ") + describe(field.node->kind) + "; expected a number or an object");
     if (!reader.object(field, {"static", "kinetic"}))
         return friction;
-    std::optional<float> at_rest;
-    std::optional<float> sliding;
-    reader.read(SceneReader::child(field, "static"), k_friction, at_rest);
-    reader.read(SceneReader::child(field, "kinetic"), k_friction, sliding);
-    if (!at_rest && !sliding)
-        reader.fail(field, "has neither \"static\" nor \"kinetic\"");
-    friction.static_friction = at_rest.value_or(sliding.value_or(0.f));
-    friction.kinetic_friction = sliding.value_or(friction.static_friction);
+    reader.read(reader.required(field, "static"), k_friction, friction.static_friction);
+    reader.read(reader.required(field, "kinetic"), k_friction, friction.kinetic_friction);
     if (friction.kinetic_friction > friction.static_friction)
         reader.fail(field, "has a kinetic coefficient above the static one");
     return friction;

@@ -107,26 +107,57 @@ TEST_CASE_FIXTURE(IntersectionHarness, "intersections of slivers are counted exa
     }
 }
 
-TEST_CASE_FIXTURE(IntersectionHarness, "coordinates too far apart in size for an exact sign are reported as uncertain")
+TEST_CASE_FIXTURE(IntersectionHarness, "small coordinates beside large ones have exact signs")
 {
-    const voile::ClothId sheet = voile::engine::take(solver.add_cloth(tests::flat_grid(2, 4)));
+    const voile::ClothId pair = voile::engine::take(solver.add_cloth(tests::flat_grid(2, 4)));
+    const voile::ClothId sheet = voile::engine::take(solver.add_cloth(tests::flat_grid(12, 11, {0, 100, 0})));
     upload();
-    // An edge whose end is above a triangle by less than its coordinates can tell.
-    std::vector<glm::vec3> points(8, glm::vec3(0));
-    points[0] = {-1, 0, -1};
-    points[1] = {3, 0, -1};
-    points[2] = {-1, 0, 3};
-    points[3] = {3, 4, 3};
-    points[4] = {0, 5, 0};
-    points[5] = {0.25f, 6, 0};
-    points[6] = {0, 1e-30f, 0};
-    points[7] = {0.125f, 7, 0.125f};
-    place(sheet, points);
-    const uint32_t before = counts().uncertain_pairs;
-    CHECK(before > 0);
-    points[6].y = 1e-5f;
-    place(sheet, points);
-    CHECK(counts().uncertain_pairs == 0);
+    SUBCASE("an edge ends above a triangle by less than its coordinates can tell")
+    {
+        voile::engine::take(solver.set_enabled(sheet, false));
+        step({.duration = 1e-6f, .substeps = 1});
+        std::vector<glm::vec3> points(8, glm::vec3(0));
+        points[0] = {-1, 0, -1};
+        points[1] = {3, 0, -1};
+        points[2] = {-1, 0, 3};
+        points[3] = {3, 4, 3};
+        points[4] = {0, 5, 0};
+        points[5] = {0.25f, 6, 0};
+        points[7] = {0.125f, 7, 0.125f};
+        for (const float height : {1e-5f, 1e-12f, 1e-20f, 1e-30f, 0.f, -1e-30f, -1e-12f})
+        {
+            points[6] = {0, height, 0};
+            place(pair, points);
+            (void)check_cloth(*this, pair);
+        }
+    }
+    SUBCASE("each coordinate has a size of its own")
+    {
+        voile::engine::take(solver.set_enabled(pair, false));
+        step({.duration = 1e-6f, .substeps = 1});
+        for (const uint32_t least : {20u, 60u, 100u})
+        {
+            std::vector<glm::vec3> points = tests::random_positions(12 * 11, 9, 0.5f);
+            std::mt19937 random(7);
+            for (glm::vec3& p : points)
+                for (int axis = 0; axis < 3; ++axis)
+                    if (random() % 2 == 0)
+                        p[axis] = std::ldexp(p[axis], -static_cast<int>(random() % least));
+            place(sheet, points);
+            CHECK(check_cloth(*this, sheet) > 1000);
+        }
+    }
+    SUBCASE("a sheet whose plane is 0 to within far less than rounding does not intersect itself")
+    {
+        voile::engine::take(solver.set_enabled(pair, false));
+        step({.duration = 1e-6f, .substeps = 1});
+        std::vector<glm::vec3> points;
+        std::mt19937 random(3);
+        for (const glm::vec4& p : positions(sheet))
+            points.emplace_back(p.x, std::ldexp(static_cast<float>(random() % 1024), -70), p.z);
+        place(sheet, points);
+        CHECK(check_cloth(*this, sheet) == 0);
+    }
 }
 
 TEST_CASE_FIXTURE(IntersectionHarness, "sheets intersect where they cross, overlap in a plane, or touch in one vertex")

@@ -145,8 +145,12 @@ struct ExactMesh
 };
 
 // `welded`: edges between the same positions are one.
+// Coordinates are rounded to multiples of 2^-50 m, as statistics.hpp says.
 inline ExactMesh exact_mesh(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles, bool welded = false)
 {
+    for (glm::vec3& p : positions)
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(static_cast<double>(p[axis]), 50)), -50));
     ExactMesh mesh{std::move(positions), std::move(triangles), {}};
     using Key = std::tuple<float, float, float, uint32_t>; // an index alone, or a position alone
     std::set<std::pair<Key, Key>> known;

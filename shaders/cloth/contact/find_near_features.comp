@@ -5,8 +5,11 @@
 //
 // The threads of a workgroup gather the features near its vertices (feature_gathering.glsl). Several threads per vertex
 // (push.lanes) each take some of its pieces. They test them twice: first they count the features near them, for four
-// margins, then they write those within the widest margin with few enough. A vertex that has
-// too many, or for which no room is left, has none, and feature_contact.comp traverses the hierarchies instead.
+// margins, then they write those within the widest margin with few enough. A vertex that has too many has none, and
+// feature_contact.comp traverses the hierarchies instead.
+//
+// Which vertices get items depends on no order of workgroups. If there is no room for the items of all, the query is
+// repeated with fewer of each vertex, so few that there is.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -58,7 +61,8 @@ const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 // Of the workgroup.
 shared uint near_vertices;
 shared uint items_of_group;
-shared uint first_of_group;                      // of the batch's items; VOILE_NO_SUBSTEP: there is no room
+shared uint fewer_items; // that the workgroup would have with fewer of each vertex
+shared uint first_of_group;                         // of the batch's items
 shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
 shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen
 shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
@@ -291,11 +295,21 @@ bool has_numbers(PatchVertex self)
            corner_count(self) < (1u << (30 - VOILE_ITEM_CLOTH_BITS));
 }
 
+// The most items of a vertex.
+uint most_items()
+{
+    if (push.retries == 0)
+        return VOILE_MOST_FEATURE_ITEMS;
+    if (dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER] <= push.items)
+        return VOILE_FEWER_FEATURE_ITEMS;
+    return push.items / (gl_NumWorkGroups.x / push.lanes * gl_WorkGroupSize.x);
+}
+
 // The index of the margin with few enough items; k_margins: none.
-uint choose_margin(uint in_group)
+uint choose_margin(uint in_group, uint most)
 {
     for (uint i = 0; i < k_margins; ++i)
-        if (counts[k_margins * in_group + i] <= VOILE_MOST_FEATURE_ITEMS)
+        if (counts[k_margins * in_group + i] <= most)
             return i;
     return k_margins;
 }
@@ -303,13 +317,17 @@ uint choose_margin(uint in_group)
 // Claims room for the items of the workgroup.
 void claim_items()
 {
-    const uint first = atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_CLAIMED], items_of_group);
-    const uint end = first + items_of_group;
-    first_of_group = end <= push.items ? first : VOILE_NO_SUBSTEP;
-    if (items_of_group == 0 || end > push.items)
+    if (items_of_group == 0)
         return;
-    atomicMax(dispatch_size[push.dispatch_word + VOILE_DISPATCH_ITEMS], end);
-    atomicMax(dispatch_size[push.dispatch_word], (end + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+    const uint word = push.retries == 0 ? VOILE_DISPATCH_CLAIMED : VOILE_DISPATCH_RETRY_CLAIMED;
+    first_of_group = atomicAdd(dispatch_size[push.dispatch_word + word], items_of_group);
+    const uint end = first_of_group + items_of_group;
+    if (push.retries == 0)
+        atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER], fewer_items);
+    if (end <= push.items)
+        atomicMax(dispatch_size[push.dispatch_word], (end + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+    else
+        atomicMax(dispatch_size[push.dispatch_word + VOILE_DISPATCH_RETRY], gl_NumWorkGroups.x);
 }
 
 void list_patch()
@@ -320,6 +338,13 @@ void list_patch()
                      atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES], 1)] = index;
 }
 
+// The number of items of a vertex with fewer.
+uint count_fewer(uint in_group)
+{
+    const uint chosen = choose_margin(in_group, VOILE_FEWER_FEATURE_ITEMS);
+    return chosen < k_margins ? counts[k_margins * in_group + chosen] : 0;
+}
+
 // Chooses the margin of a vertex and claims room for its items. False: it has none.
 bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_group)
 {
@@ -327,29 +352,34 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     for (uint i = 0; i < k_margins; ++i)
         atomicAdd(counts[k_margins * in_group + i], search.counts[i]);
     barrier();
-    const uint chosen = choose_margin(in_group);
-    bool fits = countable && chosen < k_margins;
+    const uint chosen = choose_margin(in_group, most_items());
+    const bool fits = countable && chosen < k_margins;
     const uint of_margin = min(chosen, k_margins - 1);
     const uint count = fits ? search.counts[of_margin] : 0;
     const uint cell_count = fits ? counts[k_margins * in_group + of_margin] : 0;
     search.margin *= k_fractions[of_margin];
     lane_counts[thread] = count;
     if (lane == 0)
+    {
         cell_firsts[in_group] = atomicAdd(items_of_group, cell_count);
+        if (countable && push.retries == 0)
+            atomicAdd(fewer_items, count_fewer(in_group));
+    }
     barrier();
     if (thread == 0)
         claim_items();
     barrier();
-    fits = fits && first_of_group != VOILE_NO_SUBSTEP;
+    // Without room the query is repeated.
+    const bool room = first_of_group + items_of_group <= push.items;
     const uint first = push.first_item + first_of_group + cell_firsts[in_group];
     search.next = first;
     for (uint i = thread - lane; i < thread; ++i)
         search.next += lane_counts[i];
-    search.end = search.next + (fits ? count : 0);
+    search.end = search.next + (room ? count : 0);
     if (lane == 0 && search.self.exists)
-        cells[search.self.index] = FeatureCell(first, fits ? cell_count : 0,
-                                               fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, 0, uint[4](0, 0, 0, 0));
-    return fits && count > 0;
+        cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, 0,
+                                               uint[4](0, 0, 0, 0));
+    return room && count > 0;
 }
 
 void main()
@@ -360,7 +390,7 @@ void main()
     for (uint i = 0; i < k_margins; ++i)
         counts[k_margins * thread + i] = 0;
     if (thread == 0)
-        near_vertices = items_of_group = 0;
+        near_vertices = items_of_group = fewer_items = first_of_group = 0;
     barrier();
 
     FeatureSearch search;

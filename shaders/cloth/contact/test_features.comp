@@ -145,9 +145,15 @@ void test_piece(uint item, uint kind, uint k, float excess)
     atomicOr(cells[self.vertex.index].touched[2 * (push.pass & 1) + in_cell / 32], 1u << in_cell % 32);
 }
 
+uint count_items()
+{
+    const uint claimed = dispatch_size[push.dispatch_word + VOILE_DISPATCH_CLAIMED];
+    return claimed <= push.items ? claimed : dispatch_size[push.dispatch_word + VOILE_DISPATCH_RETRY_CLAIMED];
+}
+
 void main()
 {
-    if (gl_GlobalInvocationID.x >= dispatch_size[push.dispatch_word + VOILE_DISPATCH_ITEMS])
+    if (gl_GlobalInvocationID.x >= count_items())
         return;
     const uint index = push.first_item + gl_GlobalInvocationID.x;
     const FeatureItem item = items[index];

@@ -36,7 +36,7 @@ ClothTriangle cloth_triangle(uint slot, uint first_vertex)
     result.vertices = first_vertex + leaf.corners;
     result.edges = owned_edges(leaf);
     for (uint i = 0; i < 3; ++i)
-        result.corners[i] = positions[result.vertices[i]].xyz;
+        result.corners[i] = snapped(positions[result.vertices[i]].xyz);
     return result;
 }
 

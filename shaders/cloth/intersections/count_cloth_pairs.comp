@@ -82,7 +82,7 @@ void main()
         return;
     EdgesQuery query;
     query.edges = cloth_triangle(tree.first_leaf + slot, tree.first_to);
-    query.box = edges_box(query.edges);
+    query.box = grown(edges_box(query.edges), k_unit); // the hierarchy is of coordinates before they are snapped
     query.tally = Tally(0, 0);
     if (query.edges.edges == 0 || !is_finite(query.edges))
         return;

@@ -86,7 +86,7 @@ void test_pair(inout PairQuery query, ColliderTriangle collider)
     const ClothTriangle cloth = query.cloth;
     vec3 world[3];
     for (uint i = 0; i < 3; ++i)
-        world[i] = world_vertex(query, collider.corners[i]);
+        world[i] = snapped(world_vertex(query, collider.corners[i]));
     if (!overlap(triangle_box(world[0], world[1], world[2]), box_of(cloth)))
         return;
     const uint edges = cloth.edges | collider.edges << 3;
@@ -171,7 +171,7 @@ void enter_collider(inout PairQuery query, uint index, ColliderRecord collider)
         size = max(size, largest(query.cloth.corners[i]));
         local_size = max(local_size, largest(offset));
     }
-    const float far_error = k_pose_error * (size + local_size); // of vertices of the collider in the world, too
+    const float far_error = k_pose_error * (size + local_size) + k_unit; // of vertices of the collider in the world, too
     query.box = grown(triangle_box(query.corners[0], query.corners[1], query.corners[2]), far_error);
     query.error = (moved ? k_pose_error : k_solid_error) * (local_size + largest(motion.offset_to));
 }

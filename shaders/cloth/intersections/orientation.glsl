@@ -3,7 +3,8 @@
 // A filter in float decides most of them. Where its error bound does not exclude 0, integers decide: along each axis
 // the coordinates are multiples of a power of two. A determinant has one factor of each axis in every product, so each
 // axis may have a power of its own. Differences of coordinates then have up to 64 bits, and the determinant fits 7
-// words. If the coordinates of an axis need more bits than that, the sign is k_uncertain.
+// words. If the coordinates of an axis need more bits than that, the sign is k_uncertain: those of triangles up to 2^11 m
+// that are multiples of 2^-50 m (snapped) do not.
 //
 // Error bounds hold for any order of evaluation and for rounding to nearest or toward zero, eps = 2^-23. A difference
 // is exact to (1 + eps), a 2 x 2 minor to (1 + eps)^4 of the sum of its absolute products, a product with the third
@@ -28,6 +29,15 @@ struct Integer
 const int k_no_bit = 1000;    // of a 0
 const int k_most_bits = 62;   // from the lowest bit to the highest one, so that differences have 64 bits
 const int k_volume_words = 7; // 6 products of 192 bits
+
+const float k_unit = 1.0 / 1125899906842624.0; // m, 2^-50
+
+// Multiples of the unit. What is above 2^-26 m is one in float.
+vec3 snapped(vec3 p)
+{
+    precise const vec3 multiple = k_unit * roundEven(p / k_unit);
+    return mix(p, multiple, lessThan(abs(p), vec3(1.0 / 67108864.0)));
+}
 
 uint float_exponent(float x) { return max((floatBitsToUint(x) >> 23) & 0xffu, 1u); }
 

@@ -7,9 +7,11 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The mean number of items per vertex that there is room for, and the largest number of one vertex.
+// The mean number of items per vertex that there is room for. The largest number of one vertex, and that of a second query
+// where those of the first are more than there is room for. Where that is not enough, either, all vertices get the same.
 #define VOILE_FEATURE_ITEMS 8
 #define VOILE_MOST_FEATURE_ITEMS 64
+#define VOILE_FEWER_FEATURE_ITEMS 24
 // The kind of a piece in an item.
 #define VOILE_PIECE_TRIANGLE 0
 #define VOILE_PIECE_EDGE_B 1
@@ -17,12 +19,15 @@
 #define VOILE_PIECE_GUARD 3 // no feature: the item checks that the items of the vertex suffice
 #define VOILE_ITEM_CLOTH_BITS 20
 #define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
-// The sizes of the dispatches of a batch: over items, their number, over patches near features, the number of items for
-// which there was no room or was.
-#define VOILE_FEATURE_DISPATCH_WORDS 8
-#define VOILE_DISPATCH_ITEMS 3
+// Of a batch: the size of the dispatch over items, and how many there would be with fewer items of a vertex; the size of
+// that over patches near features, and the number of items; the size of a second query if there is no room for them,
+// and the number of its items.
+#define VOILE_FEATURE_DISPATCH_WORDS 12
+#define VOILE_DISPATCH_FEWER 3
 #define VOILE_DISPATCH_PATCHES 4
 #define VOILE_DISPATCH_CLAIMED 7
+#define VOILE_DISPATCH_RETRY 8
+#define VOILE_DISPATCH_RETRY_CLAIMED 11
 // The substep of a correction that applies in no substep.
 #define VOILE_NO_SUBSTEP 0xffffffffu
 // Instead of the substep in which a vertex's items are not valid: until the next query.
@@ -117,11 +122,12 @@ struct NearFeaturesPush
     uint colliders;
     uint near_stride;
     uint first_patch;   // of the dispatch, and of its entries in the list of patches near features
-    uint dispatch_word; // of the sizes of the dispatches over items and over patches near features
+    uint dispatch_word; // of the sizes of the dispatches
     uint lanes;         // threads per vertex
     uint first_item;    // of those that the dispatch may write
     uint items;         // their number
     uint query;         // the number of this one; differs from the one before
+    uint retries;       // 1: the items of the query before are more than there is room for
 };
 
 // Push constants of feature contact.
@@ -136,7 +142,8 @@ struct FeaturePush
     uint first_patch;      // of the entries in the list of patches near features
     float progress_listed; // 0..1, of the step, when near features were listed
     uint first_item;       // of the dispatch over items
-    uint dispatch_word;    // of the size of that dispatch, which their number follows
+    uint items;            // that there is room for
+    uint dispatch_word;    // of the sizes of the dispatches
     uint lanes;            // threads per vertex that traverses
     uint kicks;            // substeps since the last contact pass
     uint pass;             // counted since near features were listed

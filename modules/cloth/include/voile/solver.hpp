@@ -80,8 +80,9 @@ struct Tuning
     // workgroup_size. 0: eight, on CPU devices one.
     uint32_t feature_threads = 0;
 
-    // The mean number of features near the cloth that are listed per vertex, at most 8. Vertices for which there is no
-    // room find theirs in every substep, which is slower. Contacts are merged in another order then.
+    // The mean number of features near the cloth that are listed per vertex, at most 8. Where there is no room for all,
+    // they are listed again for a shorter time or for fewer vertices. The others find theirs in every substep, which is
+    // slower and merges contacts in another order. Two equal runs are equal to the bit.
     uint32_t feature_items = 8;
 
     // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that

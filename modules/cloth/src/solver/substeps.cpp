@@ -207,8 +207,8 @@ void BatchRecorder::record_near_colliders(uint32_t substep)
 
 BatchRecorder::ItemRange BatchRecorder::feature_items() const
 {
-    const uint32_t per_vertex = std::min(solver_.options.tuning.feature_items, uint32_t{VOILE_FEATURE_ITEMS});
-    const uint64_t capacity = device_.capacities.features == 0 ? 0 : device_.capacities.vertices * per_vertex;
+    const uint64_t per_vertex = device_.capacities.features == 0 ? 0 : solver_.options.tuning.feature_items;
+    const uint64_t capacity = device_.capacities.vertices * per_vertex;
     const auto before = [&](uint64_t patch)
     { return static_cast<uint32_t>(capacity * patch / std::max(context_.lists.patch_count(), 1u)); };
     const uint32_t first = before(lists_.patches.first);
@@ -222,7 +222,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
     uint32_t lanes = solver_.options.tuning.feature_threads;
     while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
         lanes /= 2;
-    const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0};
+    const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};
     write_dispatches(recorder_, device_[buffer::feature_dispatch].handle(), word * sizeof(uint32_t),
                      std::as_bytes(std::span(none)));
     const uint32_t next = std::min(substep + list_period_, substeps_);
@@ -241,8 +241,12 @@ void BatchRecorder::record_near_features(uint32_t substep)
     push.items = items.count;
     push.query = context_.first_substep + substep + 1;
     feature_passes_ = 0;
-    recorder_.dispatch(solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features,
-                       device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
+    const gpu::Kernel& kernel = solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features;
+    recorder_.dispatch(kernel, device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
+    publish_dispatch(recorder_);
+    push.retries = 1;
+    recorder_.dispatch_indirect(kernel, device_.sets.near_features, device_[buffer::feature_dispatch].handle(),
+                                (word + VOILE_DISPATCH_RETRY) * sizeof(uint32_t), push);
     publish_dispatch(recorder_);
 }
 
@@ -259,6 +263,7 @@ void BatchRecorder::record_features(uint32_t substep)
                                    lists_.patches.first,
                                    progress(substep - substep % list_period_),
                                    feature_items().first,
+                                   feature_items().count,
                                    word,
                                    solver_.options.tuning.feature_threads,
                                    interval.count,
