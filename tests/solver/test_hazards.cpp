@@ -216,8 +216,8 @@ TEST_CASE("a whole step has no hazard, each dispatch in its own command buffer")
         harness.solver.add_collider(voile::MeshCollider{.positions = ball.positions, .triangles = ball.triangles}));
     harness.upload();
     // One per dispatch, and one after the last: seven per substep, and per step normals, depenetration, which needs the
-    // normals of the start, and one query for near features.
-    CHECK(run_one_by_one(harness.solver, {{.substeps = 3}, {.substeps = 2}}) == 7 * 5 + 3 * 2 + 1 + 1);
+    // normals of the start, and two queries for near features, of which the second has no workgroups.
+    CHECK(run_one_by_one(harness.solver, {{.substeps = 3}, {.substeps = 2}}) == 7 * 5 + 4 * 2 + 1 + 1);
 }
 
 // The host copies what it gets, without barriers of its own.

@@ -49,7 +49,7 @@ constexpr const char* k_full_scene = R"({
     {"mesh": "../heart.obj", "transform": {"rotate": [0, 90, 0]}, "friction": {"static": 0.5, "kinetic": 0.4},
      "motion": {"velocity": [0, 1, 0], "spin": [0, 45, 0], "pivot": [1, 1, 1]}},
     {"plane": {"y": -0.4}, "friction": 0.3},
-    {"sphere": {"center": [0, 1, 0], "radius": 0.5}, "friction": {"static": 0.6}},
+    {"sphere": {"center": [0, 1, 0], "radius": 0.5}, "friction": 0.6},
     {"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 0.2}},
     {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}},
     {"frames": "walk_%04d.obj", "rate": 30},
