@@ -38,6 +38,9 @@ float limit_inverse_mass(float inverse_mass, float flags)
 // Springs beyond this fraction of their limit stop lengthening, too, or they would oscillate about it.
 const float k_taut = 0.995;
 
+// Of a correction, for the first end: the rest is the other's.
+float fraction_of(End self, End other) { return self.inverse_mass / (self.inverse_mass + other.inverse_mass); }
+
 // `shortest`: m, the least length that the spring may be corrected to; 0: any.
 void add_limit(inout Correction correction, End self, End other, float longest, float shortest)
 {
@@ -47,7 +50,7 @@ void add_limit(inout Correction correction, End self, End other, float longest, 
     if (self.inverse_mass == 0 || distance == 0 || (!is_short && distance < k_taut * longest))
         return;
     const vec3 n = delta / distance;
-    const float fraction = self.inverse_mass / (self.inverse_mass + other.inverse_mass);
+    const float fraction = fraction_of(self, other);
     const float weight = min(self.relaxation, other.relaxation) * fraction;
     add_stiffness(correction.taken, fraction, n, 1);
     if (is_short)

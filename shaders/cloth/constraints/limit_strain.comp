@@ -57,6 +57,17 @@ float shortest_length(uint self, uint other, float rest_length)
     return min(rest_length, distance(step_positions[self].xyz, step_positions[other].xyz));
 }
 
+// Of a relative velocity, per neighbor and pass.
+const float k_smoothing = 0.1;
+
+// The last passes on a softened grid take part of the velocity of neighbors relative to each other. Corrections leave
+// waves of a few vertices in the velocities, which soft dashpots hardly damp: cloth would shake.
+bool smooths(uint cloth)
+{
+    return push.spacing == 1 && cloths[cloth].strain_passes == VOILE_SOFTENED_STRAIN_PASSES &&
+           push.pass + 2 >= VOILE_SOFTENED_STRAIN_PASSES;
+}
+
 // All neighbors are loaded before the first is used. The vertex itself stands for one that is missing.
 Correction limit_grid(PatchVertex self)
 {
@@ -86,7 +97,11 @@ Correction limit_grid(PatchVertex self)
     const float inverse_mass = spacing == 1 ? positions[self.index].w : inverse_mass_at(n, ivec2(0));
     const End end = end_at(self.index, inverse_mass);
     for (int k = 0; k < 8; ++k)
-        add_limit(correction, end, others[k], (1 + cloths[cloth].strain_limit) * lengths[k], shortest[k]);
+        add_limit(correction, end, others[k], (1 + level_limit(k, cloths[cloth].strain_limit)) * lengths[k],
+                  shortest[k]);
+    if (end.inverse_mass > 0 && smooths(cloth))
+        for (int k = 0; k < 8; ++k)
+            correction.v += k_smoothing * fraction_of(end, others[k]) * (others[k].v - end.v);
     return correction;
 }
 
