@@ -113,8 +113,8 @@ bool is_held(Room room, Room start)
            room.sweep >= min(start.sweep, 0);
 }
 
-// The part of a motion, relative to what carries the vertex, after which the vertex is still within its guards. The guards are convex, and the start of the
-// motion is within them, so bisection finds the end.
+// The part of a motion, relative to what carries the vertex, after which the vertex is still within its guards. The
+// guards are convex, and the start of the motion is within them, so bisection finds the end.
 float held_part(Hold hold, vec3 motion)
 {
     const Room start = room_at(hold, vec3(0));

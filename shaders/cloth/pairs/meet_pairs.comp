@@ -178,7 +178,8 @@ void main()
         read_vertex(pair.vertices[k], k, origin, vertices);
     const Nearest nearest = nearest_points(pair.edges, vertices.x);
     const float apart = length(nearest.apart);
-    response.normal = pack_direction(nearest.apart / max(apart, 1e-20));
+    const vec3 direction = separating_direction(pair.edges, vertices.x, nearest);
+    response.normal = pack_direction(direction / max(length(direction), 1e-20));
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
     const Approach approach =

@@ -105,8 +105,23 @@ Nearest nearest_points(bool edges, vec3 x[4])
     return nearest;
 }
 
+// Towards the first side, of any length. Points a few micrometers apart are too near for a direction in float: their
+// rounding would tilt it by a thousandth. Within both sides the sides themselves have it.
+vec3 separating_direction(bool edges, vec3 x[4], Nearest nearest)
+{
+    const vec4 inner = abs(nearest.weights);
+    const bool within = edges ? all(greaterThan(inner, vec4(0))) : all(greaterThan(inner.yzw, vec3(0)));
+    const vec3 u = edges ? x[1] - x[0] : x[2] - x[1];
+    const vec3 v = edges ? x[3] - x[2] : x[3] - x[1];
+    const vec3 across = cross(u, v);
+    if (!within || dot(across, across) <= 1e-4 * dot(u, u) * dot(v, v))
+        return nearest.apart;
+    return dot(across, nearest.apart) < 0 ? -across : across;
+}
+
 // A plane between both sides. Each side of a pair is on its side of two parallel planes with the normal `n`, whatever
-// rounding did to the nearest points.
+// rounding did to the nearest points. If they are nearer than the rounding of the normal, whose error is as long as they
+// are long, the planes do not separate them. Then no vertex may approach along the normal.
 struct Separation
 {
     vec3 n;    // unit, towards the first side
@@ -123,6 +138,8 @@ Separation separate(bool edges, vec3 x[4], vec3 n)
     const float high = edges ? max(heights.z, heights.w) : max(heights.y, max(heights.z, heights.w));
     result.gap = low - high;
     result.from_plane = vec4(heights.x - low, edges ? heights.y - low : high - heights.y, high - heights.zw);
+    if (result.gap <= 0)
+        result.from_plane = vec4(0);
     return result;
 }
 
