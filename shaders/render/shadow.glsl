@@ -3,9 +3,10 @@
 #define VOILE_SHADOW_GLSL
 
 #include "frame.glsl"
+#include "quad.glsl"
 
-const int k_blocker_taps = 8;
-const int k_shadow_taps = 12;
+const int k_blocker_taps = 16;
+const int k_shadow_taps = 24;
 const float k_sun_tangent = 0.03;  // of half the angle under which the sun is seen; that of the real one is 0.0047
 const float k_widest_shadow = 30;  // texels, radius of the widest penumbra
 const float k_narrowest_shadow = 1.6;
@@ -52,16 +53,22 @@ vec2 find_blockers(ShadowPoint p)
     return vec2(sum.x / max(sum.y, 1), sum.y / k_blocker_taps);
 }
 
+struct SunVisibility
+{
+    float fraction;
+    float width; // m, radius of the penumbra
+};
+
 // Percentage-closer soft shadows (Fernando 2005): the distance of what casts the shadow gives the width of the filter
 // (Reeves, Salesin and Cook 1987). Hard at contact.
-float sun_visibility(vec3 world, vec3 normal_to_sun)
+SunVisibility sample_sun(vec3 world, vec3 normal_to_sun)
 {
     const ShadowPoint p = shadow_point(world, normal_to_sun);
     if (any(greaterThan(abs(p.at - 0.5), vec2(0.5))) || p.depth >= 1)
-        return 1;
+        return SunVisibility(1, 0);
     const vec2 blockers = find_blockers(p);
     if (blockers.y == 0)
-        return 1;
+        return SunVisibility(1, 0);
     // Texels: a map of 2 radii shows a depth of 6.
     const float penumbra = k_sun_tangent * blockers.x * k_map_depth / (2 * frame.shadow_step);
     const float widest = clamp(penumbra, k_narrowest_shadow, k_widest_shadow) * frame.shadow_step;
@@ -73,7 +80,17 @@ float sun_visibility(vec3 world, vec3 normal_to_sun)
         direction = next_direction(direction);
         lit += textureLod(shadow_map, vec3(p.at + offset, p.depth + dot(p.slope, offset)), 0);
     }
-    return lit / k_shadow_taps;
+    return SunVisibility(lit / k_shadow_taps, widest * 2 * frame.focus_radius);
+}
+
+// Smooth where a penumbra is wider than a few pixels, so that the pattern of its samples does not show. A narrower one
+// keeps its edge. Not in divergent control flow.
+float sun_visibility(vec3 world, vec3 normal_to_sun)
+{
+    const SunVisibility sun = sample_sun(world, normal_to_sun);
+    const float pixel = max(length(dFdx(world)), length(dFdy(world)));
+    const float smoothing = smoothstep(1, 3, quad_mean(sun.width) / max(pixel, 1e-6));
+    return mix(sun.fraction, quad_mean(sun.fraction), smoothing);
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include "fabric.glsl"
 #include "frame.glsl"
 #include "occlusion.glsl"
+#include "quad.glsl"
 #include "shadow.glsl"
 #include "sky.glsl"
 #include "strain.glsl"
@@ -19,7 +20,8 @@ layout(location = 0) out vec4 color;
 struct Shading
 {
     vec3 albedo;
-    vec3 normal; // unit, on the viewer's side
+    vec3 smooth_normal; // unit, on the viewer's side
+    vec3 normal;        // tilted by the weave
     float roughness;
     float metallic;
     float sheen;
@@ -71,8 +73,9 @@ vec3 sun_light(Shading s, vec3 v, float n_v, vec3 f0)
 {
     const vec3 l = frame.to_sun;
     const float facing = dot(s.normal, l);
-    const float side = facing >= 0 ? 1 : -1;
-    const float visible = sun_visibility(world, side * s.normal);
+    // The weave is no shape of the shadow map: its tilt would only scatter the samples.
+    const float smooth_side = dot(s.smooth_normal, l) >= 0 ? 1 : -1;
+    const float visible = sun_visibility(world, smooth_side * s.smooth_normal);
     if (visible == 0)
         return vec3(0);
     const vec3 through = s.translucency * max(-facing, 0) / k_pi * s.albedo;
@@ -101,7 +104,8 @@ void main()
     const vec3 v = normalize(frame.camera_position - world);
     Shading s;
     s.albedo = gl_FrontFacing ? push.base_color : push.back_color;
-    s.normal = (gl_FrontFacing ? 1 : -1) * normalize(vertex_normal);
+    s.smooth_normal = (gl_FrontFacing ? 1 : -1) * normalize(vertex_normal);
+    s.normal = s.smooth_normal;
     s.roughness = max(push.roughness, 0.05);
     s.metallic = push.metallic;
     s.sheen = push.sheen;
@@ -119,7 +123,8 @@ void main()
 
     const float n_v = max(dot(s.normal, v), 1e-3);
     const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
-    vec3 radiance = sun_light(s, v, n_v, f0) + sky_visibility(world, s.normal) * sky_light(s, v, n_v, f0);
+    const float sky = quad_mean(sky_visibility(world, s.smooth_normal));
+    vec3 radiance = sun_light(s, v, n_v, f0) + sky * sky_light(s, v, n_v, f0);
     if (push.kind == VOILE_SURFACE_GROUND)
     {
         const float d = distance(world.xz, frame.focus.xz) / frame.focus_radius;

@@ -170,6 +170,30 @@ TEST_CASE("a shadow is harder near what casts it")
     CHECK(half_lit(high) > half_lit(low) + 1);
 }
 
+TEST_CASE("the samples of a wide penumbra make no pattern")
+{
+    Stage stage;
+    add_ground(stage);
+    stage.scene.sun.direction = {-1, -1, 0};
+    stage.scene.focus = {0, 0.5f, 0};
+    stage.scene.focus_radius = 2;
+    stage.scene.camera = {.position = {-1.5f, 2.5f, 0.01f}, .target = {-1.5f, 0, 0}, .fov = 30};
+    stage.scene.add("ball").add<voile::engine::StaticMesh>(
+        stage.uploads, voile::engine::make_sphere({0, 1.5f, 0}, 0.2f), voile::engine::Surface{});
+    const voile::engine::Picture picture = stage.draw();
+    // Toward the shadow's middle (160) it becomes darker from pixel to pixel. Steps to lighter ones are noise.
+    int darker = 0;
+    int lighter = 0;
+    for (uint32_t y = 88; y < 92; ++y)
+        for (uint32_t x = 100; x < 155; ++x)
+        {
+            const int step = brightness(pixel(picture, x + 1, y)) - brightness(pixel(picture, x, y));
+            (step < 0 ? darker : lighter) += std::abs(step);
+        }
+    CHECK(darker > 500);
+    CHECK(lighter < darker / 20); // measured: 3 and 975
+}
+
 TEST_CASE("the sky is hidden close to a body, and nowhere else")
 {
     Stage stage;
