@@ -1,4 +1,4 @@
-// The walking figure of the dressed scene and its clothes. Generated here instead of shipped.
+// The walking figure of the dressed scene. Generated here instead of shipped.
 #pragma once
 
 #include "voile/engine/assets/mesh.hpp"
@@ -35,10 +35,5 @@ private:
     voile::engine::Mesh rest_;
     std::vector<Skin> skin_; // one per vertex
 };
-
-// Around the waist down to the knees, and over the shoulders and the back, outside of the figure at phase 0. Texture
-// coordinates in meters, u along the hem. `coarseness` divides the numbers of columns and rows, 1 to 4.
-voile::engine::Mesh make_skirt(uint32_t coarseness = 1);
-voile::engine::Mesh make_cape(uint32_t coarseness = 1);
 
 } // namespace scenes

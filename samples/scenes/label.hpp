@@ -9,7 +9,8 @@ namespace scenes
 {
 
 // A text as raised squares, five by seven per letter, centered on the origin in the plane z = 0 and facing +z.
-// `height`: of a letter, m. Letters: those of the names of the fabric presets, lower case, digits and the space.
+// `height`: of a letter, m. Letters: those of the names of the fabric presets, lower case, and those of
+// numbers.
 voile::engine::Mesh make_label(std::string_view text, float height);
 
 } // namespace scenes

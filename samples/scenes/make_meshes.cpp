@@ -1,5 +1,6 @@
 // make_meshes OUTPUT_DIR: writes the meshes of the sample scenes as OBJ.
 #include "figure.hpp"
+#include "garments.hpp"
 #include "gem.hpp"
 #include "heart.hpp"
 #include "label.hpp"
@@ -44,7 +45,9 @@ bool save_dressed(const std::filesystem::path& folder)
 bool save_labels(const std::filesystem::path& folder)
 {
     constexpr float k_height = 0.07f; // m
-    for (const char* text : {"silk", "cotton", "wool", "denim", "leather", "12x12", "24x24", "48x48", "96x96"})
+    for (const char* text : {"silk",  "cotton", "wool", "denim", "leather", "12x12", "24x24", "48x48", "96x96", "0",
+                             "0.002", "0.01",   "0.03", "0.05",  "0.1",     "0.2",   "0.3",   "0.6",   "0.8",   "1.28",
+                             "2",     "5",      "20",   "500",   "1000",    "1e-6",  "3e-5",  "1e-3"})
         if (!save(folder / (std::string("label_") + text + ".obj"), scenes::make_label(text, k_height)))
             return false;
     return true;
@@ -56,8 +59,9 @@ int run(const std::filesystem::path& folder)
     const bool saved = save(folder / "heart.obj", scenes::make_reference_heart()) &&
                        save(folder / "ground.obj", scenes::make_ground()) &&
                        save(folder / "drape_heart.obj", scenes::make_drape_heart()) &&
-                       save(folder / "gem.obj", scenes::make_gem()) && save_jelly(folder) && save_dressed(folder) &&
-                       save_labels(folder);
+                       save(folder / "gem.obj", scenes::make_gem()) &&
+                       save(folder / "curtain.obj", scenes::make_curtain()) && save_jelly(folder) &&
+                       save_dressed(folder) && save_labels(folder);
     return saved ? 0 : 1;
 }
 

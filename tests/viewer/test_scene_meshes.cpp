@@ -1,5 +1,6 @@
 // The meshes that the sample scenes are made with.
 #include "samples/scenes/figure.hpp"
+#include "samples/scenes/garments.hpp"
 #include "samples/scenes/gem.hpp"
 #include "samples/scenes/heart.hpp"
 
@@ -270,4 +271,36 @@ TEST_CASE("the clothes of the figure start outside of it and do not intersect")
             all.triangles.push_back(t + first);
     }
     CHECK(voile::count_self_intersections(all.positions, all.triangles) == folds);
+}
+
+TEST_CASE("a curtain starts in pleats, upright and as wide as its fabric")
+{
+    const voile::engine::Mesh curtain = scenes::make_curtain();
+    const voile::engine::Bounds box = voile::engine::bounds(curtain);
+    check_near(box.min, {-0.54, -1.84, -0.06}, 0.008);
+    check_near(box.max, {0.54, 0, 0.06}, 0.008);
+    // Its texture coordinates are its flat pattern, in which each edge has the same length.
+    double width = 0;
+    for (const glm::uvec3& t : curtain.triangles)
+        for (int i = 0; i < 3; ++i)
+        {
+            const uint32_t a = t[i];
+            const uint32_t b = t[(i + 1) % 3];
+            const float flat = glm::distance(curtain.texture_coordinates[a], curtain.texture_coordinates[b]);
+            CHECK(std::abs(glm::distance(curtain.positions[a], curtain.positions[b]) / flat - 1) < 1e-3);
+            width = std::max(width, double{curtain.texture_coordinates[a].x});
+        }
+    CHECK(width > 1.6 * (box.max.x - box.min.x));
+    // A row never turns back, and all rows lie below the first: it cannot intersect itself.
+    std::vector<glm::vec3> top;
+    for (const glm::vec3& p : curtain.positions)
+        if (p.y == 0)
+            top.push_back(p);
+    for (size_t i = 1; i < top.size(); ++i)
+        CHECK(top[i].x > top[i - 1].x);
+    for (size_t i = 0; i < curtain.positions.size(); ++i)
+    {
+        CHECK(curtain.positions[i].x == top[i % top.size()].x);
+        CHECK(curtain.positions[i].z == top[i % top.size()].z);
+    }
 }

@@ -3,6 +3,7 @@
 #include "viewer/viewer_scenes.hpp"
 
 #include "samples/scenes/figure.hpp"
+#include "samples/scenes/garments.hpp"
 #include "voile/engine/assets/obj.hpp"
 
 namespace
