@@ -1,5 +1,6 @@
-# Checks that the first program of docs/integration.md is samples/foreign_engine/main.cpp, of at most 100 lines, and that
-# its section Output shows what tests/solver/test_output.cpp runs.
+# Checks that the first program of docs/integration.md is samples/foreign_engine/main.cpp, of at most 100 lines, that the
+# guide's CMakeLists.txt configures a project of it, in FOLDER, and that its section Output shows what
+# tests/solver/test_output.cpp runs.
 set(sources ${CMAKE_CURRENT_LIST_DIR}/..)
 file(READ ${sources}/docs/integration.md guide)
 file(READ ${sources}/samples/foreign_engine/main.cpp program)
@@ -15,6 +16,23 @@ string(REGEX MATCHALL "\n" lines "${program}")
 list(LENGTH lines count)
 if(count GREATER 100)
     message(SEND_ERROR "samples/foreign_engine/main.cpp has ${count} lines")
+endif()
+
+# The guide's project, with these sources in place of a repository.
+file(READ ${sources}/docs/integration.md guide)
+string(FIND "${guide}" "```cmake\n" begin)
+math(EXPR begin "${begin} + 9")
+string(SUBSTRING "${guide}" ${begin} -1 guide)
+string(FIND "${guide}" "```" end)
+string(SUBSTRING "${guide}" 0 ${end} project)
+file(REMOVE_RECURSE ${FOLDER})
+file(WRITE ${FOLDER}/CMakeLists.txt "${project}")
+file(COPY ${sources}/samples/foreign_engine/ DESTINATION ${FOLDER} FILES_MATCHING REGEX "/(main|engine)\\.[ch]pp$")
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${FOLDER} -B ${FOLDER}/build -DCMAKE_BUILD_TYPE=Release
+                        -DFETCHCONTENT_SOURCE_DIR_VOILE=${sources}
+                RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(failed)
+    message(SEND_ERROR "the CMakeLists.txt of docs/integration.md does not configure:\n${output}")
 endif()
 
 file(READ ${sources}/docs/integration.md guide)

@@ -122,7 +122,8 @@ set_tests_properties("foreign_engine: a sheet falls on a ball" "async_compute: e
     TIMEOUT 300 FAIL_REGULAR_EXPRESSION "VUID|SYNC-|alidation Error"
     ENVIRONMENT "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
 add_test(NAME "integration: the guide shows the program of foreign_engine"
-         COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_integration.cmake)
+         COMMAND ${CMAKE_COMMAND} -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/guide_project
+                 -P ${CMAKE_CURRENT_SOURCE_DIR}/check_integration.cmake)
 find_program(DOXYGEN doxygen)
 if(DOXYGEN)
     file(MAKE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/reference)
