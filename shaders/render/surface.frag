@@ -73,7 +73,7 @@ vec3 sun_light(Shading s, vec3 v, float n_v, vec3 f0)
 {
     const vec3 l = frame.to_sun;
     const float facing = dot(s.normal, l);
-    // The weave is no shape of the shadow map: its tilt would only scatter the samples.
+    // The shadow map has no weave, whose tilt would scatter the samples.
     const float smooth_side = dot(s.smooth_normal, l) >= 0 ? 1 : -1;
     const float visible = sun_visibility(world, smooth_side * s.smooth_normal);
     if (visible == 0)
