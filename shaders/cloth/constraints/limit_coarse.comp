@@ -121,7 +121,7 @@ Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
             continue;
         const End other = end_at(g, to, now, inverse_mass_at(n, offset), is_first);
         add_limit(correction, end, other,
-                  (1 + level_limit(s, cloths[g.cloth].strain_limit)) * length(vec2(to - at) * rest), 0);
+                  (1 + level_limit(s, g.cloth)) * length(vec2(to - at) * rest), 0);
     }
     return correction;
 }

@@ -1,5 +1,7 @@
 // The levels of a grid for the strain limit. A level of a spacing has the lines whose number is a multiple of it, and
 // the last line. Vertices of a level are those where its lines cross. All vertices of a level are on the next finer one.
+//
+// The including kernel declares cloths[].
 #ifndef VOILE_LIMIT_LEVELS_GLSL
 #define VOILE_LIMIT_LEVELS_GLSL
 
@@ -28,9 +30,9 @@ float lines_with(int line, int lines, int spacing, float border)
     return self + 0.5 * float(max(line - beside.x - 1, 0) + max(beside.y - line - 1, 0));
 }
 
-// The strain limit of diagonals, unless that of the cloth is larger. They lengthen as cloth shears, and cloth shears to
-// lie on anything round. A limit that works in every step shakes cloth until friction no longer holds it: silk of 1 m
-// slid off a sphere of 0.3 m. It would shear by 26 degrees there.
+// The strain limit of diagonals of softened grids, unless that of the cloth is larger. They lengthen as cloth shears, and
+// cloth shears to lie on anything round. A limit that works in every step shakes cloth until friction no longer holds
+// it: silk of 1 m slid off a sphere of 0.3 m. By 0.2 it shears by 26 degrees.
 const float k_diagonal_limit = 0.2;
 
 // The neighbors of a vertex on its level.
@@ -74,8 +76,16 @@ float inverse_mass_at(LevelNeighbors n, ivec2 offset) { return 1 / (n.column_lin
 
 // Structural and shear springs in both directions: the class and the offset of the k-th of eight.
 uint level_class(int k) { return uint(k % 4); }
-float level_limit(int k, float limit) { return level_class(k) < 2 ? limit : max(limit, k_diagonal_limit); }
 ivec2 level_offset(int k) { return (k < 4 ? 1 : -1) * k_spring_offsets[k % 4]; }
+
+bool is_softened(uint cloth) { return cloths[cloth].strain_passes == VOILE_SOFTENED_STRAIN_PASSES; }
+
+// The strain limit of the spring to the k-th of eight neighbors.
+float level_limit(int k, uint cloth)
+{
+    const float limit = cloths[cloth].strain_limit;
+    return level_class(k) >= 2 && is_softened(cloth) ? max(limit, k_diagonal_limit) : limit;
+}
 
 // Where a vertex lies between lines of the level before: it takes their displacements by weight.
 struct Between

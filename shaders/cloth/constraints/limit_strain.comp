@@ -64,8 +64,7 @@ const float k_smoothing = 0.1;
 // waves of a few vertices in the velocities, which soft dashpots hardly damp: cloth would shake.
 bool smooths(uint cloth)
 {
-    return push.spacing == 1 && cloths[cloth].strain_passes == VOILE_SOFTENED_STRAIN_PASSES &&
-           push.pass + 2 >= VOILE_SOFTENED_STRAIN_PASSES;
+    return push.spacing == 1 && is_softened(cloth) && push.pass + 2 >= VOILE_SOFTENED_STRAIN_PASSES;
 }
 
 // All neighbors are loaded before the first is used. The vertex itself stands for one that is missing.
@@ -97,7 +96,7 @@ Correction limit_grid(PatchVertex self)
     const float inverse_mass = spacing == 1 ? positions[self.index].w : inverse_mass_at(n, ivec2(0));
     const End end = end_at(self.index, inverse_mass);
     for (int k = 0; k < 8; ++k)
-        add_limit(correction, end, others[k], (1 + level_limit(k, cloths[cloth].strain_limit)) * lengths[k],
+        add_limit(correction, end, others[k], (1 + level_limit(k, cloth)) * lengths[k],
                   shortest[k]);
     if (end.inverse_mass > 0 && smooths(cloth))
         for (int k = 0; k < 8; ++k)

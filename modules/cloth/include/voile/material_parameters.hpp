@@ -75,7 +75,7 @@ inline constexpr auto k_common_parameters = std::to_array<MaterialParameter<M>>(
     {"air_drag_tangential", k_member<&M::air_drag_tangential>, "", 0, 100,
      "C_t of the drag 1/2 rho C_t u_t^2 across the normal"},
     {"gravity_scale", k_member<&M::gravity_scale>, "", -10, 10, "times Step::gravity; 0: floats"},
-    {"strain_limit", k_member<&M::strain_limit>, "", k_least_strain_limit, k_most_strain_limit, "largest l / L - 1 of warp and weft at the end of a step",
+    {"strain_limit", k_member<&M::strain_limit>, "", k_least_strain_limit, k_most_strain_limit, "largest l / L - 1 of a spring at the end of a step",
      {.or_zero = true}},
 });
 
