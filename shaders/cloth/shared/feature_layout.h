@@ -7,8 +7,9 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The mean number of items per vertex that there is room for. The largest number of one vertex, and that of a second query
-// where those of the first are more than there is room for. Where that is not enough, either, all vertices get the same.
+// The mean number of items per vertex that there is room for. The largest number of one vertex, and that of a second
+// query where those of the first are more than there is room for. Where that is not enough, either, all vertices get
+// the same.
 #define VOILE_FEATURE_ITEMS 8
 #define VOILE_MOST_FEATURE_ITEMS 64
 #define VOILE_FEWER_FEATURE_ITEMS 24
@@ -19,8 +20,8 @@
 #define VOILE_PIECE_GUARD 3 // no feature: the item checks that the items of the vertex suffice
 #define VOILE_ITEM_CLOTH_BITS 20
 #define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
-// Of a batch: the size of the dispatch over items, and how many there would be with fewer items of a vertex; the size of
-// that over patches near features, and the number of items; the size of a second query if there is no room for them,
+// Of a batch: the size of the dispatch over items, and how many there would be with fewer items of a vertex; the size
+// of that over patches near features, and the number of items; the size of a second query if there is no room for them,
 // and the number of its items.
 #define VOILE_FEATURE_DISPATCH_WORDS 12
 #define VOILE_DISPATCH_FEWER 3
