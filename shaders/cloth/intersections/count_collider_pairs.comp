@@ -171,7 +171,8 @@ void enter_collider(inout PairQuery query, uint index, ColliderRecord collider)
         size = max(size, largest(query.cloth.corners[i]));
         local_size = max(local_size, largest(offset));
     }
-    const float far_error = k_pose_error * (size + local_size) + k_unit; // of vertices of the collider in the world, too
+    // Of vertices of the collider in the world, too, and of snapped ones.
+    const float far_error = k_pose_error * (size + local_size) + k_unit;
     query.box = grown(triangle_box(query.corners[0], query.corners[1], query.corners[2]), far_error);
     query.error = (moved ? k_pose_error : k_solid_error) * (local_size + largest(motion.offset_to));
 }

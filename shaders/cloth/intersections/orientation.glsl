@@ -3,8 +3,8 @@
 // A filter in float decides most of them. Where its error bound does not exclude 0, integers decide: along each axis
 // the coordinates are multiples of a power of two. A determinant has one factor of each axis in every product, so each
 // axis may have a power of its own. Differences of coordinates then have up to 64 bits, and the determinant fits 7
-// words. If the coordinates of an axis need more bits than that, the sign is k_uncertain: those of triangles up to 2^11 m
-// that are multiples of 2^-50 m (snapped) do not.
+// words. If the coordinates of an axis need more bits than that, the sign is k_uncertain. Multiples of 2^-50 m (snapped)
+// up to 2^11 m do not.
 //
 // Error bounds hold for any order of evaluation and for rounding to nearest or toward zero, eps = 2^-23. A difference
 // is exact to (1 + eps), a 2 x 2 minor to (1 + eps)^4 of the sum of its absolute products, a product with the third

@@ -25,9 +25,9 @@ namespace voile
 // - Spheres, capsules, half spaces: triangles of the cloth that have a point in common with the solid.
 //
 // Uncertain pairs are counted, too: those of a sphere, a capsule or a half space whose distance is 0 to within rounding
-// (2e-6 of the distance from the solid's origin; if it was moved, 1e-5). All others are exact, of coordinates that are
-// rounded to multiples of 2^-50 m (9e-16 m), if those of a triangle are within 2^11 m of 0 along each axis or differ
-// in size by less than a factor of 2^39.
+// (2e-6 of the distance from the solid's origin; if it was moved, 1e-5). The counts of all others are exact.
+// Coordinates are first rounded to multiples of 2^-50 m (9e-16 m). Beyond 2^11 m a pair is uncertain, too, if its
+// coordinates along one axis differ by more than a factor of 2^39 in size and the filter in float fails.
 //
 // Cost: a refit of the hierarchies of all cloths, and per triangle of a cloth a traversal of those of all cloths and
 // colliders. 64 x 64 vertices at rest on a mesh of 22,200 triangles take 146 ms on lavapipe with two cores.

@@ -254,6 +254,7 @@ void BatchRecorder::record_features(uint32_t substep)
 {
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
+    const ItemRange items = feature_items();
     const shared::FeaturePush push{h_ * static_cast<float>(interval.count),
                                    progress(interval.first),
                                    progress(substep + 1),
@@ -262,8 +263,8 @@ void BatchRecorder::record_features(uint32_t substep)
                                    device_.near_stride,
                                    lists_.patches.first,
                                    progress(substep - substep % list_period_),
-                                   feature_items().first,
-                                   feature_items().count,
+                                   items.first,
+                                   items.count,
                                    word,
                                    solver_.options.tuning.feature_threads,
                                    interval.count,
