@@ -14,7 +14,7 @@
 #ifndef VOILE_ORIENTATION_GLSL
 #define VOILE_ORIENTATION_GLSL
 
-const int k_uncertain = 2; // of a sign, beside -1, 0 and 1
+const int k_uncertain = -2; // of a sign, beside -1, 0 and 1: two bits
 
 const float k_volume_error = 9.0 / 8388608; // of the sum of absolute products
 const float k_volume_flushed = 5.3e-23;     // m^3, 2^-74
@@ -178,16 +178,19 @@ int exact_orientation(vec3 a, vec3 b, vec3 c, vec3 d)
     const ivec3 high = max(max(highest_bits(a), highest_bits(b)), max(highest_bits(c), highest_bits(d)));
     if (any(greaterThan(high - unit, ivec3(k_most_bits))))
         return k_uncertain;
-    const IntegerRow ad = row_between(a, d, unit);
-    const IntegerRow bd = row_between(b, d, unit);
-    const IntegerRow cd = row_between(c, d, unit);
+    IntegerRow first = row_between(a, d, unit);
+    IntegerRow second = row_between(b, d, unit);
+    IntegerRow third = row_between(c, d, unit);
     uint sum[k_volume_words] = uint[](0, 0, 0, 0, 0, 0, 0);
-    add_product(sum, ad.x, bd.y, cd.z, false);
-    add_product(sum, ad.x, bd.z, cd.y, true);
-    add_product(sum, bd.x, cd.y, ad.z, false);
-    add_product(sum, bd.x, cd.z, ad.y, true);
-    add_product(sum, cd.x, ad.y, bd.z, false);
-    add_product(sum, cd.x, ad.z, bd.y, true);
+    for (uint turn = 0; turn < 3; ++turn)
+    {
+        add_product(sum, first.x, second.y, third.z, false);
+        add_product(sum, first.x, second.z, third.y, true);
+        const IntegerRow before = first;
+        first = second;
+        second = third;
+        third = before;
+    }
     return sign_of(sum);
 }
 
