@@ -28,7 +28,9 @@ namespace buffer = voile::buffer;
 class Bindings : public tests::GpuFixture
 {
 public:
-    Bindings() : kernels(voile::engine::take(voile::create_kernels(context(), {.intersections = true}))) {}
+    Bindings() : kernels(voile::engine::take(voile::create_kernels(tests::solver_context(), {.intersections = true})))
+    {
+    }
 
     voile::Kernels kernels;
 };

@@ -57,7 +57,7 @@ TEST_CASE_FIXTURE(tests::GpuFixture,
     {
         const std::vector<uint32_t> no_spirv{1, 2, 3};
         const voile::ShaderReplacement shader{file, no_spirv};
-        return reason(voile::Solver::create(context().handles, {.shaders = {&shader, 1}}));
+        return reason(voile::Solver::create(tests::test_handles(), {.shaders = {&shader, 1}}));
     };
     CHECK(created("verlet.comp").find("kernel \"cloth verlet\"") == 0);
     CHECK(created("refit.comp").find("kernel \"cloth refit leaves\"") == 0);
@@ -80,7 +80,7 @@ PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)
 
 TEST_CASE("each solver loads its functions from its own handles, independent of earlier solvers")
 {
-    voile::Handles handles = tests::device().context().handles;
+    voile::Handles handles = tests::test_handles();
     the_loaders = handles.get_instance_proc_addr;
     REQUIRE(voile::Solver::create(handles, {}));
     handles.get_instance_proc_addr = counting;

@@ -296,7 +296,7 @@ TEST_CASE_FIXTURE(Host, "the output of the guide is written")
 {
     voile::Upload kept;
     std::optional<voile::Solver> guides;
-    run([&](VkCommandBuffer cmd) { guides = record_frame(context().handles, cmd, buffer(), k_bytes, kept); });
+    run([&](VkCommandBuffer cmd) { guides = record_frame(tests::test_handles(), cmd, buffer(), k_bytes, kept); });
     const auto written = words();
     CHECK(written[0] == k_gap);
     CHECK(written[size_t{11} * 1000 + 4] == tests::close_to(1, 0.01)); // the first vertex's normal

@@ -42,7 +42,8 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const 
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, const char* name)
 {
-    const PFN_vkVoidFunction found = tests::device().context().handles.get_instance_proc_addr(instance, name);
+    const voile::Handles kept = tests::KeptPipelines::handles(tests::device().context());
+    const PFN_vkVoidFunction found = kept.get_instance_proc_addr(instance, name);
     if (std::string_view(name) != "vkGetDeviceProcAddr")
         return found;
     the_drivers = reinterpret_cast<PFN_vkGetDeviceProcAddr>(found);

@@ -51,7 +51,7 @@ Costs costs_of(const voile::OutputOptions& output)
 {
     tests::GpuFixture gpu;
     NotingAllocator allocator;
-    voile::Handles handles = gpu.context().handles;
+    voile::Handles handles = tests::KeptPipelines::handles(gpu.context());
     handles.buffer_allocator = &allocator;
     voile::Solver solver = take(voile::Solver::create(handles, {.output = output}));
     (void)take(solver.add_cloth(flat_sheet(9, 0.5f, 1)));
@@ -205,7 +205,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL function_of_an_old_device(VkInstance in
 TEST_CASE("usages that the device or the host's allocator does not have are refused")
 {
     const tests::GpuFixture gpu;
-    voile::Handles handles = gpu.context().handles;
+    voile::Handles handles = tests::KeptPipelines::handles(gpu.context());
     const voile::SolverOptions addresses{.output = {.usage = k_address}};
     const voile::SolverOptions builds{
         .output = {.usage = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR}};
