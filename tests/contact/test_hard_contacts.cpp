@@ -17,7 +17,7 @@ using tests::edge_of_a_box;
 constexpr float k_thick = 0.003f; // cotton's
 constexpr float k_thin = 0.001f;
 const Shot k_shots[] = {
-    {64, 2, 5, k_thick, 12}, {64, 2, 20, k_thin, 8}, {64, 2, 60, k_thick, 6}, {64, 2, 60, k_thin, 6}};
+    {48, 2, 5, k_thick, 12}, {48, 2, 20, k_thin, 8}, {48, 2, 60, k_thick, 6}, {48, 2, 60, k_thin, 6}};
 const Shot k_drop = {32, 1, 5, k_thick, 0, 1.225f};
 constexpr float k_dense_air = 6; // kg/m^3; hanging parts soon stop swinging in it, but cloth slides slowly
 
