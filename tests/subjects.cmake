@@ -34,7 +34,7 @@ if(NOT VOILE_SANITIZE) # it replaces operator new, and so do sanitizers
     voile_add_test(test_frame SOURCES engine/test_frame.cpp ../bench/allocations.cpp LIBRARIES voile::cloth_component voile::engine)
 endif()
 voile_add_test(test_hazards SOURCES solver/test_hazards.cpp solver/test_recorder.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_overlay.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
+voile_add_test(test_renderer SOURCES engine/test_renderer.cpp engine/test_shadows.cpp engine/test_overlay.cpp engine/test_camera_control.cpp LIBRARIES voile::cloth_component voile::engine)
 
 # A captured frame, read with RenderDoc's Python module (Debian's, hence its Python).
 if(EXISTS /usr/bin/python3)
