@@ -159,3 +159,32 @@ if(TARGET cloth_bench)
     set_tests_properties("cloth_bench: --peers says how they were measured" PROPERTIES
                          PASS_REGULAR_EXPRESSION "How they were taken")
 endif()
+
+# Subjects that start programs: those make pipelines when they are first bound (support/late_pipelines.cpp).
+if(UNIX AND NOT APPLE)
+    add_library(late_pipelines MODULE support/late_pipelines.cpp)
+    target_link_libraries(late_pipelines PRIVATE voile_options Vulkan::Headers)
+    set(layers ${CMAKE_CURRENT_BINARY_DIR}/layers)
+    set_target_properties(late_pipelines PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${layers} CXX_VISIBILITY_PRESET hidden)
+    file(GENERATE OUTPUT ${layers}/late_pipelines.json CONTENT
+"{ \"file_format_version\": \"1.2.0\", \"layer\": { \"name\": \"VK_LAYER_VOILE_late_pipelines\", \"type\": \"GLOBAL\",
+  \"library_path\": \"./$<TARGET_FILE_NAME:late_pipelines>\", \"api_version\": \"1.3.0\", \"implementation_version\": \"1\",
+  \"description\": \"Makes compute pipelines when they are first bound\" } }
+")
+    set(subjects test_viewer test_samples)
+    if(TARGET test_window)
+        list(APPEND subjects test_window)
+    endif()
+    foreach(subject IN LISTS subjects)
+        add_dependencies(${subject} late_pipelines)
+    endforeach()
+    file(CONFIGURE OUTPUT late_pipelines.cmake @ONLY CONTENT [[
+foreach(subject IN ITEMS @subjects@)
+    foreach(name IN LISTS ${subject}_TESTS)
+        set_tests_properties("${name}" PROPERTIES ENVIRONMENT
+            "VK_ADD_LAYER_PATH=@layers@;VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines")
+    endforeach()
+endforeach()
+]])
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/late_pipelines.cmake)
+endif()
