@@ -271,6 +271,10 @@ TEST_CASE("an error names the file, the line and the reason")
     CHECK(message("v 1 -inf 2\n") == "FILE:1: coordinate is not finite");
     CHECK(message("v 1 1e999 2\n") == "FILE:1: coordinate is not finite");
     CHECK(message("v 1 1e39 2\n") == "FILE:1: coordinate is not finite"); // overflows a float
+    CHECK(message(k_triangle + "vt 0 0\nvt 1e30 0\nf 1/1 2/2 3/1\n") ==
+          "FILE:5: texture coordinate is '1e30', must be within 1e6");
+    CHECK(message(k_triangle + "vt -1000001\nf 1/1 2/1 3/1\n") ==
+          "FILE:4: texture coordinate is '-1000001', must be within 1e6");
     CHECK(message("vt\n") == "FILE:1: texture coordinate has 0 coordinates, needs 1 to 3");
     CHECK(message("vt 0 0 0 0\n") == "FILE:1: texture coordinate has 4 coordinates, needs 1 to 3");
     CHECK(message("vn 1 0\n") == "FILE:1: normal has 2 coordinates, needs 3");

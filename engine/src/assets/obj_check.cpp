@@ -24,6 +24,9 @@ enum List : size_t
     texture_coordinates,
     normals
 };
+// Cloth takes no larger ones. A picture is not repeated a million times.
+constexpr double k_most_texture_coordinate = 1e6; // either way
+
 constexpr std::array<std::string_view, 3> k_list_names = {"position", "texture coordinate", "normal"};
 
 class Checker
@@ -46,7 +49,7 @@ private:
     void check_statement();
     void check_vertex();
     void check_vector(List list, size_t least, size_t most, size_t kept);
-    bool check_numbers();
+    bool check_numbers(List list);
     void check_face();
     void check_corner(std::string_view corner);
     void check_index(List list, std::string_view digits, std::string_view corner);
@@ -90,7 +93,7 @@ void Checker::read_statement(std::string_view& text)
     }
 }
 
-bool Checker::check_numbers()
+bool Checker::check_numbers(List list)
 {
     for (size_t i = 1; i < words_.size(); ++i)
     {
@@ -99,6 +102,8 @@ bool Checker::check_numbers()
             fail(quoted_word(words_[i]) + " is not a number");
         else if (!std::isfinite(*value))
             fail("coordinate is not finite");
+        else if (list == texture_coordinates && std::abs(*value) > k_most_texture_coordinate)
+            fail("texture coordinate is " + quoted_word(words_[i]) + ", must be within 1e6");
     }
     return error_.empty();
 }
@@ -111,7 +116,7 @@ void Checker::check_vector(List list, size_t least, size_t most, size_t kept)
     if (count < least || count > most)
         fail(what + " has " + std::to_string(count) + (count == 1 ? " coordinate" : " coordinates") + ", needs " +
              std::to_string(least) + (list == texture_coordinates ? " to " + std::to_string(most) : ""));
-    if (!error_.empty() || !check_numbers())
+    if (!error_.empty() || !check_numbers(list))
         return;
     ++counts_[list];
     for (size_t i = 0; i <= std::min(kept, count); ++i)
