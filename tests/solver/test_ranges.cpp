@@ -241,6 +241,15 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
     CHECK(grid([](auto& g) { g.transform[3].z = k_nan; }) == "cloth \"cloth\": its transform is not finite");
     CHECK(grid([](auto& g) { g.transform[3].w = 2; }) == "cloth \"cloth\": its transform's last row is not 0 0 0 1");
 
+    const char* const flattened = ", they must be at least 1e-07 long and not parallel";
+    CHECK(grid(
+              [](auto& g) {
+                  g.transform[0] = {0, 0, 0, 0};
+              }) ==
+          std::string("cloth \"cloth\": its transform takes the axes x and z to (0, 0, 0) and (0, 0, 1)") + flattened);
+    CHECK(grid([](auto& g) { g.transform[2] = 2.f * g.transform[0]; }) ==
+          std::string("cloth \"cloth\": its transform takes the axes x and z to (1, 0, 0) and (2, 0, 0)") + flattened);
+
     CHECK(grid([](auto& g) { g.integrator = static_cast<voile::Integrator>(9); }) ==
           "cloth \"cloth\": integrator is 9, must be rk4 or verlet");
     CHECK(grid([](auto& g) { g.material = voile::Fabric{.bending_model = static_cast<voile::BendingModel>(7)}; }) ==
@@ -298,6 +307,66 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
     const std::vector<glm::vec3> far{{0, 0, 0}, {1, 0, 0}, {0, 0, 1e9f}};
     CHECK(reason(solver.deform_collider(sheet, far)) ==
           "collider 1: position 2 is at (0, 0, 1e+09), each must be -1e+06 to 1e+06 m");
+}
+
+TEST_CASE("a mesh cloth with triangles out of range is refused by name")
+{
+    ClothHarness harness;
+    // A quad, and above it a triangle with two sides of these lengths.
+    const auto add = [&](float scale, float short_side, float long_side)
+    {
+        const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0},         {0, 0, 1},         {1, 0, 1},
+                                               {0, 1, 0}, {long_side, 1, 0}, {0, 1, short_side}};
+        const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {4, 6, 5}};
+        return reason(harness.solver.add_cloth(voile::MeshCloth{
+            .positions = positions, .triangles = triangles, .transform = glm::scale(glm::mat4(1), glm::vec3(scale))}));
+    };
+    CHECK(add(1e-8f, 1, 1) ==
+          "cloth \"cloth\": the longest side of triangle 0 is 1.41421e-08 m, must be 0.0001 to 100000");
+    CHECK(add(1, 1e-6f, 1e-6f) ==
+          "cloth \"cloth\": the longest side of triangle 2 is 1.41421e-06 m, must be 0.0001 to 100000");
+    CHECK(add(3e5f, 1, 1) == "cloth \"cloth\": the longest side of triangle 0 is 424264 m, must be 0.0001 to 100000");
+    CHECK(add(1, 1e-6f, 1e-3f) == "accepted");
+    CHECK(add(1, 0, 1e-6f) == "accepted"); // without area
+    CHECK(add(1e-4f, 1, 1) == "accepted");
+}
+
+TEST_CASE("mesh cloths of the smallest triangles, and slivers of them, stay finite in frames")
+{
+    for (const uint32_t seed : {3u, 5u, 8u, 21u})
+    {
+        CAPTURE(seed);
+        Corners corners(seed);
+        ClothHarness harness;
+        std::vector<voile::ClothId> ids;
+        for (const float height : {1.f, 1e-2f, 3e-4f})
+            for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+            {
+                const std::vector<glm::vec3> positions{
+                    {0, 0, 0}, {1, 0, 0}, {0, 0, height}, {1, 0, height}, {0.5f, 0, -1e-4f}};
+                const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {0, 1, 4}}; // the last has no area
+                voile::MeshCloth mesh;
+                mesh.positions = positions;
+                mesh.triangles = triangles;
+                mesh.transform = glm::scale(moved(corners.vector(0.3f)), glm::vec3(1.001e-4f));
+                mesh.velocity = corners.vector(corners.one_of({0.f, voile::k_most_speed}));
+                mesh.material = random_material(corners);
+                mesh.integrator = integrator;
+                ids.push_back(voile::engine::take(harness.solver.add_cloth(mesh)));
+            }
+        (void)voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.radius = 0.3f}));
+        harness.upload();
+        for (int round = 0; round < 12; ++round)
+        {
+            CAPTURE(round);
+            for (const voile::ClothId id : ids)
+                voile::engine::take(harness.solver.reset(id));
+            voile::Step step = random_step(corners);
+            step.duration = std::min(step.duration, 1.f / 60);
+            harness.step(step, 3);
+            CHECK(harness.statistics().nan_vertices == 0);
+        }
+    }
 }
 
 TEST_CASE("no extreme of the ranges makes a vertex that is not finite")

@@ -42,7 +42,7 @@ struct GridCloth
     float depth = 1;
 
     // World from grid; affine. It does not change the rest lengths: a transform that stretches starts a stretched
-    // cloth.
+    // cloth. What it makes of x and z is at least 1e-7 long and not parallel.
     Mat4 transform{1.f};
 
     // Velocity of every vertex at the start, m/s, -1e4..1e4 along each axis.
@@ -81,7 +81,9 @@ struct GridCloth
 
 // A cloth of triangles. The mesh may be open or closed, in one piece or several. Vertices keep their order.
 //
-// - Triangles without area have no springs. Vertices without a triangle stay where they are.
+// - The longest side of each triangle is 1e-4..1e5 m, as the transform makes it. The other sides may be shorter.
+// - A triangle has no area if it is lower than 20 nm, or than 2e-6 of its longest side.
+// - Triangles without area have no springs, and any size. Vertices without a triangle stay where they are.
 // - At an edge of three or more triangles each pair of them bends.
 // - mesh_report counts all of these.
 //

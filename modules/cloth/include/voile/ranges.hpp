@@ -25,13 +25,16 @@ constexpr float k_most_speed = 1e4f; // m/s, either way
 // Inverse mass of a vertex (GridCloth::inverse_masses).
 constexpr float k_most_inverse_mass = 1e9f; // 1/kg
 
-// Sides of a grid.
+// Sides of a grid, and the longest side of each triangle of a mesh cloth that has an area.
 constexpr float k_least_cloth_size = 1e-4f; // m
 constexpr float k_most_cloth_size = 1e5f;   // m
 
 // Radii of spheres and capsules, sides of boxes.
 constexpr float k_least_collider_size = 1e-4f; // m
 constexpr float k_most_collider_size = 2e6f;   // m
+
+// Length of what the transform of a grid makes of its x and z axes, at least.
+constexpr float k_least_grid_scale = 1e-7f;
 
 constexpr float k_most_friction = 100; // of a cloth and of a collider
 

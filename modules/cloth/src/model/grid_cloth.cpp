@@ -25,6 +25,20 @@ Result<void> validate_shape(const GridCloth& grid)
     return {};
 }
 
+// A grid on a line or in a point has no normals, and its springs have no direction.
+Result<void> check_flat(const GridCloth& grid)
+{
+    const glm::dvec3 x(grid.transform[0]);
+    const glm::dvec3 z(grid.transform[2]);
+    const double least = k_least_grid_scale;
+    const double product = glm::length(x) * glm::length(z);
+    if (glm::length(x) >= least && glm::length(z) >= least && glm::length(glm::cross(x, z)) > 1e-6 * product)
+        return {};
+    return invalid("cloth", grid.name,
+                   "its transform takes the axes x and z to " + text(glm::vec3(x)) + " and " + text(glm::vec3(z)) +
+                       ", they must be at least " + text(k_least_grid_scale) + " long and not parallel");
+}
+
 glm::vec2 spacing_of(const GridCloth& grid)
 {
     return {grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)};
@@ -57,6 +71,8 @@ Result<ClothId> Model::add(const GridCloth& grid)
     const size_t count = size_t{grid.columns} * grid.rows;
     if (auto valid = validate(input, count); !valid)
         return valid.error();
+    if (auto flat = check_flat(grid); !flat)
+        return flat.error();
     const std::vector<glm::dvec3> world = world_positions(grid);
     if (auto range = check_world_positions(grid.name, world); !range)
         return range.error();

@@ -44,6 +44,22 @@ std::vector<glm::dvec3> world_positions(std::span<const glm::vec3> positions, co
     return result;
 }
 
+// Shorter triangles need more substeps than a step may have, and their weights leave the range of floats.
+Result<void> check_triangle_sizes(const std::string& name, std::span<const glm::dvec3> world,
+                                  std::span<const glm::uvec3> triangles)
+{
+    for (size_t i = 0; i < triangles.size(); ++i)
+    {
+        const auto side = static_cast<float>(longest_side(world, triangles[i]));
+        const bool within_range = side >= k_least_cloth_size && side <= k_most_cloth_size;
+        if (within_range || solid_area(world, triangles[i], 0) == 0)
+            continue;
+        const std::string what = "the longest side of triangle " + std::to_string(i);
+        return check(subject("cloth", name), {what.c_str(), side, k_least_cloth_size, k_most_cloth_size, " m"});
+    }
+    return {};
+}
+
 // The mesh seen along the axis of its smallest extent.
 struct Projection
 {
@@ -131,6 +147,8 @@ Result<Shape> make_shape(const MeshCloth& cloth)
         return range.error();
     if (cooked)
         return shape;
+    if (auto sizes = check_triangle_sizes(cloth.name, shape.world, cloth.triangles); !sizes)
+        return sizes.error();
     auto mesh = make_topology(cloth, shape.world);
     if (!mesh)
         return mesh.error();

@@ -19,16 +19,6 @@ namespace
 constexpr size_t k_piece = 8192;       // triangles or vertices per piece of work
 constexpr size_t k_least_owned = 2048; // vertices per thread, where threads go through all triangles or pairs
 
-// 0 for a degenerate triangle: if its height is 0 within the precision of float.
-double solid_area(std::span<const glm::dvec3> x, const glm::uvec3& t)
-{
-    const glm::dvec3 a(x[t.x]);
-    const double area = 0.5 * glm::length(glm::cross(x[t.y] - a, x[t.z] - a));
-    const double longest =
-        std::max({glm::distance(a, x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], a)});
-    return area <= 1e-6 * longest * longest ? 0 : area;
-}
-
 SolidTriangles solid_triangles(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
 {
     SolidTriangles solid{std::vector(triangles.begin(), triangles.end()), std::vector<double>(triangles.size())};
@@ -298,6 +288,18 @@ void find_bounds(MeshTopology& mesh)
 }
 
 } // namespace
+
+double longest_side(std::span<const glm::dvec3> x, const glm::uvec3& t)
+{
+    return std::max({glm::distance(x[t.x], x[t.y]), glm::distance(x[t.y], x[t.z]), glm::distance(x[t.z], x[t.x])});
+}
+
+double solid_area(std::span<const glm::dvec3> x, const glm::uvec3& t, double least_side)
+{
+    const double area = 0.5 * glm::length(glm::cross(x[t.y] - x[t.x], x[t.z] - x[t.x]));
+    const double longest = longest_side(x, t);
+    return area <= 1e-6 * longest * std::max(longest, least_side) ? 0 : area;
+}
 
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
                                 const FabricCoordinates& fabric, bool isometric, bool uniform_masses)

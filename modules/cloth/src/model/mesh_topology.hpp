@@ -39,7 +39,13 @@ struct MeshTopology
     double mean_area = 0; // m^2, of the vertices that have any
 };
 
-// `positions`: the shape at rest. Indices must be within it. `isometric`: with the coefficients of isometric bending,
+// m. Indices must be within the positions, here and below.
+double longest_side(std::span<const glm::dvec3> positions, const glm::uvec3& triangle);
+// m^2; 0 for a degenerate triangle: if its height is 0 within the precision of float, for sides of `least_side` m and
+// more. Bending of lower ones is beyond the range of floats.
+double solid_area(std::span<const glm::dvec3> positions, const glm::uvec3& triangle, double least_side = 0.01);
+
+// `positions`: the shape at rest. `isometric`: with the coefficients of isometric bending,
 // which reaches half as many vertices again as springs do. `uniform_masses`: the vertices' masses are not in proportion
 // to their areas, and springs along the edges take the place of a membrane; else `fabric` has its direction.
 MeshTopology make_mesh_topology(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles,
