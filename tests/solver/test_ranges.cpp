@@ -353,6 +353,7 @@ TEST_CASE("mesh cloths of the smallest triangles, and slivers of them, stay fini
                 mesh.material = random_material(corners);
                 mesh.integrator = integrator;
                 ids.push_back(voile::engine::take(harness.solver.add_cloth(mesh)));
+                CHECK(harness.solver.mesh_report(ids.back()).degenerate_triangles == 1);
             }
         (void)voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.radius = 0.3f}));
         harness.upload();
