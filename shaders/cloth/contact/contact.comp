@@ -76,6 +76,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 // The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
 float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth].flags), push.step, push.kicks); }
 
+#include "contact/feature_hold.glsl"
 #include "contact/response.glsl"
 
 // m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
@@ -373,6 +374,20 @@ void ask_for_lists(Hold hold, vec3 displacement)
             pair_searches[k].wanted = 1;
 }
 
+// Cuts a motion that contact has changed where the guard of features ends. Whether it does.
+bool hold_at_features(uint i, vec3 shifted, inout Motion motion)
+{
+    const FeatureCorrection correction = corrections[i];
+    if (correction.guarded == 0 || correction.substep != push.substep)
+        return false;
+    const float part = safe_part(correction.guard, shifted - correction.shift, motion.displacement);
+    if (part == 1)
+        return false;
+    motion.v = mix(correction.guard.carried / push.step, motion.v, part);
+    motion.displacement = mix(correction.guard.carried, motion.displacement, part);
+    return true;
+}
+
 // Cuts the motion where the guards of pairs end. Whether it does.
 bool hold_within_guards(Hold hold, inout Motion motion)
 {
@@ -430,6 +445,7 @@ void main()
             depenetrate(i, motion, depenetration);
             changed = true;
         }
+        const vec3 shifted = motion.displacement;
         const Candidates list = find_candidates(i, motion, contact.thickness, contact.layers);
         const ContactState state = resolve_contacts(motion, contact, list, depenetration.solid != 0);
         if (state.touches)
@@ -437,6 +453,8 @@ void main()
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;
         }
+        if ((flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
+            changed = hold_at_features(i, shifted, motion) || changed;
         if (held)
             changed = hold_within_guards(hold, motion) || changed;
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)

@@ -60,9 +60,13 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/feature_fan.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
+#include "contact/feature_guard.glsl"
+#include "contact/feature_hold.glsl"
 
 // Per thread of the workgroup. Threads of one vertex are adjacent.
 shared Response responses[gl_WorkGroupSize.x];
+shared FeatureGuard guards[gl_WorkGroupSize.x];
+shared vec2 urgencies[gl_WorkGroupSize.x];
 // The vertices of the patch whose items do not suffice, in no order.
 shared uint traversing[gl_WorkGroupSize.x];
 shared uint traversing_count;
@@ -83,6 +87,7 @@ bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, nod
 
 void visit_edge(Feature feature, SweptVertex b)
 {
+    add_plane(guard_plane(feature, b, false));
     const PieceContact touch = edge_contact(feature, b);
     if (touch.contact.found)
         respond(impulse_of(touch), edge_portions(touch, b).x, collider_index);
@@ -100,6 +105,7 @@ void visit_feature(Feature feature)
     }
     if (!piece.triangle)
         return;
+    add_plane(guard_plane(feature, piece.b, true));
     const PieceContact touch = triangle_contact(feature);
     if (touch.contact.found)
         respond(impulse_of(touch), triangle_portions(touch).x, collider_index);
@@ -166,6 +172,11 @@ void merge_items(uint first, uint touched, uint i)
         if (touch.portions[i] > 0)
             respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
                     touch.collider);
+        if ((touch.vertices & 1u << i) != 0 && touch.plane.xyz != vec3(0))
+        {
+            select_collider(touch.collider);
+            add_plane(touch.plane);
+        }
     }
 }
 
@@ -216,15 +227,41 @@ void clear_touched()
     cells[self.vertex.index].touched[word + 1] = 0;
 }
 
+// Holds the motion within the vertex's guard.
+void hold_at_features()
+{
+    const vec3 proposed = displacement(self.earlier, self.proposed);
+    const vec3 carry = guard.carried / push.step;
+    for (uint k = 0; k < 2; ++k)
+    {
+        const vec4 plane = guard.planes[k];
+        const float outside = max(-inside(plane, proposed + response.shift), 0);
+        response.shift += outside * plane.xyz;
+        if (outside > 0)
+            response.change -= min(dot(plane.xyz, self.velocity + response.change - carry), 0) * plane.xyz;
+    }
+    const float part = safe_part(guard, proposed, proposed + response.shift);
+    if (part < 1)
+    {
+        response.shift = mix(guard.carried, proposed + response.shift, part) - proposed;
+        response.change = mix(carry, self.velocity + response.change, part) - self.velocity;
+    }
+}
+
 void write_correction()
 {
-    if (response.collider == k_no_collider)
+    if (response.collider != k_no_collider)
+    {
+        select_collider(response.collider);
+        friction = find_friction();
+        add_friction();
+    }
+    else if (!is_guarded)
         return;
-    select_collider(response.collider);
-    friction = find_friction();
-    add_friction();
+    if (is_guarded)
+        hold_at_features();
     const uint i = self.vertex.index;
-    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, 0);
+    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, is_guarded ? 1 : 0, guard);
     if (is_verlet(cloths[self.vertex.cloth].flags))
         predicted[i] += vec4(response.change, 0);
 }
@@ -235,6 +272,7 @@ void traverse(uint patch_index, uint index)
     const uint thread = gl_LocalInvocationID.x;
     const uint part = thread % push.lanes;
     response = no_response();
+    clear_guard();
     if (index < traversing_count)
     {
         self.vertex = patch_vertex(patch_index, traversing[index]);
@@ -242,11 +280,16 @@ void traverse(uint patch_index, uint index)
             visit_colliders(patch_index, part, push.lanes);
     }
     responses[thread] = response;
+    guards[thread] = guard;
+    urgencies[thread] = urgency;
     barrier();
     if (part == 0 && index < traversing_count)
     {
         for (uint other = thread + 1; other < thread + push.lanes; ++other)
+        {
             merge(responses[other]);
+            merge_guard(guards[other], urgencies[other]);
+        }
         write_correction();
     }
     barrier();
@@ -260,6 +303,7 @@ void main()
     barrier();
     const uint patch_index = near_patches[push.first_patch + gl_WorkGroupID.x];
     self.vertex = patch_vertex(patch_index, thread);
+    clear_guard();
     if (self.vertex.exists)
         clear_touched();
     if (self.vertex.exists && !merge_cells())

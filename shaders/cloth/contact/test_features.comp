@@ -43,6 +43,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "integration/integrator.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
+#include "contact/feature_guard.glsl"
 
 // The vertex that an item is of.
 PatchVertex item_vertex(uint cloth, uint index)
@@ -106,6 +107,15 @@ vec4 cell_portions(vec3 portions, uint kind, uint k)
     return result;
 }
 
+// One bit for each vertex of the cell that the piece has.
+uint cell_vertices(uint k)
+{
+    if (self.vertex.columns == 0)
+        return 1;
+    const uvec3 in_cell = k_cell_pieces[k];
+    return 1u << in_cell.x | 1u << in_cell.y | 1u << in_cell.z;
+}
+
 // Tests the feature against the piece. `excess`: m, a lower bound of its distance beyond the thickness when it was
 // listed.
 void test_piece(uint item, uint kind, uint k, float excess)
@@ -135,12 +145,19 @@ void test_piece(uint item, uint kind, uint k, float excess)
         touch = edge_contact(feature, piece.b);
         portions = edge_portions(touch, piece.b);
     }
-    if (!touch.contact.found)
+    const vec4 plane = guard_plane(feature, piece.b, triangle);
+    if (!touch.contact.found && plane.xyz == vec3(0))
         return;
-    const Impulse impulse = impulse_of(touch);
+    Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0);
+    vec4 in_cell_portions = vec4(0);
+    if (touch.contact.found)
+    {
+        impulse = impulse_of(touch);
+        in_cell_portions = cell_portions(portions, kind, k);
+    }
     feature_responses[item] =
-        FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach,
-                        cell_portions(portions, kind, k), collider_index, 0, 0, 0);
+        FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach, in_cell_portions, plane,
+                        collider_index, cell_vertices(k), 0, 0);
     const uint in_cell = item - cells[self.vertex.index].first;
     atomicOr(cells[self.vertex.index].touched[2 * (push.pass & 1) + in_cell / 32], 1u << in_cell % 32);
 }

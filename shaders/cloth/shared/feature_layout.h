@@ -62,13 +62,27 @@ struct FeatureSet
     uint padding_1;
 };
 
+// Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: half-spaces,
+// and what is known of the features that have none. All displacements are from the start of the motion.
+struct FeatureGuard
+{
+    vec4 planes[2]; // unit, into the half-space, and m: the distance of the start from its border
+    vec3 carried;   // m, the displacement with the nearest feature
+    float least;    // m: displacements this far from `carried` are safe
+    float reach;    // m: displacements in the half-spaces this far from that which integration proposes are safe; negative: none
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
+};
+
 // The change that features make to the proposed state of a vertex.
 struct FeatureCorrection
 {
     vec3 shift;   // m
     uint substep; // in which it applies, counted over all steps
     vec3 change;  // m/s
-    uint padding;
+    uint guarded; // 1: the guard applies, too
+    FeatureGuard guard;
 };
 
 // Where a vertex was when near features were listed.
@@ -99,7 +113,7 @@ struct FeatureCell
     uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
 };
 
-// The contact of a feature with a piece of cloth.
+// The contact of a feature with a piece of cloth, or of a piece that moves fast beside a feature.
 struct FeatureResponse
 {
     vec3 direction;   // unit, world
@@ -107,10 +121,11 @@ struct FeatureResponse
     vec3 slowing;     // m/s, by friction
     float approach;   // m/s
     vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
+    vec4 plane;       // collider's space: separates the piece from the feature before the motion; 0: the piece is slow
     uint collider;
+    uint vertices;    // of the cell that the piece has, one bit each
     uint padding_0;
     uint padding_1;
-    uint padding_2;
 };
 
 // Push constants of the query for near features.

@@ -1,0 +1,127 @@
+// Guards that keep fast cloth from crossing features (FeatureGuard), whatever its contacts do.
+//
+// Before the motion a plane separates a feature from a piece of cloth. As long as all vertices of the piece stay on their
+// side of it, the piece and the feature cannot cross. The planes of a vertex are known before contact moves it.
+//
+// The including kernel includes feature_response.glsl before.
+#ifndef VOILE_FEATURE_GUARD_GLSL
+#define VOILE_FEATURE_GUARD_GLSL
+
+#include "shared/separation.glsl"
+
+// A piece that moves less than this part of the thickness is not guarded.
+const float k_slow_part = 0.05;
+// Nor is one that moves less than this part of its distance from the feature.
+const float k_fast_part = 0.25;
+// Instead of the distance of a plane from the origin: it does not separate them within rounding, so that vertices may
+// not approach along its normal.
+const float k_no_room = 3e38;
+// Over the thickness: pieces do not come nearer than this to a feature.
+const float k_floor = 0.02;
+// Vertices may use this part of the distance, so that something is left.
+const float k_guarded_part = 0.9;
+
+FeatureGuard guard;
+vec2 urgency; // of the planes: the approach over the distance
+bool is_guarded;
+
+void clear_guard()
+{
+    guard.planes[0] = guard.planes[1] = vec4(0);
+    guard.carried = vec3(0);
+    guard.least = 3e38;
+    guard.reach = 3e38;
+    urgency = vec2(-3e38);
+    is_guarded = false;
+}
+
+// The plane between a feature and the current piece, in the collider's space, whose vertices are all loaded; 0: none, or
+// the piece is slow. Also none if the piece is where the feature's response would not hold it (feature_response.glsl).
+vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
+{
+    const SweptVertex a = piece.a;
+    const SweptVertex c = piece.c;
+    float longest = max(distance(a.from, a.to), distance(b.from, b.to));
+    if (triangle)
+        longest = max(longest, distance(c.from, c.to));
+    if (longest <= k_slow_part * self.thickness)
+        return vec4(0);
+    vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
+    if (!triangle)
+        x = vec3[](feature.a, feature.b, a.from, b.from);
+    const Nearest nearest = nearest_points(!triangle, x);
+    if (longest <= k_fast_part * (length(nearest.apart) - feature.radius))
+        return vec4(0);
+    const vec3 n = -normalize(separating_direction(!triangle, x, nearest)); // from the feature
+    if (!(dot(n, n) > 0) || is_behind(feature, n) || holds_back(feature, n))
+        return vec4(0);
+    const Separation separation = separate(!triangle, x, -n);
+    // Of the feature, the first side: its border is farthest along n.
+    const float border = (triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]))) + feature.radius + k_floor * self.thickness;
+    return vec4(n, separation.gap > feature.radius ? border : k_no_room);
+}
+
+// m: how far inside a plane a displacement is.
+float inside(vec4 plane, vec3 d) { return dot(plane.xyz, d) + plane.w; }
+
+void exceed(vec4 plane)
+{
+    if (plane.xyz != vec3(0))
+        guard.reach = min(guard.reach, inside(plane, displacement(self.earlier, self.proposed)));
+}
+
+void insert_plane(vec4 plane, float urgent)
+{
+    if (urgent > urgency.x)
+    {
+        exceed(guard.planes[1]);
+        guard.planes[1] = guard.planes[0];
+        guard.planes[0] = plane;
+        urgency = vec2(urgent, urgency.x);
+    }
+    else if (urgent > urgency.y)
+    {
+        exceed(guard.planes[1]);
+        guard.planes[1] = plane;
+        urgency.y = urgent;
+    }
+    else
+        exceed(plane);
+}
+
+// Adds a plane in the space of the current collider.
+void add_plane(vec4 plane)
+{
+    const SweptVertex own = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
+    if (plane.xyz == vec3(0))
+        return;
+    const float slack = k_guarded_part * max(dot(plane.xyz, own.from) - plane.w, 0);
+    is_guarded = true;
+    const vec3 carried = surface_displacement();
+    if (slack < guard.least)
+    {
+        guard.least = slack;
+        guard.carried = carried;
+    }
+    const vec3 n = collider_moves ? rotate(pose_to.rotation, plane.xyz) : plane.xyz;
+    insert_plane(vec4(n, slack - dot(n, carried)), dot(plane.xyz, own.from - own.to) / max(slack, 1e-9));
+}
+
+// Adds the guard that another thread found for the same vertex.
+void merge_guard(FeatureGuard other, vec2 other_urgency)
+{
+    if (other.least > 1e38)
+        return;
+    is_guarded = true;
+    guard.reach = min(guard.reach, other.reach);
+    if (other.least < guard.least)
+    {
+        guard.least = other.least;
+        guard.carried = other.carried;
+    }
+    for (uint k = 0; k < 2; ++k)
+        if (other.planes[k].xyz != vec3(0))
+            insert_plane(other.planes[k], other_urgency[k]);
+}
+
+#endif
