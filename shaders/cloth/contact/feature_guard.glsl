@@ -11,8 +11,10 @@
 
 // A piece that moves less than this part of the thickness is not guarded.
 const float k_slow_part = 0.05;
-// Nor is one that moves less than this part of its distance from the feature.
+// Nor is one that moves less than this part of its distance from the feature, after contact has pushed it by at most this
+// many times the thickness.
 const float k_fast_part = 0.25;
+const float k_most_push = 2;
 // Instead of the distance of a plane from the origin: it does not separate them within rounding, so that vertices may
 // not approach along its normal.
 const float k_no_room = 3e38;
@@ -50,7 +52,7 @@ vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
     if (!triangle)
         x = vec3[](feature.a, feature.b, a.from, b.from);
     const Nearest nearest = nearest_points(!triangle, x);
-    if (longest <= k_fast_part * (length(nearest.apart) - feature.radius))
+    if (longest <= k_fast_part * (length(nearest.apart) - feature.radius - k_most_push * self.thickness))
         return vec4(0);
     const vec3 n = -normalize(separating_direction(!triangle, x, nearest)); // from the feature
     if (!(dot(n, n) > 0) || is_behind(feature, n) || holds_back(feature, n))
