@@ -61,7 +61,6 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/feature_pieces.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
-#include "contact/feature_hold.glsl"
 
 // Per thread of the workgroup. Threads of one vertex are adjacent.
 shared Response responses[gl_WorkGroupSize.x];
@@ -148,7 +147,6 @@ void visit_collider(uint c, uint part, uint parts)
 
 void visit_colliders(uint patch_index, uint part, uint parts)
 {
-    self.thickness = cloths[self.vertex.cloth].thickness;
     ColliderWalk walk = walk_colliders(patch_index, box_around(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
@@ -188,6 +186,7 @@ bool load_self()
     self.proposed = proposed_position(i);
     self.inverse_mass = proposed_positions[i].w;
     self.velocity = proposed_velocities[i].xyz;
+    self.thickness = cloths[self.vertex.cloth].thickness;
     return self.inverse_mass > 0;
 }
 

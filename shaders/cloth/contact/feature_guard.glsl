@@ -1,18 +1,19 @@
 // Guards that keep fast cloth from crossing features (FeatureGuard), whatever its contacts do.
 //
-// Before the motion a plane separates a feature from a piece of cloth. As long as all vertices of the piece stay on their
-// side of it, the piece and the feature cannot cross. The planes of a vertex are known before contact moves it.
+// Before the motion a plane separates a feature from a piece of cloth. As long as all vertices of the piece stay on
+// their side of it, the piece and the feature cannot cross. The planes of a vertex are known before contact moves it.
 //
 // The including kernel includes feature_response.glsl before.
 #ifndef VOILE_FEATURE_GUARD_GLSL
 #define VOILE_FEATURE_GUARD_GLSL
 
+#include "contact/feature_hold.glsl"
 #include "shared/separation.glsl"
 
 // A piece that moves less than this part of the thickness is not guarded.
 const float k_slow_part = 0.05;
-// Nor is one that moves less than this part of its distance from the feature, after contact has pushed it by at most this
-// many times the thickness.
+// Nor is one that moves less than this part of its distance from the feature, after contact has pushed it by at most
+// this many times the thickness.
 const float k_fast_part = 0.25;
 const float k_most_push = 2;
 // Instead of the distance of a plane from the origin: it does not separate them within rounding, so that vertices may
@@ -33,12 +34,14 @@ void clear_guard()
     guard.carried = vec3(0);
     guard.least = 3e38;
     guard.reach = 3e38;
+    guard.stray = 0;
     urgency = vec2(-3e38);
     is_guarded = false;
 }
 
-// The plane between a feature and the current piece, in the collider's space, whose vertices are all loaded; 0: none, or
-// the piece is slow. Also none if the piece is where the feature's response would not hold it (feature_response.glsl).
+// The plane between a feature and the current piece, in the collider's space, whose vertices are all loaded; 0: none,
+// or the piece is slow. Also none if the piece is where the feature's response would not hold it
+// (feature_response.glsl).
 vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
 {
     const SweptVertex a = piece.a;
@@ -59,12 +62,10 @@ vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
         return vec4(0);
     const Separation separation = separate(!triangle, x, -n);
     // Of the feature, the first side: its border is farthest along n.
-    const float border = (triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]))) + feature.radius + k_floor * self.thickness;
+    const float border =
+        (triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]))) + feature.radius + k_floor * self.thickness;
     return vec4(n, separation.gap > feature.radius ? border : k_no_room);
 }
-
-// m: how far inside a plane a displacement is.
-float inside(vec4 plane, vec3 d) { return dot(plane.xyz, d) + plane.w; }
 
 void exceed(vec4 plane)
 {
@@ -99,6 +100,7 @@ void add_plane(vec4 plane)
         return;
     const float slack = k_guarded_part * max(dot(plane.xyz, own.from) - plane.w, 0);
     is_guarded = true;
+    guard.stray = self.thickness;
     const vec3 carried = surface_displacement();
     if (slack < guard.least)
     {
@@ -115,6 +117,7 @@ void merge_guard(FeatureGuard other, vec2 other_urgency)
     if (other.least > 1e38)
         return;
     is_guarded = true;
+    guard.stray = other.stray;
     guard.reach = min(guard.reach, other.reach);
     if (other.least < guard.least)
     {

@@ -7,6 +7,7 @@
 #include "contact/contact_vertex.glsl"
 #include "pairs/guard.glsl"
 #include "pairs/sweep.glsl"
+#include "shared/segments.glsl"
 
 // Rounding that guards leave room for, as a part of lengths.
 const float k_guard_rounding = 1e-5;
@@ -63,26 +64,19 @@ vec3 along_planes(Hold hold, vec3 motion)
     return motion;
 }
 
-// m^2, from the segment from 0 to `sweep`
-float squared_distance_from_sweep(vec3 x, vec3 sweep)
-{
-    const vec3 apart = x - clamp(dot(x, sweep) / max(dot(sweep, sweep), 1e-30), 0, 1) * sweep;
-    return dot(apart, apart);
-}
-
 // Whether the vertex will leave what the lists leave it before they can be made again.
 bool wants_lists(Hold hold, vec3 motion)
 {
     const float most = k_used_reach * hold.bound.sweep.reach;
     const vec3 ahead = hold.swept + (1 + push.pair_ahead) * (motion - hold.carried) + hold.left;
-    return squared_distance_from_sweep(ahead, hold.bound.sweep.sweep) >= most * most;
+    return squared_distance_from_segment(ahead, hold.bound.sweep.sweep) >= most * most;
 }
 
 // Whether no unlisted pair can have met. Rounding may take a vertex that ends its sweep's reach a little farther.
 bool is_in_sweep(Hold hold, vec3 motion)
 {
     const float reach = (1 + k_guard_rounding) * hold.bound.sweep.reach;
-    return squared_distance_from_sweep(hold.swept - hold.carried + motion, hold.bound.sweep.sweep) <= reach * reach;
+    return squared_distance_from_segment(hold.swept - hold.carried + motion, hold.bound.sweep.sweep) <= reach * reach;
 }
 
 // Where a vertex is within its guards. Each number is negative outside, and grows inwards.
@@ -102,7 +96,7 @@ Room room_at(Hold hold, vec3 motion)
     Room room;
     room.planes = vec2(dot(d, guard.planes[0].xyz) + guard.planes[0].w, dot(d, guard.planes[1].xyz) + guard.planes[1].w);
     room.ball = (1 - k_guard_rounding) * guard.reach - length(d);
-    room.sweep = reach * reach - squared_distance_from_sweep(hold.swept + motion, hold.bound.sweep.sweep);
+    room.sweep = reach * reach - squared_distance_from_segment(hold.swept + motion, hold.bound.sweep.sweep);
     return room;
 }
 

@@ -62,17 +62,17 @@ struct FeatureSet
     uint padding_1;
 };
 
-// Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: half-spaces,
-// and what is known of the features that have none. All displacements are from the start of the motion.
+// Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: two
+// half-spaces, and bounds for those of other features. All displacements are from the start of the motion.
 struct FeatureGuard
 {
     vec4 planes[2]; // unit, into the half-space, and m: the distance of the start from its border
     vec3 carried;   // m, the displacement with the nearest feature
     float least;    // m: displacements this far from `carried` are safe
-    float reach;    // m: displacements in the half-spaces this far from that which integration proposes are safe; negative: none
+    float reach;    // m, from what integration proposes, to the border of the nearest other half-space; negative: outside
+    float stray;    // m, from the way that integration proposes, to where features may be that are not known
     uint padding_0;
     uint padding_1;
-    uint padding_2;
 };
 
 // The change that features make to the proposed state of a vertex.

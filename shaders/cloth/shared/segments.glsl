@@ -33,4 +33,11 @@ float segment_distance(vec3 a, vec3 b, vec3 c, vec3 d)
     return distance(mix(a, b, at.x), mix(c, d, at.y));
 }
 
+// m^2, of x from the segment from 0 to `end`
+float squared_distance_from_segment(vec3 x, vec3 end)
+{
+    const vec3 apart = x - clamp(dot(x, end) / max(dot(end, end), 1e-30), 0, 1) * end;
+    return dot(apart, apart);
+}
+
 #endif
