@@ -60,10 +60,7 @@ uvec3 piece_vertices(PatchVertex self, uint kind, uint k)
 }
 
 // The vertices that the pieces of a vertex have: of a grid those of its cell.
-uint cell_count(PatchVertex self)
-{
-    return self.columns > 0 ? 4 : 1 + 2 * corner_count(self);
-}
+uint cell_count(PatchVertex self) { return self.columns > 0 ? 4 : 1 + 2 * corner_count(self); }
 
 // False: outside of the grid.
 bool find_in_cell(PatchVertex self, uint i, out uint vertex)

@@ -8,9 +8,9 @@
 #ifndef VOILE_FEATURE_GATHERING_GLSL
 #define VOILE_FEATURE_GATHERING_GLSL
 
-const uint k_most_gathered = 128; // features, of all colliders together
-const uint k_most_nodes = 128;    // of a level
-const uint k_most_gatherings = 8; // colliders
+const uint k_most_gathered = 128;  // features, of all colliders together
+const uint k_most_nodes = 128;     // of a level
+const uint k_most_gatherings = 8;  // colliders
 
 // What is near of one collider: a range of the gathered features.
 struct Gathering
@@ -22,7 +22,7 @@ struct Gathering
 };
 
 shared Gathering gatherings[k_most_gatherings];
-shared uint gathered[k_most_gathered];        // in the order of the features, collider by collider
+shared uint gathered[k_most_gathered];       // in the order of the features, collider by collider
 shared vec4 gathered_starts[k_most_gathered]; // a, radius
 shared vec4 gathered_ends[k_most_gathered];
 shared uint found_features[k_most_gathered]; // of one collider, in no order
@@ -39,10 +39,7 @@ uint ordered(float x)
     return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-float from_ordered(uint x)
-{
-    return uintBitsToFloat((x & 0x80000000u) != 0 ? x & 0x7fffffffu : ~x);
-}
+float from_ordered(uint x) { return uintBitsToFloat((x & 0x80000000u) != 0 ? x & 0x7fffffffu : ~x); }
 
 // Of a workgroup, in the space of a collider.
 struct GroupBoxes
@@ -51,10 +48,7 @@ struct GroupBoxes
     Box sweep;  // what they may reach until the next pass
 };
 
-bool is_finite(Box box)
-{
-    return all(lessThan(abs(box.min), vec3(3e38))) && all(lessThan(abs(box.max), vec3(3e38)));
-}
+bool is_finite(Box box) { return all(lessThan(abs(box.min), vec3(3e38))) && all(lessThan(abs(box.max), vec3(3e38))); }
 
 void join_corners(uint first, Box box)
 {

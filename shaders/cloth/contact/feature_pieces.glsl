@@ -22,8 +22,8 @@ Self self;
 uint collider_index;
 uint collider_flags;
 bool collider_moves;
-Pose pose_from;   // at the substep's start
-Pose pose_to;     // at its end
+Pose pose_from; // at the substep's start
+Pose pose_to;   // at its end
 Pose pose_listed; // when near features were listed
 PoseChange change_of_pose;
 
@@ -93,8 +93,8 @@ struct Piece
     SweptVertex a; // the vertex
     SweptVertex b;
     SweptVertex c;
-    bool triangle; // (a, b, c) is a triangle without pinned vertices
-    bool edge_b;   // (a, b) is an edge without pinned vertices
+    bool triangle;    // (a, b, c) is a triangle without pinned vertices
+    bool edge_b;      // (a, b) is an edge without pinned vertices
     bool edge_c;
     vec3 across;      // unit normal of the triangle
     vec3 across_then; // before the substep

@@ -33,10 +33,7 @@ struct Response
     uint collider; // of the strongest contact
     vec3 slowing;  // m/s, by friction, of that contact
 };
-Response no_response()
-{
-    return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0));
-}
+Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0)); }
 Response response = no_response();
 
 // Static and kinetic coefficient of the cloth with the current collider.
@@ -142,10 +139,7 @@ float holding_fraction(float pressed, float speed)
 }
 
 // The part of a vector across a unit vector.
-vec3 tangential(vec3 v, vec3 n)
-{
-    return v - dot(v, n) * n;
-}
+vec3 tangential(vec3 v, vec3 n) { return v - dot(v, n) * n; }
 
 // Where a feature and a piece of cloth touch.
 struct PieceContact
@@ -304,8 +298,8 @@ PieceContact edge_contact(Feature feature, SweptVertex b)
     // An edge that has turned over, or was parallel, has no side from before.
     const bool turned = dot(earlier, normal) <= 0;
     const vec3 across_then = turned ? across : normalize(earlier);
-    const FeatureContact contact = feature_contact(feature, across_then, dot(across_then, a.from - feature.a), across,
-                                                   dot(across, a.to - feature.a));
+    const FeatureContact contact =
+        feature_contact(feature, across_then, dot(across_then, a.from - feature.a), across, dot(across, a.to - feature.a));
     if (!contact.found)
         return no_contact();
     // The nearest points of two lines; Ericson 2004, Real-Time Collision Detection, 5.1.8.

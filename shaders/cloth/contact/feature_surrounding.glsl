@@ -1,15 +1,12 @@
 // The triangles around a vertex in the space of a collider, now and at the next query.
 //
-// The including kernel declares velocities[] and push (NearFeaturesPush), and `FinePosition position_of(uint vertex)`,
-// and includes box.glsl, patch.glsl, collider_pose.glsl and feature_fan.glsl before.
+// The including kernel declares velocities[] and push (NearFeaturesPush), and `FinePosition position_of(uint vertex)`, and
+// includes box.glsl, patch.glsl, collider_pose.glsl and feature_fan.glsl before.
 #ifndef VOILE_FEATURE_SURROUNDING_GLSL
 #define VOILE_FEATURE_SURROUNDING_GLSL
 
 // The vertices of the triangles around a vertex, and of its cell.
-uint around_count(PatchVertex self)
-{
-    return self.columns > 0 ? 8 : cell_count(self);
-}
+uint around_count(PatchVertex self) { return self.columns > 0 ? 8 : cell_count(self); }
 
 // False: outside of the grid.
 bool find_around(PatchVertex self, uint i, out uint vertex)
@@ -22,10 +19,7 @@ bool find_around(PatchVertex self, uint i, out uint vertex)
 }
 
 // Of the vertices around one in a grid: whether its pieces have it.
-bool is_in_cell(uint i)
-{
-    return i <= 2 || i == 7;
-}
+bool is_in_cell(uint i) { return i <= 2 || i == 7; }
 
 // The triangles around a vertex in the space of a collider.
 struct Surrounding
