@@ -42,6 +42,7 @@ layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padd
 layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(VOILE_BINDING(feature_corrections)) readonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
+layout(VOILE_BINDING(feature_guards)) readonly buffer FeatureGuards { FeatureGuard feature_guards[]; };
 layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_residuals)) buffer EarlierResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(depenetrations)) readonly buffer Depenetrations
@@ -374,18 +375,16 @@ void ask_for_lists(Hold hold, vec3 displacement)
             pair_searches[k].wanted = 1;
 }
 
-// Cuts a motion that contact has changed where the guard of features ends. Whether it does.
-bool hold_at_features(uint i, vec3 shifted, inout Motion motion)
+// Cuts a motion that contact has changed where the guard of features ends. `shifted`: m, the motion with the correction
+// of features.
+void hold_at_features(uint i, vec3 shifted, inout Motion motion)
 {
-    const FeatureCorrection correction = corrections[i];
-    if (correction.guarded == 0 || correction.substep != push.substep)
-        return false;
-    const float part = safe_part(correction.guard, shifted - correction.shift, motion.displacement);
-    if (part == 1)
-        return false;
-    motion.v = mix(correction.guard.carried / push.step, motion.v, part);
-    motion.displacement = mix(correction.guard.carried, motion.displacement, part);
-    return true;
+    if (corrections[i].guarded == 0)
+        return;
+    const FeatureGuard guard = feature_guards[i];
+    const float part = safe_part(guard, shifted - corrections[i].shift, motion.displacement);
+    motion.v = mix(guard.carried / push.step, motion.v, part);
+    motion.displacement = mix(guard.carried, motion.displacement, part);
 }
 
 // Cuts the motion where the guards of pairs end. Whether it does.
@@ -453,8 +452,8 @@ void main()
             flags |= VOILE_VERTEX_TOUCHES;
             changed = true;
         }
-        if ((flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
-            changed = hold_at_features(i, shifted, motion) || changed;
+        if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
+            hold_at_features(i, shifted, motion);
         if (held)
             changed = hold_within_guards(hold, motion) || changed;
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)

@@ -31,6 +31,7 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
 layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
 layout(VOILE_BINDING(feature_corrections)) writeonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
+layout(VOILE_BINDING(feature_guards)) writeonly buffer FeatureGuards { FeatureGuard feature_guards[]; };
 layout(VOILE_BINDING(feature_patches)) readonly buffer FeaturePatches { uint near_patches[]; };
 layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
@@ -77,6 +78,11 @@ bool is_near(Box a, Box b)
     return dot(gap, gap) <= self.thickness * self.thickness;
 }
 
+// A second visit of the features finds the planes of fast vertices. Together with the contacts they would take too many
+// registers.
+bool finds_guards = false;
+bool any_fast = false; // any piece of this thread
+
 struct FeatureQuery
 {
     Box piece; // of cloth
@@ -86,7 +92,11 @@ bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, nod
 
 void visit_edge(Feature feature, SweptVertex b)
 {
-    add_plane(guard_plane(feature, b, false));
+    if (finds_guards)
+    {
+        add_plane(guard_plane(feature, b, false));
+        return;
+    }
     const PieceContact touch = edge_contact(feature, b);
     if (touch.contact.found)
         respond(impulse_of(touch), edge_portions(touch, b).x, collider_index);
@@ -104,7 +114,11 @@ void visit_feature(Feature feature)
     }
     if (!piece.triangle)
         return;
-    add_plane(guard_plane(feature, piece.b, true));
+    if (finds_guards)
+    {
+        add_plane(guard_plane(feature, piece.b, true));
+        return;
+    }
     const PieceContact touch = triangle_contact(feature);
     if (touch.contact.found)
         respond(impulse_of(touch), triangle_portions(touch).x, collider_index);
@@ -139,6 +153,10 @@ void visit_collider(uint c, uint part, uint parts)
     {
         if (!load_piece(k))
             continue;
+        const bool fast = is_fast(longest_motion(piece.b, true));
+        any_fast = any_fast || fast;
+        if (finds_guards && !fast)
+            continue;
         const Box box = piece_box();
         FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
         traverse_bvh(query, set.first_node, set.first_feature);
@@ -170,11 +188,20 @@ void merge_items(uint first, uint touched, uint i)
         if (touch.portions[i] > 0)
             respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
                     touch.collider);
-        if ((touch.vertices & 1u << i) != 0 && touch.plane.xyz != vec3(0))
-        {
-            select_collider(touch.collider);
-            add_plane(touch.plane);
-        }
+    }
+}
+
+// The same for the planes of fast pieces.
+void add_planes(uint first, uint touched, uint i)
+{
+    for (; touched != 0; touched &= touched - 1)
+    {
+        const uint item = first + findLSB(touched);
+        const vec4 plane = feature_responses[item].plane;
+        if ((feature_responses[item].vertices & 1u << i) == 0 || plane.xyz == vec3(0))
+            continue;
+        select_collider(feature_responses[item].collider);
+        add_plane(plane);
     }
 }
 
@@ -190,40 +217,14 @@ bool load_self()
     return self.inverse_mass > 0;
 }
 
-// Merges the contacts of the items around the vertex. False: they do not suffice.
-bool merge_cells()
+// The change of the vertex by all contacts, with friction.
+void find_change()
 {
-    const uint word = 2 * (push.pass & 1);
-    bool valid = true;
-    uint firsts[4];
-    uvec2 touched[4];
-    uvec2 any = uvec2(0);
-    for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
-    {
-        const bool has = has_cell(i);
-        const uint cell = has ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
-        firsts[i] = cells[cell].first;
-        touched[i] = uvec2(cells[cell].touched[word], cells[cell].touched[word + 1]);
-        touched[i] = has ? touched[i] : uvec2(0);
-        any |= touched[i];
-        const uint invalid = cells[cell].invalid;
-        valid = valid && (!has || (invalid != push.substep && invalid != VOILE_EVERY_SUBSTEP));
-    }
-    if (valid && any != uvec2(0) && load_self())
-        for (uint i = 0; i < 4; ++i)
-        {
-            merge_items(firsts[i], touched[i].x, i);
-            merge_items(firsts[i] + 32, touched[i].y, i);
-        }
-    return valid;
-}
-
-// For the next pass.
-void clear_touched()
-{
-    const uint word = 2 * (1 - (push.pass & 1));
-    cells[self.vertex.index].touched[word] = 0;
-    cells[self.vertex.index].touched[word + 1] = 0;
+    if (response.collider == k_no_collider)
+        return;
+    select_collider(response.collider);
+    friction = find_friction();
+    add_friction();
 }
 
 // Holds the motion within the vertex's guard.
@@ -249,20 +250,95 @@ void hold_at_features()
 
 void write_correction()
 {
-    if (response.collider != k_no_collider)
-    {
-        select_collider(response.collider);
-        friction = find_friction();
-        add_friction();
-    }
-    else if (!is_guarded)
+    const uint i = self.vertex.index;
+    if (response.collider == k_no_collider && !is_guarded)
         return;
     if (is_guarded)
+    {
         hold_at_features();
-    const uint i = self.vertex.index;
-    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, is_guarded ? 1 : 0, guard);
+        feature_guards[i] = guard;
+    }
+    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, is_guarded ? 1 : 0);
     if (is_verlet(cloths[self.vertex.cloth].flags))
         predicted[i] += vec4(response.change, 0);
+}
+
+// The items around the vertex.
+struct Items
+{
+    uint firsts[4]; // of each cell
+    uvec2 touched[4];
+    bool valid; // they suffice
+    bool any;
+    bool fast;
+};
+
+Items load_items()
+{
+    Items items;
+    const uint word = 2 * (push.pass & 1);
+    items.valid = true;
+    items.fast = false;
+    uvec2 any = uvec2(0);
+    for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
+    {
+        const bool has = has_cell(i);
+        const uint cell = has ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
+        items.firsts[i] = cells[cell].first;
+        const uvec2 touched = uvec2(cells[cell].touched[word], cells[cell].touched[word + 1]);
+        items.touched[i] = has ? touched : uvec2(0);
+        any |= items.touched[i];
+        const uint invalid = cells[cell].invalid;
+        items.valid = items.valid && (!has || (invalid != push.substep && invalid != VOILE_EVERY_SUBSTEP));
+        items.fast = items.fast || (has && cells[cell].fast == push.substep);
+    }
+    items.any = any != uvec2(0);
+    return items;
+}
+
+// Merges the contacts of the items around the vertex. False: they do not suffice.
+bool merge_cells()
+{
+    const Items items = load_items();
+    if (!items.valid || !items.any || !load_self())
+        return items.valid;
+    for (uint i = 0; i < 4; ++i)
+    {
+        merge_items(items.firsts[i], items.touched[i].x, i);
+        merge_items(items.firsts[i] + 32, items.touched[i].y, i);
+    }
+    find_change();
+    for (uint i = 0; i < 4 && items.fast; ++i)
+    {
+        add_planes(items.firsts[i], items.touched[i].x, i);
+        add_planes(items.firsts[i] + 32, items.touched[i].y, i);
+    }
+    write_correction();
+    return true;
+}
+
+// For the next pass.
+void clear_touched()
+{
+    const uint word = 2 * (1 - (push.pass & 1));
+    cells[self.vertex.index].touched[word] = 0;
+    cells[self.vertex.index].touched[word + 1] = 0;
+}
+
+// Finds the guard of the vertex that the threads of its lanes traverse for, if any of its pieces is fast.
+void traverse_for_guards(uint patch_index, uint part, bool exists)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    finds_guards = true;
+    if (exists && any_fast)
+        visit_colliders(patch_index, part, push.lanes);
+    finds_guards = false;
+    guards[thread] = guard;
+    urgencies[thread] = urgency;
+    barrier();
+    if (part == 0 && exists)
+        for (uint other = thread + 1; other < thread + push.lanes; ++other)
+            merge_guard(guards[other], urgencies[other]);
 }
 
 // The response of the `index`-th vertex of those that traverse.
@@ -272,25 +348,26 @@ void traverse(uint patch_index, uint index)
     const uint part = thread % push.lanes;
     response = no_response();
     clear_guard();
-    if (index < traversing_count)
+    any_fast = false;
+    bool exists = index < traversing_count;
+    if (exists)
     {
         self.vertex = patch_vertex(patch_index, traversing[index]);
-        if (load_self())
-            visit_colliders(patch_index, part, push.lanes);
+        exists = load_self();
     }
+    if (exists)
+        visit_colliders(patch_index, part, push.lanes);
     responses[thread] = response;
-    guards[thread] = guard;
-    urgencies[thread] = urgency;
     barrier();
-    if (part == 0 && index < traversing_count)
+    if (part == 0 && exists)
     {
         for (uint other = thread + 1; other < thread + push.lanes; ++other)
-        {
             merge(responses[other]);
-            merge_guard(guards[other], urgencies[other]);
-        }
-        write_correction();
+        find_change();
     }
+    traverse_for_guards(patch_index, part, exists);
+    if (part == 0 && exists)
+        write_correction();
     barrier();
 }
 
@@ -304,11 +381,11 @@ void main()
     self.vertex = patch_vertex(patch_index, thread);
     clear_guard();
     if (self.vertex.exists)
+    {
         clear_touched();
-    if (self.vertex.exists && !merge_cells())
-        traversing[atomicAdd(traversing_count, 1)] = thread;
-    else
-        write_correction();
+        if (!merge_cells())
+            traversing[atomicAdd(traversing_count, 1)] = thread;
+    }
     barrier();
     for (uint first = 0; first < traversing_count; first += gl_WorkGroupSize.x / push.lanes)
         traverse(patch_index, first + thread / push.lanes);

@@ -10,12 +10,8 @@
 #include "contact/feature_hold.glsl"
 #include "shared/separation.glsl"
 
-// A piece that moves less than this part of the thickness is not guarded.
-const float k_slow_part = 0.05;
-// Nor is one that moves less than this part of its distance from the feature, after contact has pushed it by at most
-// this many times the thickness.
-const float k_fast_part = 0.25;
-const float k_most_push = 2;
+// A piece that moves less than this part of the thickness is slow: contact holds it.
+const float k_slow_part = 0.25;
 // Instead of the distance of a plane from the origin: it does not separate them within rounding, so that vertices may
 // not approach along its normal.
 const float k_no_room = 3e38;
@@ -39,23 +35,29 @@ void clear_guard()
     is_guarded = false;
 }
 
-// The plane between a feature and the current piece, in the collider's space, whose vertices are all loaded; 0: none,
-// or the piece is slow. Also none if the piece is where the feature's response would not hold it
-// (feature_response.glsl).
+// m: the longest displacement of a vertex of the current piece, relative to the collider.
+float longest_motion(SweptVertex b, bool triangle)
+{
+    const float longest = max(distance(piece.a.from, piece.a.to), distance(b.from, b.to));
+    return triangle ? max(longest, distance(piece.c.from, piece.c.to)) : longest;
+}
+
+bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
+
+// The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow, or too far
+// to reach the feature. Also none if the piece is where the feature would not hold it (feature_response.glsl).
 vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
 {
     const SweptVertex a = piece.a;
     const SweptVertex c = piece.c;
-    float longest = max(distance(a.from, a.to), distance(b.from, b.to));
-    if (triangle)
-        longest = max(longest, distance(c.from, c.to));
-    if (longest <= k_slow_part * self.thickness)
+    const float longest = longest_motion(b, triangle);
+    if (!is_fast(longest))
         return vec4(0);
     vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
     if (!triangle)
         x = vec3[](feature.a, feature.b, a.from, b.from);
     const Nearest nearest = nearest_points(!triangle, x);
-    if (longest <= k_fast_part * (length(nearest.apart) - feature.radius - k_most_push * self.thickness))
+    if (length(nearest.apart) - feature.radius > self.thickness + longest)
         return vec4(0);
     const vec3 n = -normalize(separating_direction(!triangle, x, nearest)); // from the feature
     if (!(dot(n, n) > 0) || is_behind(feature, n) || holds_back(feature, n))

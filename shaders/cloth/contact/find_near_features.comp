@@ -377,7 +377,7 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
         search.next += lane_counts[i];
     search.end = search.next + (room ? count : 0);
     if (lane == 0 && search.self.exists)
-        cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, 0,
+        cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
                                                uint[4](0, 0, 0, 0));
     return room && count > 0;
 }

@@ -146,8 +146,11 @@ void test_piece(uint item, uint kind, uint k, float excess)
         portions = edge_portions(touch, piece.b);
     }
     const vec4 plane = guard_plane(feature, piece.b, triangle);
-    if (!touch.contact.found && plane.xyz == vec3(0))
+    const bool fast = plane.xyz != vec3(0);
+    if (!touch.contact.found && !fast)
         return;
+    if (fast)
+        cells[self.vertex.index].fast = push.substep;
     Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0);
     vec4 in_cell_portions = vec4(0);
     if (touch.contact.found)

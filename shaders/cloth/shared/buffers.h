@@ -94,6 +94,7 @@ VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and ver
 VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features")
 VOILE_BUFFER(40, features, Feature, features, "a feature edge or vertex, and the direction that it faces")
 VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, features == 0 ? 0 : vertices, "a shift, a change of velocity, and the substep in which they apply")
+VOILE_SCRATCH_BUFFER(86, feature_guards, FeatureGuard, features == 0 ? 0 : vertices, "where a vertex near features may move in a substep")
 VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are near features")
 VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, VOILE_SUBSTEP_BATCHES * VOILE_FEATURE_DISPATCH_WORDS, "the sizes of the indirect dispatches over feature items, over the patches near features and of a second query for them, with the numbers of items, for each batch of cloths; cleared before they are written")
 VOILE_SCRATCH_BUFFER(79, feature_centers, FeatureCenter, features == 0 ? 0 : vertices, "the position of a vertex when near features were listed")

@@ -81,8 +81,7 @@ struct FeatureCorrection
     vec3 shift;   // m
     uint substep; // in which it applies, counted over all steps
     vec3 change;  // m/s
-    uint guarded; // 1: the guard applies, too
-    FeatureGuard guard;
+    uint guarded; // 1: the vertex has a guard in this substep
 };
 
 // Where a vertex was when near features were listed.
@@ -109,7 +108,7 @@ struct FeatureCell
     uint first;
     uint count;
     uint invalid; // the last substep in which features may be near that are not among them
-    uint padding;
+    uint fast;    // the last substep in which a piece moved fast beside a feature
     uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
 };
 
