@@ -51,7 +51,7 @@ public:
           closed_((flags & VOILE_COLLIDER_CLOSED) != 0),
           bend_(std::atan(4 * k_allowed_fraction * scale.thickness / scale.edge)),
           crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)),
-          spacing_(std::max(scale.edge, scale.thickness) / 4)
+          spacing_(std::max(std::min(scale.edge / 4, 2 * scale.thickness), scale.thickness / 4))
     {
     }
 
