@@ -14,7 +14,6 @@ namespace tests
 {
 
 constexpr float k_shot_duration = 1.f / 60; // s, per frame
-constexpr float k_slow_shot = 5;            // m/s; from 20 m/s on edges may cut the cloth and then stay
 
 struct ShotScene
 {
@@ -26,8 +25,6 @@ struct ShotScene
     bool traced = false;               // read after each substep: a thin collider could be jumped over or passed around
     std::optional<glm::dvec3> focus{}; // of a bowl: all of its inside is visible from here
     std::optional<float> top{};        // m: part of the cloth comes to rest above this
-    bool apart_when_slow = false;      // the slowest shot never makes collider and cloth intersect
-    bool apart_at_rest = false;        // nor does cloth at rest
 
     [[nodiscard]] voile::Collider collider() const
     {

@@ -78,10 +78,10 @@ bool is_near(Box a, Box b)
     return dot(gap, gap) <= self.thickness * self.thickness;
 }
 
-// A second visit of the features finds the planes of fast vertices. Together with the contacts they would take too many
+// A second visit of the features finds the planes of pieces that are fast or squeezed. Together with the contacts they would take too many
 // registers.
 bool finds_guards = false;
-bool any_fast = false; // any piece of this thread
+bool any_guarded = false; // of this thread
 
 struct FeatureQuery
 {
@@ -92,13 +92,11 @@ bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, nod
 
 void visit_edge(Feature feature, SweptVertex b)
 {
-    if (finds_guards)
-    {
-        add_plane(guard_plane(feature, b, false));
-        return;
-    }
     const PieceContact touch = edge_contact(feature, b);
-    if (touch.contact.found)
+    any_guarded = any_guarded || touch.contact.squeezed;
+    if (finds_guards)
+        add_plane(guard_plane(feature, b, false, touch.contact.squeezed));
+    else if (touch.contact.found)
         respond(impulse_of(touch), edge_portions(touch, b).x, collider_index);
 }
 
@@ -114,13 +112,11 @@ void visit_feature(Feature feature)
     }
     if (!piece.triangle)
         return;
-    if (finds_guards)
-    {
-        add_plane(guard_plane(feature, piece.b, true));
-        return;
-    }
     const PieceContact touch = triangle_contact(feature);
-    if (touch.contact.found)
+    any_guarded = any_guarded || touch.contact.squeezed;
+    if (finds_guards)
+        add_plane(guard_plane(feature, piece.b, true, touch.contact.squeezed));
+    else if (touch.contact.found)
         respond(impulse_of(touch), triangle_portions(touch).x, collider_index);
 }
 
@@ -153,10 +149,7 @@ void visit_collider(uint c, uint part, uint parts)
     {
         if (!load_piece(k))
             continue;
-        const bool fast = is_fast(longest_motion(piece.b, true));
-        any_fast = any_fast || fast;
-        if (finds_guards && !fast)
-            continue;
+        any_guarded = any_guarded || is_fast(longest_motion(piece.b, true));
         const Box box = piece_box();
         FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
         traverse_bvh(query, set.first_node, set.first_feature);
@@ -191,7 +184,7 @@ void merge_items(uint first, uint touched, uint i)
     }
 }
 
-// The same for the planes of fast pieces.
+// The same for planes.
 void add_planes(uint first, uint touched, uint i)
 {
     for (; touched != 0; touched &= touched - 1)
@@ -270,7 +263,7 @@ struct Items
     uvec2 touched[4];
     bool valid; // they suffice
     bool any;
-    bool fast;
+    bool guarded;
 };
 
 Items load_items()
@@ -278,7 +271,7 @@ Items load_items()
     Items items;
     const uint word = 2 * (push.pass & 1);
     items.valid = true;
-    items.fast = false;
+    items.guarded = false;
     uvec2 any = uvec2(0);
     for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
     {
@@ -290,7 +283,7 @@ Items load_items()
         any |= items.touched[i];
         const uint invalid = cells[cell].invalid;
         items.valid = items.valid && (!has || (invalid != push.substep && invalid != VOILE_EVERY_SUBSTEP));
-        items.fast = items.fast || (has && cells[cell].fast == push.substep);
+        items.guarded = items.guarded || (has && cells[cell].guarded == push.substep);
     }
     items.any = any != uvec2(0);
     return items;
@@ -308,7 +301,7 @@ bool merge_cells()
         merge_items(items.firsts[i] + 32, items.touched[i].y, i);
     }
     find_change();
-    for (uint i = 0; i < 4 && items.fast; ++i)
+    for (uint i = 0; i < 4 && items.guarded; ++i)
     {
         add_planes(items.firsts[i], items.touched[i].x, i);
         add_planes(items.firsts[i] + 32, items.touched[i].y, i);
@@ -325,12 +318,12 @@ void clear_touched()
     cells[self.vertex.index].touched[word + 1] = 0;
 }
 
-// Finds the guard of the vertex that the threads of its lanes traverse for, if any of its pieces is fast.
+// Finds the guard of the vertex that the threads of its lanes traverse for, if any of its pieces needs one.
 void traverse_for_guards(uint patch_index, uint part, bool exists)
 {
     const uint thread = gl_LocalInvocationID.x;
     finds_guards = true;
-    if (exists && any_fast)
+    if (exists && any_guarded)
         visit_colliders(patch_index, part, push.lanes);
     finds_guards = false;
     guards[thread] = guard;
@@ -348,7 +341,7 @@ void traverse(uint patch_index, uint index)
     const uint part = thread % push.lanes;
     response = no_response();
     clear_guard();
-    any_fast = false;
+    any_guarded = false;
     bool exists = index < traversing_count;
     if (exists)
     {

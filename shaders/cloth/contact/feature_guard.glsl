@@ -44,14 +44,14 @@ float longest_motion(SweptVertex b, bool triangle)
 
 bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
 
-// The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow, or too far
-// to reach the feature. Also none if the piece is where the feature would not hold it (feature_response.glsl).
-vec4 guard_plane(Feature feature, SweptVertex b, bool triangle)
+// The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow and not
+// squeezed, or too far to reach the feature. Also none if the piece is where the feature would not hold it (feature_response.glsl).
+vec4 guard_plane(Feature feature, SweptVertex b, bool triangle, bool squeezed)
 {
     const SweptVertex a = piece.a;
     const SweptVertex c = piece.c;
     const float longest = longest_motion(b, triangle);
-    if (!is_fast(longest))
+    if (!squeezed && !is_fast(longest))
         return vec4(0);
     vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
     if (!triangle)

@@ -18,6 +18,8 @@ const float k_slow = 100;
 const float k_border = 1e-3;
 // Over the thickness: a piece this close to a feature touched it.
 const float k_touching = 1.001;
+// Over the thickness: a piece this close to a feature is pressed harder than its response can answer.
+const float k_squeezed = 0.5;
 // The most that a vertex moves per motion of the contact point. Equal masses need 1.4, a ratio of 16 needs 3.4.
 const float k_most_portion = 4;
 
@@ -75,6 +77,7 @@ struct FeatureContact
     float wanted;   // m, the gap after the response
     float time;     // 0..1 of the substep, at which they touch; 1: they are close at the end
     bool held;      // they touched before, and forces have moved the cloth for several substeps
+    bool squeezed;  // they were much nearer than the thickness before
 };
 
 // Whether a piece of cloth in this direction (unit) from a feature is inside the collider.
@@ -101,6 +104,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
 {
     FeatureContact result;
     result.found = false;
+    result.squeezed = false;
     if (dot(before, now) <= 0)
         from = to; // it has turned over
     float side = from >= 0 ? 1 : -1;
@@ -119,6 +123,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     result.found = result.gap < self.thickness && (passed || result.gap > -self.thickness);
     // What was too close before is lifted slowly, or one contact's push would make the next one miss.
     result.wanted = min(self.thickness, gap_before + k_lift_speed * push.step);
+    result.squeezed = result.found && gap_before < k_squeezed * self.thickness;
     result.held = push.kicks > 1 && gap_before <= k_touching * self.thickness;
     result.time = passed ? gap_before / (gap_before - result.gap) : 1;
     return result;
@@ -255,6 +260,7 @@ PieceContact no_contact()
 {
     PieceContact none;
     none.contact.found = false;
+    none.contact.squeezed = false;
     return none;
 }
 

@@ -145,12 +145,12 @@ void test_piece(uint item, uint kind, uint k, float excess)
         touch = edge_contact(feature, piece.b);
         portions = edge_portions(touch, piece.b);
     }
-    const vec4 plane = guard_plane(feature, piece.b, triangle);
-    const bool fast = plane.xyz != vec3(0);
-    if (!touch.contact.found && !fast)
+    const vec4 plane = guard_plane(feature, piece.b, triangle, touch.contact.squeezed);
+    const bool guarded = plane.xyz != vec3(0);
+    if (!touch.contact.found && !guarded)
         return;
-    if (fast)
-        cells[self.vertex.index].fast = push.substep;
+    if (guarded)
+        cells[self.vertex.index].guarded = push.substep;
     Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0);
     vec4 in_cell_portions = vec4(0);
     if (touch.contact.found)

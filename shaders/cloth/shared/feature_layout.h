@@ -108,11 +108,11 @@ struct FeatureCell
     uint first;
     uint count;
     uint invalid; // the last substep in which features may be near that are not among them
-    uint fast;    // the last substep in which a piece moved fast beside a feature
+    uint guarded; // the last substep in which an item had a plane (FeatureGuard)
     uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
 };
 
-// The contact of a feature with a piece of cloth, or of a piece that moves fast beside a feature.
+// The contact of a feature with a piece of cloth, or a plane that a piece of cloth may not cross.
 struct FeatureResponse
 {
     vec3 direction;   // unit, world
@@ -120,7 +120,7 @@ struct FeatureResponse
     vec3 slowing;     // m/s, by friction
     float approach;   // m/s
     vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
-    vec4 plane;       // collider's space: separates the piece from the feature before the motion; 0: the piece is slow
+    vec4 plane;       // collider's space: separates the piece from the feature before the motion; 0: none
     uint collider;
     uint vertices;    // of the cell that the piece has, one bit each
     uint padding_0;
