@@ -43,11 +43,7 @@ void let_rest(const Scene& scene, uint32_t frames, float air_density = k_drop.ai
 
 Scene pair_of_triangles(const std::string& name, float width)
 {
-    return {.name = name,
-            .mesh = tests::triangle_pair(width),
-            .height = 0.15f,
-            .traced = true,
-            .top = 0.f};
+    return {.name = name, .mesh = tests::triangle_pair(width), .height = 0.15f, .traced = true, .top = 0.f};
 }
 
 Scene upright_needle()
@@ -127,6 +123,13 @@ TEST_CASE("cloth shot into a round bowl")
 TEST_CASE("cloth shot into the corner of three squares")
 {
     shoot(corner());
+}
+
+// Its vertices are 10 cm apart, and the mesh bends within that although it is smooth.
+TEST_CASE("coarse cloth lies on a dense mesh")
+{
+    const Scene scene{.name = "lump", .mesh = tests::lump_with_ears(120), .height = 0.6f};
+    (void)tests::shoot(scene, {.vertices = 12, .size = 1.1f, .thickness = k_thick, .frames = 40, .stiffness = 1});
 }
 
 TEST_CASE("cloth comes to rest on two triangles")

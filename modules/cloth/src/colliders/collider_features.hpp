@@ -42,7 +42,7 @@ struct ColliderFeatures
 };
 
 // Of a mesh, where it bends by more than the thickness allows within the length of an edge: its edges, if they are
-// longer than a quarter of the larger of that and the thickness, and corners that lie as far from each other. Of an
+// longer than twice the thickness or a quarter of that length, and corners that lie as far from each other. Of an
 // open or two-sided mesh its border too. Boxes, and spheres and capsules that are thin by the same measure. Meshes that
 // deform have none.
 ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale);

@@ -214,7 +214,7 @@ private:
     bool closed_;
     float bend_;    // rad: half of the spread of normals that counts where the mesh is narrow
     float crease_;  // rad: half of the angle of an edge that counts by itself
-    float spacing_; // m, of corners, and the length of edges
+    float spacing_; // m, of corners, between which coarse cloth would sag, and the length of edges
     std::vector<Surroundings> surroundings_;
     std::vector<uint32_t> chosen_;     // triangles
     std::vector<glm::vec3> positions_; // three per chosen triangle
