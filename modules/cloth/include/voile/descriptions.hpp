@@ -190,7 +190,7 @@ enum class Sidedness
 // Edges and corners. Edges and corners of colliders collide with the triangles and edges of cloths
 // (SolverOptions::feature_contact).
 // - Shots of cloth 1 and 3 mm thick, 43 mm between vertices, at 5 to 60 m/s left no edge of the cloth or the collider
-//   through the other: needles, strips, boxes. Fast cloth that is near edges and corners may lose some of its speed
+//   through the other: needles, strips, boxes. Nor did such colliders, driven through a sheet at up to 100 m/s. Fast cloth that is near edges and corners may lose some of its speed
 //   along them. A strain limit moves cloth after contact, also that which replaces missing substeps: with one, edges
 //   may be left through a collider.
 // - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, enabled or not.

@@ -1,0 +1,96 @@
+// Colliders that are driven through a sheet: no edge of either passes through the other. Intersections are counted
+// exactly, on the device.
+#include "support/cloth_harness.hpp"
+#include "support/collider_scenes.hpp"
+#include "support/hard_shapes.hpp"
+
+#include "voile/fabrics.hpp"
+
+namespace
+{
+
+constexpr float k_frame = 1.f / 60;
+constexpr uint32_t k_frames = 5;
+constexpr float k_thin = 0.001f; // m
+constexpr float k_speeds[] = {5, 30, 100};
+
+// A collider above the sheet.
+struct Driven
+{
+    const char* name;
+    voile::engine::Mesh mesh;
+    glm::mat4 start;
+};
+
+voile::engine::Mesh needle_that_points_down()
+{
+    constexpr float k_length = 0.5f;
+    voile::engine::Mesh mesh = tests::needle(k_length, 0.02f);
+    for (glm::vec3& p : mesh.positions)
+        p.y = -p.y;
+    for (glm::uvec3& triangle : mesh.triangles)
+        std::swap(triangle.x, triangle.y);
+    for (glm::vec3& p : mesh.positions)
+        p.y += k_length;
+    return mesh;
+}
+
+std::vector<Driven> driven()
+{
+    const glm::mat4 tilted = glm::rotate(tests::moved({0, 0.3f, 0}), 0.6f, glm::normalize(glm::vec3(1, 0.3f, 1)));
+    return {
+        {"needle", needle_that_points_down(), tests::moved({0, 0.05f, 0})},
+        {"box on its corner", voile::engine::make_box(glm::vec3(-0.1f), glm::vec3(0.1f)), tilted},
+        {"bar", voile::engine::make_box({-0.3f, -0.01f, -0.005f}, {0.3f, 0.01f, 0.005f}), tests::moved({0, 0.1f, 0})},
+        {"strip", tests::triangle_pair(0.02f), tests::moved({0, 0.1f, 0})}};
+}
+
+// Pinned at its corners.
+voile::GridCloth sheet()
+{
+    voile::GridCloth grid;
+    grid.columns = grid.rows = 32;
+    grid.width = grid.depth = 1.5f;
+    grid.transform = glm::rotate(tests::moved({0.013f, 0, 0.007f}), 0.3f, glm::vec3(0, 1, 0)); // parallel to no axis
+    grid.integrator = voile::Integrator::verlet;
+    voile::Fabric fabric = voile::cotton();
+    fabric.thickness = k_thin;
+    grid.material = fabric;
+    const uint32_t last = grid.columns - 1;
+    grid.pins = {0, last, last * grid.columns, grid.columns * grid.columns - 1};
+    return grid;
+}
+
+void drive(const Driven& shape, float speed)
+{
+    CAPTURE(shape.name);
+    CAPTURE(speed);
+    tests::ClothHarness harness({.intersections = true});
+    const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(sheet()));
+    voile::MeshCollider mesh = tests::collider(shape.mesh);
+    mesh.transform = shape.start;
+    const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(mesh));
+    harness.upload();
+    float lowest = 0;
+    for (uint32_t frame = 1; frame <= k_frames; ++frame)
+    {
+        const float way = speed * k_frame * static_cast<float>(frame);
+        harness.solver.move_collider(id, tests::moved({0, -way, 0}) * shape.start);
+        harness.step({.duration = k_frame, .gravity = glm::vec3(0), .air_density = 0});
+        const voile::Statistics statistics = harness.statistics();
+        CHECK(statistics.penetrating_vertices == 0);
+        CHECK(statistics.intersections->collider_pairs == 0);
+        for (const glm::vec4& p : harness.positions(cloth))
+            lowest = std::min(lowest, p.y);
+    }
+    CHECK(lowest < -0.02f); // it was hit
+}
+
+} // namespace
+
+TEST_CASE("colliders that are driven through a sheet at up to 100 m/s take it along")
+{
+    for (const Driven& shape : driven())
+        for (const float speed : k_speeds)
+            drive(shape, speed);
+}
