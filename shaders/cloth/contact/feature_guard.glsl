@@ -45,13 +45,14 @@ float longest_motion(SweptVertex b, bool triangle)
 bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
 
 // The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow and not
-// squeezed, or too far to reach the feature. Also none if the piece is where the feature would not hold it (feature_response.glsl).
+// squeezed, or too far to reach the feature. Also none if the piece is behind the feature, or the cloth leaves the
+// collider (feature_response.glsl).
 vec4 guard_plane(Feature feature, SweptVertex b, bool triangle, bool squeezed)
 {
     const SweptVertex a = piece.a;
     const SweptVertex c = piece.c;
     const float longest = longest_motion(b, triangle);
-    if (!squeezed && !is_fast(longest))
+    if (exits_along != vec3(0) || (!squeezed && !is_fast(longest)))
         return vec4(0);
     vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
     if (!triangle)
@@ -60,7 +61,7 @@ vec4 guard_plane(Feature feature, SweptVertex b, bool triangle, bool squeezed)
     if (length(nearest.apart) - feature.radius > self.thickness + longest)
         return vec4(0);
     const vec3 n = -normalize(separating_direction(!triangle, x, nearest)); // from the feature
-    if (!(dot(n, n) > 0) || is_behind(feature, n) || holds_back(feature, n))
+    if (!(dot(n, n) > 0) || is_behind(feature, n))
         return vec4(0);
     const Separation separation = separate(!triangle, x, -n);
     // Of the feature, the first side: its border is farthest along n.
