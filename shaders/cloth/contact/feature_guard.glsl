@@ -44,6 +44,17 @@ float longest_motion(SweptVertex b, bool triangle)
 
 bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
 
+// Whether the box of the piece's motion comes closer than the thickness. What does not is not listed in all cases
+// (find_near_features.comp), and `stray` keeps it away.
+bool may_meet(Feature feature, SweptVertex b, bool triangle)
+{
+    Box swept = joined(box_around(piece.a.from, piece.a.to), box_around(b.from, b.to));
+    if (triangle)
+        swept = joined(swept, box_around(piece.c.from, piece.c.to));
+    const Box own = grown(box_around(feature.a, feature.b), feature.radius + self.thickness);
+    return overlap(swept, own);
+}
+
 // The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow and not
 // squeezed, or too far to reach the feature. Also none if the piece is behind the feature, or the cloth leaves the
 // collider (feature_response.glsl).
@@ -53,6 +64,8 @@ vec4 guard_plane(Feature feature, SweptVertex b, bool triangle, bool squeezed)
     const SweptVertex c = piece.c;
     const float longest = longest_motion(b, triangle);
     if (exits_along != vec3(0) || (!squeezed && !is_fast(longest)))
+        return vec4(0);
+    if (!may_meet(feature, b, triangle))
         return vec4(0);
     vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
     if (!triangle)

@@ -169,16 +169,26 @@ bool may_touch(uint c, PatchVertex self)
     return feature_sets[c].features > 0 && (colliders[c].layers & cloths[self.cloth].layers) != 0;
 }
 
-// m: the margin for the vertex's pieces, for the collider relative to which they move fastest.
+// m: the margin for the vertex's pieces, for the collider relative to which they move fastest. Those whose features are
+// out of reach do not count: results must not depend on distant colliders.
 float find_margin(PatchVertex self, Box walked)
 {
-    float longest = 0;
+    const float thickness = cloths[self.cloth].thickness;
+    float margin = k_resting_margin * thickness;
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
     while (next_collider(walk, c))
-        if (may_touch(c, self))
-            longest = max(longest, surrounding(self, c, colliders[c].flags).longest);
-    return k_resting_margin * cloths[self.cloth].thickness + k_moving_margin * longest;
+    {
+        if (!may_touch(c, self))
+            continue;
+        const Surrounding around = surrounding(self, c, colliders[c].flags);
+        const float wanted = k_resting_margin * thickness + k_moving_margin * around.longest;
+        const Box reached =
+            grown(joined(around.box, around.later), 1.01 * thickness + max(wanted, push.sudden * push.time));
+        if (overlap(reached, Box(feature_sets[c].box_min, feature_sets[c].box_max)))
+            margin = max(margin, wanted);
+    }
+    return margin;
 }
 
 // The number of pieces that a vertex may have, and one of them. False: not this one.
