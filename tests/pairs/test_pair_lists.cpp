@@ -54,8 +54,8 @@ public:
         step({.duration = 1e-4f, .substeps = 1, .gravity = {0, 0, 0}, .air_density = 0});
         Lists result;
         const auto vertices = opened(solver).device->vertices;
-        const auto bounds = content<PairBound>(buffer::pair_bounds, 1 + vertices);
-        for (size_t i = 1; i < bounds.size(); ++i)
+        const auto bounds = content<PairBound>(buffer::pair_bounds, 2 + vertices);
+        for (size_t i = 2; i < bounds.size(); ++i)
             result.sweeps.push_back(bounds[i].sweep);
         const auto passes = content<PairDispatch>(buffer::pair_passes, VOILE_PAIR_PASSES);
         const auto entries = content<uint32_t>(buffer::pair_entries, size_t{vertices} * VOILE_PAIRS);
@@ -120,7 +120,7 @@ void add_cloth(Primitives& all, const voile::Solver& solver, voile::ClothId clot
 // m, half of it: what pack_half_sweep (sweep.glsl) has packed.
 glm::dvec3 unpacked_sweep(uint32_t word)
 {
-    const double unit = std::ldexp(1.0, static_cast<int>(word >> 27) - 24);
+    const double unit = std::ldexp(1.0, static_cast<int>(word >> 27 & 15u) - 22);
     const auto number = [&](int k) { return unit * (static_cast<int32_t>(word << (23 - 9 * k)) >> 23); };
     return {number(0), number(1), number(2)};
 }

@@ -4,6 +4,7 @@
 #ifndef VOILE_CLOCK_GLSL
 #define VOILE_CLOCK_GLSL
 
+#include "pairs/fall.glsl"
 #include "pairs/sweep.glsl"
 
 float clock_at_pass() { return uintBitsToFloat(pair_searches[VOILE_PAIR_CLOCKS + (push.pass & 1u)].entries); }
@@ -24,10 +25,27 @@ float clock_rate()
     return min(room, max(VOILE_PAIR_SWEEP_TIME - clock_at_pass(), 0) / push.interval);
 }
 
+// s^2: gravity times this is how far it carries vertices: since lists were made, and until the next pass if the clock
+// runs as fast as time.
+float fall_at_pass() { return uintBitsToFloat(pair_searches[VOILE_PAIR_FALLS + (push.pass & 1u)].entries); }
+
+float fall_until_next()
+{
+    const float clock = clock_at_pass();
+    return push.interval * (clock + 0.5 * min(push.interval, max(VOILE_PAIR_SWEEP_TIME - clock, 0)));
+}
+
 // m: how far a vertex is carried until the next pass if the clock runs as fast as time.
 vec3 carry_until_next(uint word)
 {
-    return 2 * push.interval / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word);
+    return 2 * push.interval / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word) +
+           falls(word) * (fall_until_next() * gravity_of_pairs() + push.interval * rounded_off());
+}
+
+// Relative to another vertex. What is carried equally has exactly 0, whatever a compiler does with sums.
+vec3 carry_until_next(uint word, uint other)
+{
+    return word == other ? vec3(0) : carry_until_next(word) - carry_until_next(other);
 }
 
 #endif

@@ -98,7 +98,7 @@ void add_node(inout Hull hull, vec3 normal, Node node)
 {
     hull.box = joined(hull.box, Box(node.x - extent_of(node), node.x + extent_of(node)));
     const float height = dot(normal, node.x);
-    const float sweep = abs(dot(normal, node.sweep)) + abs(dot(normal, node.carry));
+    const float sweep = abs(dot(normal, node.sweep)) + abs(dot(normal, node.carry)) + node.fall;
     hull.heights = vec2(min(hull.heights.x, height - sweep), max(hull.heights.y, height + sweep));
 }
 
@@ -177,7 +177,7 @@ Search search_of(uint vertex, uint cloth)
     search.normal = normal / max(length(normal), 1e-30);
     const Hull hull = hull_of(search.fan, search.from, search.normal);
     search.hull = hull.box;
-    search.tree_hull = hull_of(search.fan, Viewpoint(search.from.x, tree_carry()), search.normal).box;
+    search.tree_hull = hull_of(search.fan, Viewpoint(search.from.x, tree_carry(), tree_fall()), search.normal).box;
     search.heights = hull.heights;
     search.count = 0;
     return search;

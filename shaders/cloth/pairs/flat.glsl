@@ -17,7 +17,7 @@
 // count. From there a vertex may be anywhere on its sweep, so each side comes nearer by at most half of the longest
 // sweep, projected. Projections are not longer than what they project. tests/pairs/test_pair_lists.cpp compares with all pairs.
 //
-// The including kernel declares midpoints[] and pair_carries[].
+// The including kernel declares midpoints[], pair_carries[] and push.
 #ifndef VOILE_FLAT_GLSL
 #define VOILE_FLAT_GLSL
 
@@ -81,6 +81,7 @@ struct Plane
 {
     vec3 from;
     vec3 carry; // m, half of it
+    float fall; // m, beyond that
     vec3 x;
     vec3 y;
 };
@@ -99,7 +100,8 @@ Plane tangent_plane(Fan fan)
     const vec3 down = midpoints[center + high.y * columns].xyz - midpoints[center + low.y * columns].xyz;
     const vec3 x = along / max(length(along), 1e-30);
     const vec3 y = down - dot(down, x) * x;
-    return Plane(midpoints[center].xyz, unpack_half_sweep(pair_carries[center]), x, y / max(length(y), 1e-30));
+    return Plane(midpoints[center].xyz, unpack_half_sweep(pair_carries[center]), fall_of(pair_carries[center]), x,
+                 y / max(length(y), 1e-30));
 }
 
 // Both windows of a vertex.
@@ -145,7 +147,8 @@ void add_row(Fan fan, Plane plane, int row, inout Row above, inout Windows windo
         const vec4 midpoint = midpoints[vertex];
         const vec2 carry = in_plane(plane, unpack_half_sweep(pair_carries[vertex]) - plane.carry);
         const vec4 x = vec4(in_plane(plane, midpoint.xyz - plane.from), carry);
-        const float sweep = length(in_plane(plane, unpack_half_sweep(floatBitsToUint(midpoint.w))));
+        const float fall = fall_between(fall_of(pair_carries[vertex]), plane.fall);
+        const float sweep = length(in_plane(plane, unpack_half_sweep(floatBitsToUint(midpoint.w)))) + fall;
         const bool inner = is_inner(at);
         windows.wide.sweep = max(windows.wide.sweep, sweep);
         windows.narrow.sweep = inner ? max(windows.narrow.sweep, sweep) : windows.narrow.sweep;

@@ -5,6 +5,7 @@
 #define VOILE_HOLD_GLSL
 
 #include "contact/contact_vertex.glsl"
+#include "pairs/fall.glsl"
 #include "pairs/guard.glsl"
 #include "pairs/sweep.glsl"
 #include "shared/segments.glsl"
@@ -21,7 +22,7 @@ struct Hold
     PairBound bound;
     vec3 at;         // m, the start of the motion from the guard's
     vec3 swept;      // m, the start of the motion from the sweep's
-    vec3 carry;      // m/s
+    vec3 carry;      // m/s, when the integrator has its velocity
     vec3 carried;    // m, in the time of the motion
     vec3 left;       // m, for which the clock ends too early, until the pass after the next
 };
@@ -43,13 +44,18 @@ Hold hold_of(uint i, FinePosition from)
     hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
     const float rate = uintBitsToFloat(pair_searches[VOILE_PAIR_RATE].entries);
     const float clock = uintBitsToFloat(pair_searches[VOILE_PAIR_CLOCK].entries);
-    const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry);
-    hold.carry = rate * velocity;
-    hold.carried = (push.pair_to - push.pair_from) * hold.carry;
-    hold.at -= push.pair_from * hold.carry;
-    hold.swept -= clock * velocity + push.pair_from * hold.carry;
+    const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
+                          (sweep.fall > 0 ? rounded_off() : vec3(0));
+    const vec3 gravity = sweep.fall > 0 ? gravity_of_pairs() : vec3(0);
+    const vec3 mean = rate * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL_RATE].entries) * gravity;
+    const float now = clock + rate * mix(push.pair_from, push.pair_to, sweep.fall);
+    hold.carry = rate * (velocity + now * gravity);
+    hold.carried = (push.pair_to - push.pair_from) * mean;
+    hold.at -= push.pair_from * mean;
+    hold.swept -= clock * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL].entries) * gravity +
+                  push.pair_from * mean;
     const float end = clock + rate * push.pair_to + push.pair_ahead * push.step;
-    hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * velocity;
+    hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);
     return hold;
 }
 

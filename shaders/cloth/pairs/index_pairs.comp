@@ -38,6 +38,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/mean_velocity.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
 #include "pairs/pair_tree.glsl"
@@ -123,8 +124,9 @@ void refer(Fan fan, uint at)
 }
 
 // Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
-// clock stops and the vertex stays where it is. It loses its velocity, so that the next sweeps are shorter.
-void bound(uint i, float reach, bool listed)
+// vertex stays on its carry. All that falls freely has the same. Else the clock stops, and the vertex stays where it is.
+// It loses its velocity, so that the next sweeps are shorter.
+void bound(uint i, uint cloth, float reach, bool listed)
 {
     PairSweep sweep;
     sweep.from = positions[i].xyz;
@@ -132,11 +134,21 @@ void bound(uint i, float reach, bool listed)
     sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
     sweep.listed = listed ? 1 : 0;
     sweep.carry = pair_carries[i];
-    if (reach <= 0 && unpack_half_sweep(sweep.carry) != vec3(0))
+    sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
+    if (reach <= 0 && sweep.fall == 0)
         pair_searches[VOILE_PAIR_STOPPED].entries = push.pass + 1;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
+}
+
+// What packing has rounded off the mean velocity.
+void keep_rounded_off()
+{
+    const vec3 mean = mean_velocity();
+    const vec3 packed = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean));
+    const uvec3 numbers = floatBitsToUint(mean - packed);
+    pair_searches[VOILE_PAIR_ROUNDED_OFF] = PairDispatch(numbers.x, 0, numbers.y, numbers.z);
 }
 
 // The pairs that the vertex is in, as masks. The first of them has all pairs of its own list.
@@ -148,6 +160,10 @@ void main()
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
     if (gl_GlobalInvocationID.x == 0)
         pair_searches[VOILE_PAIR_CLOCKS + (push.pass & 1u)].entries = 0;
+    if (gl_GlobalInvocationID.x == 0)
+        pair_searches[VOILE_PAIR_FALLS + (push.pass & 1u)].entries = 0;
+    if (gl_GlobalInvocationID.x == 0)
+        keep_rounded_off();
     if (gl_GlobalInvocationID.x == 0)
         pair_passes[VOILE_PAIR_CLEAR] = PairDispatch(0, 0, 0, 0);
     if (gl_GlobalInvocationID.x == 0)
@@ -175,7 +191,7 @@ void main()
             pair_masks[mask_place(fan, k, push.vertices)] = mask;
             references += bitCount(mask);
         }
-        bound(i, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, references != 0);
+        bound(i, self.cloth, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, references != 0);
     }
     barrier();
     uint pair_place = atomicAdd(shared_pairs, bitCount(own));

@@ -39,9 +39,11 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/direction.glsl"
 #include "pairs/pair.glsl"
 
-// The part of the thickness that no pair comes closer than, unless it begins closer.
+// The part of the thickness below which a pair comes closer slowly, by this part of what it has above the least.
 const float k_floor = 0.1;
-// The part that carries leave. Else a pair that they lead together for several passes would end nearer than rounding.
+const float k_near_floor = 0.25;
+// The least part of the thickness, for carries, too. Else a pair that they lead together for several passes would end
+// nearer than rounding. Pairs that begin closer may not approach.
 const float k_carry_floor = 0.02;
 // A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
 const float k_part = 0.2;
@@ -60,12 +62,12 @@ struct Vertices
     vec3 x[4]; // m, from the first
     vec3 v[4]; // m/s, predicted for the middle of the coming interval
     vec3 slip[4];
-    vec3 carry[4]; // m, until the next pass if the clock runs as fast as time
+    vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
 };
 
 // What acted since the last pass is expected to go on.
-void read_vertex(uint i, uint k, FinePosition origin, inout Vertices vertices)
+void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Vertices vertices)
 {
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
@@ -74,7 +76,7 @@ void read_vertex(uint i, uint k, FinePosition origin, inout Vertices vertices)
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
-    vertices.carry[k] = carry_until_next(pair_carries[i]);
+    vertices.carry[k] = carry_until_next(pair_carries[i], first_carry);
     vertices.inverse_masses[k] = position.w;
 }
 
@@ -138,9 +140,10 @@ vec2 driven_approach(uint sides, Vertices vertices, Separation separation)
     return needed;
 }
 
-// m: how far along the normal the planes of both sides are carried, as a half. Vertices without mass are not carried, so
-// their plane is not, either.
-float carry_of_planes(uint sides, Vertices vertices, Separation separation)
+// m: how far along the normal the planes of both sides are carried, as a half, relative to the first vertex. Vertices
+// without mass are not carried, so their plane is not, either. `of_first`: m, that vertex' carry. Equal carries give 0,
+// so that pairs need no room for rounding.
+float carry_of_planes(uint sides, Vertices vertices, Separation separation, vec3 of_first)
 {
     float low = k_unbounded;
     float high = -k_unbounded;
@@ -153,7 +156,15 @@ float carry_of_planes(uint sides, Vertices vertices, Separation separation)
             high = max(high, along - separation.from_plane[k]);
     }
     const bool driven = any(equal(vertices.inverse_masses, vec4(0)));
-    return driven ? 0 : unpackHalf2x16(packHalf2x16(vec2(0.5 * (low + high), 0))).x;
+    const float carry = driven ? -dot(separation.n, of_first) : 0.5 * (low + high);
+    return unpackHalf2x16(packHalf2x16(vec2(carry, 0))).x;
+}
+
+// m: the part of the gap that a pair may use up, in several passes. Without any, a pair that begins nearer than the floor
+// could not part either: guards of slightly different normals without room leave a point.
+float spare_gap(float gap, float thickness)
+{
+    return max(0, max(gap - k_floor * thickness, k_near_floor * (gap - k_carry_floor * thickness)));
 }
 
 void add_load(uint vertex, float weight)
@@ -173,9 +184,10 @@ void main()
     PairResponse response;
     const FinePosition origin =
         FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
+    const uint first_carry = pair_carries[pair.vertices.x];
     Vertices vertices;
     [[unroll]] for (uint k = 0; k < 4; ++k)
-        read_vertex(pair.vertices[k], k, origin, vertices);
+        read_vertex(pair.vertices[k], k, origin, first_carry, vertices);
     const Nearest nearest = nearest_points(pair.edges, vertices.x);
     const float apart = length(nearest.apart);
     const vec3 direction = separating_direction(pair.edges, vertices.x, nearest);
@@ -191,7 +203,7 @@ void main()
     const Separation separation = separate(pair.edges, vertices.x, n);
     const uint sides = first_side(pair);
     const vec2 needed = driven_approach(sides, vertices, separation);
-    const float room = max(2 * VOILE_PAIR_APPROACH * (separation.gap - k_floor * thickness), 0);
+    const float room = 2 * VOILE_PAIR_APPROACH * spare_gap(separation.gap, thickness);
     const float spare = room - needed.x - needed.y;
     if (spare < 0 && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
@@ -199,7 +211,7 @@ void main()
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;
     vec3 heights = vec3(0);
-    const float carry = carry_of_planes(sides, vertices, separation);
+    const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(first_carry));
     const float room_to_carry = max(slack, VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness));
     float rate = 1;
     for (uint k = begin; k < end; ++k)

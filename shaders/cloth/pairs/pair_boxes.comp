@@ -58,7 +58,7 @@ Box place_box(uint place)
     const uvec2 entry = pair_order[place];
     if (!collides_with_itself(entry.y))
         return empty;
-    return fan_box(fan_of(entry.y, entry.x), Viewpoint(vec3(0), tree_carry()));
+    return fan_box(fan_of(entry.y, entry.x), Viewpoint(vec3(0), tree_carry(), tree_fall()));
 }
 
 shared Box shared_boxes[gl_WorkGroupSize.x];

@@ -27,6 +27,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "pairs/clear.glsl"
+#include "pairs/mean_velocity.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
 
@@ -66,5 +67,5 @@ void main()
     const bool clear = collides && is_clear_vertex(self.index, self.cloth);
     if (collides)
         pair_flats[self.index] = vec2(clear ? 1 : 0, 0);
-    add_velocities(gl_LocalInvocationID.x, clear ? vec4(velocities[self.index].xyz, 1) : vec4(0));
+    add_velocities(gl_LocalInvocationID.x, clear ? vec4(velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags), 1) : vec4(0));
 }

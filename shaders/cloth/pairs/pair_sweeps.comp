@@ -34,6 +34,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "pairs/clock.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/mean_velocity.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
@@ -62,14 +63,6 @@ vec3 mesh_normal(Fan fan)
     return sum;
 }
 
-// m/s: the mean of all vertices that are clear of colliders.
-vec3 mean_velocity()
-{
-    const PairDispatch sum = pair_passes[VOILE_PAIR_CLEAR];
-    return vec3(int(sum.groups), int(sum.wanted), int(sum.one)) *
-           (VOILE_PAIR_UNIT_SPEED * float(push.places) / float(max(sum.entries, 1)));
-}
-
 // The part of a neighborhood that is clear.
 float grid_clearance(Fan fan)
 {
@@ -94,12 +87,12 @@ float mesh_clearance(Fan fan)
     return clear / float(1 + fan.wedges);
 }
 
-// m/s
-vec3 carry_of(uint i, Fan fan)
+// The part of the mean velocity, and of gravity if it is all.
+float clearance(uint i, Fan fan)
 {
     if (positions[i].w == 0 || is_clock_stopped())
-        return vec3(0);
-    return (fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan)) * mean_velocity();
+        return 0;
+    return fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan);
 }
 
 // `v`: m/s, relative to what carries the vertex.
@@ -124,9 +117,12 @@ void main()
     if (!collides_with_itself(cloth))
         return;
     const Fan fan = fan_of(cloth, i);
-    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * carry_of(i, fan));
+    const float clear = clearance(i, fan);
+    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * clear * mean_velocity()) |
+                            (clear == 1 ? k_falls_bit : 0);
     const vec3 half_carry = unpack_half_sweep(carry_word);
-    const vec3 relative = velocities[i].xyz - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
+    const vec3 v = velocity_at_pass(velocities[i].xyz, cloths[cloth].flags);
+    const vec3 relative = v - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
     const uint word = pack_half_sweep(0.5 * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;
     midpoints[i] = vec4(positions[i].xyz + half_carry + unpack_half_sweep(word), uintBitsToFloat(word));

@@ -54,7 +54,7 @@ struct Self
     uint first; // of its references
     uint count;
     float inverse_mass;
-    vec3 carry; // m, until the next pass if the clock runs as fast as time
+    uint carry;
     float rate; // of the clock
 };
 
@@ -125,9 +125,10 @@ float split_mobility(Pair pair, PairResponse response)
 }
 
 // The planes of a pair are carried, and so is the vertex. Its guard begins where it is nearest to its plane meanwhile.
-vec4 carried_plane(Self self, vec3 n, float height, float carry)
+// `own`: m, as far as the clock carries the vertex; it and `carry` are relative to the first vertex of the pair.
+vec4 carried_plane(float rate, vec3 own, vec3 n, float height, float carry)
 {
-    return vec4(n, max(height - self.rate * max(carry - dot(n, self.carry), 0), 0));
+    return vec4(n, max(height - rate * max(carry - dot(n, own), 0), 0));
 }
 
 void add_entry(uint entry, Self self, inout Gather sum)
@@ -140,7 +141,8 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const vec3 n = unpack_direction(response.normal);
     const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
     const float height = entry_of(heights, first ? place : place - sides);
-    add_plane(sum.guard, carried_plane(self, first ? n : -n, height, first ? heights.w : -heights.w));
+    const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x]);
+    add_plane(sum.guard, carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w));
     const bool pushed = response.impulse != vec3(0);
     if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
@@ -156,7 +158,7 @@ void add_entry(uint entry, Self self, inout Gather sum)
 // `entry`: the vertex, its cloth, the first of its references, and their number.
 Self self_of(uvec4 entry)
 {
-    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, carry_until_next(pair_carries[entry.x]), clock_rate());
+    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate());
 }
 
 Gather gather(Self self, uint lane)
@@ -189,6 +191,11 @@ void keep_clock()
     const uint other = 1 - (push.pass & 1u);
     pair_searches[VOILE_PAIR_RATE].entries = floatBitsToUint(rate);
     pair_searches[VOILE_PAIR_CLOCK].entries = floatBitsToUint(clock);
+    const float fall = fall_at_pass();
+    const float gained = rate * fall_until_next();
+    pair_searches[VOILE_PAIR_FALL].entries = floatBitsToUint(fall);
+    pair_searches[VOILE_PAIR_FALL_RATE].entries = floatBitsToUint(gained / push.interval);
+    pair_searches[VOILE_PAIR_FALLS + other].entries = floatBitsToUint(fall + gained);
     pair_searches[VOILE_PAIR_CLOCKS + other].entries = floatBitsToUint(clock + rate * push.interval);
     pair_searches[VOILE_PAIR_RATES + other].entries = floatBitsToUint(1);
 }

@@ -49,7 +49,7 @@ const float k_sphere_rounding = 1e-5;
 Box around(Node node) { return Box(node.x - extent_of(node), node.x + extent_of(node)); }
 
 // m: how far the vertex may be from its middle.
-float reach_of(Node node) { return length(node.sweep) + length(node.carry); }
+float reach_of(Node node) { return length(node.sweep) + length(node.carry) + node.fall; }
 
 Piece piece_of(Search search, Fan fan, uint k)
 {
@@ -103,7 +103,7 @@ float distance_of(Search search, bool edges, Node nodes[4])
     [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         heights[k] = dot(n, x[k] - x[0]);
-        sweeps[k] = abs(dot(n, nodes[k].sweep));
+        sweeps[k] = abs(dot(n, nodes[k].sweep)) + nodes[k].fall;
         carries[k] = dot(n, nodes[k].carry);
     }
     return min(gap_between(edges, heights - carries, sweeps), gap_between(edges, heights + carries, sweeps)) -

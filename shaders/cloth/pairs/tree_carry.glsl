@@ -4,6 +4,7 @@
 #ifndef VOILE_TREE_CARRY_GLSL
 #define VOILE_TREE_CARRY_GLSL
 
+#include "pairs/node.glsl"
 #include "pairs/sweep.glsl"
 
 // m, half of the way: the mean of some vertices'.
@@ -15,5 +16,8 @@ vec3 tree_carry()
         sum += unpack_half_sweep(pair_carries[pair_order[(2 * k + 1) * push.places / (2 * samples)].x]);
     return sum / float(samples);
 }
+
+// m, beyond that (node.glsl): as vertices in the middle, if they fall freely.
+float tree_fall() { return fall_of(pair_carries[pair_order[push.places / 2].x]); }
 
 #endif

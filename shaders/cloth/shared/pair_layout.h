@@ -13,7 +13,7 @@
 
 // The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
 // patch, folds of levels, and one per vertex of a slot of a leaf.
-#define VOILE_PAIR_SEARCHES 8
+#define VOILE_PAIR_SEARCHES 16
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
 #define VOILE_PAIR_FOLDS 2
@@ -33,6 +33,13 @@
 // there was none in this step.
 #define VOILE_PAIR_STOPPED 7
 #define VOILE_PAIR_STOPPED_PASSES 16
+// What gravity adds to the way of what falls freely: the square of the clock, about half, s^2. For even and for odd
+// passes, then of the last pass, and what it gains per second until the next one. Then three numbers each (fall.glsl).
+#define VOILE_PAIR_FALLS 8
+#define VOILE_PAIR_FALL 10
+#define VOILE_PAIR_FALL_RATE 11
+#define VOILE_PAIR_GRAVITY 12
+#define VOILE_PAIR_ROUNDED_OFF 13
 // The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 #define VOILE_PAIR_FAR_BIT (1u << 31)
@@ -54,6 +61,8 @@
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 // s: the clock of the lists ends there.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
+// The largest fall, of the square of that. Half if the clock runs as fast as time.
+#define VOILE_PAIR_MOST_FALL 0.75f
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f
 // Cloth is flat around a vertex if its primitives are farther apart than this part of the range of lists.
@@ -95,7 +104,8 @@ struct PairSweep
     uint listed;    // 1: the vertex is in a listed pair
     uvec2 residual; // of `from` (fine_position.glsl)
     uint carry;
-    uint padding_1;
+    float fall; // 0: gravity does not accelerate what carries `from`; else the part of a substep after which the
+                // velocity of the vertex is that of the integrator
 };
 
 // Where a vertex may be until the next pass over the pairs. Let d be its displacement from `from`, less that by which
@@ -153,12 +163,14 @@ struct PairPush
     uint capacity; // of a list, at most VOILE_PAIRS
     uint colliders;
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
+    float fall;  // m: how far gravity alone may carry a vertex until the lists are made again
+    vec4 lag;    // m/s: what gravity has not yet added to velocities of Verlet, which are half a substep behind
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(PairSweep) == 48);
 static_assert(sizeof(PairGuard) == 64);
-static_assert(sizeof(PairBound) == VOILE_PAIR_SEARCHES * sizeof(PairDispatch));
+static_assert(2 * sizeof(PairBound) == VOILE_PAIR_SEARCHES * sizeof(PairDispatch));
 static_assert(sizeof(PairMemory) == 32);
 static_assert(sizeof(PairResponse) == 48);
 #endif

@@ -62,7 +62,8 @@ PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver,
                            const Step& step, uint32_t substeps, uint32_t first_pass)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
       leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(substeps),
-      h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)), first_pass_(first_pass)
+      h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)), first_pass_(first_pass),
+      gravity_(step.gravity)
 {
 }
 
@@ -85,6 +86,8 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.capacity = solver_.options.tuning.pair_capacity;
     push.colliders = solver_.passes.colliders;
     push.sifted = most_sifted(solver_.options.tuning, push.places);
+    push.fall = VOILE_PAIR_MOST_FALL * VOILE_PAIR_SWEEP_TIME * VOILE_PAIR_SWEEP_TIME * glm::length(gravity_);
+    push.lag = Vec4(substep > 0 ? 0.5f * h_ * gravity_ : Vec3(0), 0);
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
@@ -109,6 +112,8 @@ void PairRecorder::write_sizes()
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     for (const uint32_t parity : {0u, 1u})
         sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
+    sizes[VOILE_PAIR_GRAVITY] = {std::bit_cast<uint32_t>(gravity_.x), 1, std::bit_cast<uint32_t>(gravity_.y),
+                                 std::bit_cast<uint32_t>(gravity_.z)};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
     const shared::PairDispatch no_velocities{};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),

@@ -40,6 +40,7 @@ private:
     float h_;         // s
     uint32_t period_; // substeps from one pass to the next
     uint32_t first_pass_;
+    Vec3 gravity_; // m/s^2
 };
 
 } // namespace voile

@@ -1,0 +1,161 @@
+// Cloth whose parts start very near each other, or touch, falls freely, too.
+#include "support/momenta.hpp"
+#include "support/pair_harness.hpp"
+
+#include <doctest/doctest.h>
+
+namespace
+{
+
+using tests::at;
+using tests::PairHarness;
+
+constexpr voile::Step k_vacuum{.duration = 1.f / 60, .air_density = 0};
+constexpr int k_frames = 15;
+constexpr double k_fall = 0.5 * 9.81 / 16; // m, in that time
+
+glm::dvec3 middle(PairHarness& harness)
+{
+    glm::dvec3 sum(0);
+    double count = 0;
+    for (const voile::ClothId cloth : harness.cloths)
+        for (const glm::vec4& p : harness.positions(cloth))
+        {
+            sum += glm::dvec3(p);
+            ++count;
+        }
+    return sum / count;
+}
+
+// m: how far the middle ends from where a point would that starts with `velocity`.
+double miss(PairHarness& harness, const glm::vec3& velocity = {})
+{
+    const glm::dvec3 before = middle(harness);
+    harness.step(k_vacuum, k_frames);
+    return glm::length(middle(harness) - before - 0.25 * glm::dvec3(velocity) + glm::dvec3(0, k_fall, 0));
+}
+
+struct Layers
+{
+    float gap; // of the thickness
+    voile::Integrator integrator = voile::Integrator::verlet;
+    glm::vec3 velocity{};
+    float shift = 0; // m
+};
+
+void add_layers(PairHarness& harness, const Layers& layers)
+{
+    for (const bool upper : {false, true})
+    {
+        voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.06f);
+        const float side = upper ? 1.f : 0.f;
+        sheet.transform = at({side * layers.shift, side * layers.gap * sheet.material.thickness, side * layers.shift});
+        sheet.integrator = layers.integrator;
+        sheet.velocity = layers.velocity;
+        harness.add(sheet);
+    }
+    harness.upload();
+}
+
+voile::MeshCloth mesh_cloth(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles)
+{
+    voile::MeshCloth mesh;
+    mesh.positions = std::move(positions);
+    mesh.triangles = std::move(triangles);
+    mesh.material = voile::cotton();
+    mesh.integrator = voile::Integrator::verlet;
+    mesh.self_collision = true;
+    return mesh;
+}
+
+// Two sheets side by side in one mesh, whose borders are `gap` apart.
+voile::MeshCloth open_seam(float gap)
+{
+    constexpr uint32_t n = 6;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    for (const float side : {-1.f, 1.f})
+    {
+        const auto first = static_cast<uint32_t>(positions.size());
+        for (uint32_t i = 0; i < n; ++i)
+            for (uint32_t j = 0; j < n; ++j)
+            {
+                const auto across = static_cast<float>(side < 0 ? n - 1 - j : j);
+                positions.emplace_back(side * (0.5f * gap + 0.1f * across), 0, 0.1f * static_cast<float>(i));
+            }
+        for (uint32_t i = 0; i + 1 < n; ++i)
+            for (uint32_t j = 0; j + 1 < n; ++j)
+            {
+                const uint32_t a = first + i * n + j;
+                triangles.emplace_back(a, a + n, a + 1);
+                triangles.emplace_back(a + 1, a + n, a + n + 1);
+            }
+    }
+    return mesh_cloth(positions, triangles);
+}
+
+// Each pole is n vertices.
+voile::MeshCloth unmerged_sphere()
+{
+    constexpr uint32_t n = 8;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    for (uint32_t i = 0; i <= n; ++i)
+        for (uint32_t j = 0; j < n; ++j)
+        {
+            const float a = std::numbers::pi_v<float> * static_cast<float>(i) / n;
+            const float b = 2 * std::numbers::pi_v<float> * static_cast<float>(j) / n;
+            positions.push_back(0.5f * glm::vec3(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)));
+        }
+    for (uint32_t i = 0; i < n; ++i)
+        for (uint32_t j = 0; j < n; ++j)
+        {
+            const uint32_t k = (j + 1) % n;
+            triangles.emplace_back(i * n + j, i * n + k, (i + 1) * n + j);
+            triangles.emplace_back(i * n + k, (i + 1) * n + k, (i + 1) * n + j);
+        }
+    return mesh_cloth(positions, triangles);
+}
+
+} // namespace
+
+TEST_CASE("layers fall freely, however near each other they start")
+{
+    using enum voile::Integrator;
+    for (const Layers& layers :
+         {Layers{.gap = 0.003f}, Layers{.gap = 0.03f}, Layers{.gap = 0.1f}, Layers{.gap = 0.3f},
+          Layers{.gap = 0.03f, .integrator = rk4}, Layers{.gap = 0.1f, .integrator = rk4, .shift = 0.013f},
+          Layers{.gap = 0.03f, .velocity = {3, 0, 1}, .shift = 0.01f},
+          Layers{.gap = 0.1f, .velocity = {3, -2, 0}, .shift = 0.01f}})
+    {
+        PairHarness harness;
+        add_layers(harness, layers);
+        CAPTURE(layers.gap);
+        CAPTURE(layers.shift);
+        CAPTURE(layers.velocity.x);
+        CHECK(miss(harness, layers.velocity) < 0.01 * k_fall);
+        CHECK(harness.intersections() == 0);
+    }
+}
+
+TEST_CASE("an open seam falls freely, whether its borders are apart or touch")
+{
+    for (const float gap : {0.f, 1e-6f, 1e-5f, 1e-4f})
+    {
+        PairHarness harness;
+        harness.add(open_seam(gap));
+        harness.upload();
+        CAPTURE(gap);
+        CHECK(miss(harness) < 0.01 * k_fall);
+        if (gap > 0)
+            CHECK(harness.intersections() == 0);
+    }
+}
+
+TEST_CASE("a sphere whose poles are not merged falls freely")
+{
+    PairHarness harness;
+    harness.add(unmerged_sphere());
+    harness.upload();
+    CHECK(miss(harness) < 0.01 * k_fall);
+}
