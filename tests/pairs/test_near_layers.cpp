@@ -49,7 +49,7 @@ void add_layers(PairHarness& harness, const Layers& layers)
     {
         voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.06f);
         const float side = upper ? 1.f : 0.f;
-        sheet.transform = at({side * layers.shift, side * layers.gap * sheet.material.thickness, side * layers.shift});
+        sheet.transform = at({side * layers.shift, side * layers.gap * voile::cotton().thickness, side * layers.shift});
         sheet.integrator = layers.integrator;
         sheet.velocity = layers.velocity;
         harness.add(sheet);
@@ -57,19 +57,26 @@ void add_layers(PairHarness& harness, const Layers& layers)
     harness.upload();
 }
 
-voile::MeshCloth mesh_cloth(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles)
+struct Mesh
 {
-    voile::MeshCloth mesh;
-    mesh.positions = std::move(positions);
-    mesh.triangles = std::move(triangles);
-    mesh.material = voile::cotton();
-    mesh.integrator = voile::Integrator::verlet;
-    mesh.self_collision = true;
-    return mesh;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+};
+
+void add_mesh(PairHarness& harness, const Mesh& mesh)
+{
+    voile::MeshCloth cloth;
+    cloth.positions = mesh.positions;
+    cloth.triangles = mesh.triangles;
+    cloth.material = voile::cotton();
+    cloth.integrator = voile::Integrator::verlet;
+    cloth.self_collision = true;
+    harness.add(cloth);
+    harness.upload();
 }
 
 // Two sheets side by side in one mesh, whose borders are `gap` apart.
-voile::MeshCloth open_seam(float gap)
+Mesh open_seam(float gap)
 {
     constexpr uint32_t n = 6;
     std::vector<glm::vec3> positions;
@@ -91,11 +98,11 @@ voile::MeshCloth open_seam(float gap)
                 triangles.emplace_back(a + 1, a + n, a + n + 1);
             }
     }
-    return mesh_cloth(positions, triangles);
+    return {positions, triangles};
 }
 
 // Each pole is n vertices.
-voile::MeshCloth unmerged_sphere()
+Mesh unmerged_sphere()
 {
     constexpr uint32_t n = 8;
     std::vector<glm::vec3> positions;
@@ -114,7 +121,7 @@ voile::MeshCloth unmerged_sphere()
             triangles.emplace_back(i * n + j, i * n + k, (i + 1) * n + j);
             triangles.emplace_back(i * n + k, (i + 1) * n + k, (i + 1) * n + j);
         }
-    return mesh_cloth(positions, triangles);
+    return {positions, triangles};
 }
 
 } // namespace
@@ -143,8 +150,7 @@ TEST_CASE("an open seam falls freely, whether its borders are apart or touch")
     for (const float gap : {0.f, 1e-6f, 1e-5f, 1e-4f})
     {
         PairHarness harness;
-        harness.add(open_seam(gap));
-        harness.upload();
+        add_mesh(harness, open_seam(gap));
         CAPTURE(gap);
         CHECK(miss(harness) < 0.01 * k_fall);
         if (gap > 0)
@@ -155,7 +161,6 @@ TEST_CASE("an open seam falls freely, whether its borders are apart or touch")
 TEST_CASE("a sphere whose poles are not merged falls freely")
 {
     PairHarness harness;
-    harness.add(unmerged_sphere());
-    harness.upload();
+    add_mesh(harness, unmerged_sphere());
     CHECK(miss(harness) < 0.01 * k_fall);
 }

@@ -70,9 +70,18 @@ vec3 along_planes(Hold hold, vec3 motion)
     return motion;
 }
 
+// Whether the guards of a vertex end nearer than it goes on without the clock. Then it would lose its velocity.
+bool needs_clock(Hold hold)
+{
+    const PairGuard guard = hold.bound.guard;
+    return length(hold.left) > min(guard.reach, min(guard.planes[0].w, guard.planes[1].w));
+}
+
 // Whether the vertex will leave what the lists leave it before they can be made again.
 bool wants_lists(Hold hold, vec3 motion)
 {
+    if (needs_clock(hold))
+        return true;
     const float most = k_used_reach * hold.bound.sweep.reach;
     const vec3 ahead = hold.swept + (1 + push.pair_ahead) * (motion - hold.carried) + hold.left;
     return squared_distance_from_segment(ahead, hold.bound.sweep.sweep) >= most * most;
