@@ -164,3 +164,14 @@ TEST_CASE("a sphere whose poles are not merged falls freely")
     add_mesh(harness, unmerged_sphere());
     CHECK(miss(harness) < 0.01 * k_fall);
 }
+
+// It would hang there if its borders held each other.
+TEST_CASE("a mesh whose borders touch along a seam lands on a plane")
+{
+    PairHarness harness;
+    (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.normal = {0, 1, 0}, .offset = -0.1f}));
+    add_mesh(harness, open_seam(0));
+    harness.step(k_vacuum, 2 * k_frames);
+    for (const glm::vec4& p : harness.positions(harness.cloths[0]))
+        CHECK(p.y < -0.09f);
+}

@@ -17,6 +17,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint candidates[]; };
@@ -31,9 +32,29 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/search.glsl"
 
 const float k_unbounded_range = 1e30;
+// Of the size of a pair: parts nearer than this touch.
+const float k_touch = 1e-7;
+
+// Whether parts of a mesh touch where it starts, as along a seam that is not merged. No plane separates them, so they are
+// no pair: it would hold both in place. Both owners find the same. Grids start flat.
+bool touch_at_start(Fan fan, uvec4 vertices, bool edges)
+{
+    if (fan.columns > 0 || pair_lists[vertices.x].cloth != pair_lists[vertices.w].cloth)
+        return false;
+    vec3 x[4];
+    float size = 0;
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+    {
+        x[k] = start[vertices[k]].xyz - start[vertices.x].xyz;
+        size = max(size, length(x[k]));
+    }
+    return length(nearest_points(edges, x).apart) <= k_touch * size;
+}
 
 void insert(inout Search search, uvec4 vertices, bool edges, float at)
 {
+    if (touch_at_start(search.fan, vertices, edges))
+        return;
     const uint part = VOILE_PAIRS / search.lanes;
     const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;
     const uint capacity = max(push.capacity / search.lanes, 1);

@@ -146,7 +146,8 @@ void bound(uint i, uint cloth, float reach, bool listed)
 void keep_rounded_off()
 {
     const vec3 mean = mean_velocity();
-    const vec3 packed = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean));
+    const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean);
+    const vec3 packed = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word);
     const uvec3 numbers = floatBitsToUint(mean - packed);
     pair_searches[VOILE_PAIR_ROUNDED_OFF] = PairDispatch(numbers.x, 0, numbers.y, numbers.z);
 }

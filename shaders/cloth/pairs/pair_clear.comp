@@ -67,5 +67,8 @@ void main()
     const bool clear = collides && is_clear_vertex(self.index, self.cloth);
     if (collides)
         pair_flats[self.index] = vec2(clear ? 1 : 0, 0);
-    add_velocities(gl_LocalInvocationID.x, clear ? vec4(velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags), 1) : vec4(0));
+    vec4 velocity = vec4(0);
+    if (clear)
+        velocity = vec4(velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags), 1);
+    add_velocities(gl_LocalInvocationID.x, velocity);
 }
