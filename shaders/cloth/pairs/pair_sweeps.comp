@@ -121,7 +121,8 @@ void main()
     const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * clear * mean_velocity()) |
                             (clear == 1 ? k_falls_bit : 0);
     const vec3 half_carry = unpack_half_sweep(carry_word);
-    const vec3 v = velocity_at_pass(velocities[i].xyz, cloths[cloth].flags);
+    const vec3 own = velocities[i].xyz;
+    const vec3 v = positions[i].w > 0 ? velocity_at_pass(own, cloths[cloth].flags) : own;
     const vec3 relative = v - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
     const uint word = pack_half_sweep(0.5 * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;

@@ -15,7 +15,10 @@ uint pack_half_sweep(vec3 sweep)
     const float largest = max(max(abs(sweep.x), abs(sweep.y)), abs(sweep.z));
     int exponent;
     frexp(largest, exponent);
-    exponent = clamp(exponent - int(k_sweep_bits - 1), k_lowest_exponent, k_lowest_exponent + (1 << k_exponent_bits) - 1);
+    exponent = clamp(exponent - int(k_sweep_bits - 1), k_lowest_exponent,
+                     k_lowest_exponent + (1 << k_exponent_bits) - 1);
+    if (largest == 0)
+        exponent = k_lowest_exponent;
     const float most = float((1 << (k_sweep_bits - 1)) - 1);
     const ivec3 words = ivec3(clamp(roundEven(ldexp(sweep, ivec3(-exponent))), -most, most));
     uint result = uint(exponent - k_lowest_exponent) << (3 * k_sweep_bits);
