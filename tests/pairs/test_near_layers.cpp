@@ -57,6 +57,17 @@ void add_layers(PairHarness& harness, const Layers& layers)
     harness.upload();
 }
 
+// m, of the middles of both
+double distance_of_layers(PairHarness& harness)
+{
+    double sum = 0;
+    const auto lower = harness.positions(harness.cloths[0]);
+    const auto upper = harness.positions(harness.cloths[1]);
+    for (size_t i = 0; i < lower.size(); ++i)
+        sum += static_cast<double>(upper[i].y - lower[i].y);
+    return sum / static_cast<double>(lower.size());
+}
+
 struct Mesh
 {
     std::vector<glm::vec3> positions;
@@ -142,6 +153,9 @@ TEST_CASE("layers fall freely, however near each other they start")
         CAPTURE(layers.velocity.x);
         CHECK(miss(harness, layers.velocity) < 0.01 * k_fall);
         CHECK(harness.intersections() == 0);
+        const double part = distance_of_layers(harness) / static_cast<double>(voile::cotton().thickness);
+        CHECK((part < 0.02) == (layers.gap < 0.02f));
+        CHECK((part > 0.5) == (layers.gap > 0.02f));
     }
 }
 
