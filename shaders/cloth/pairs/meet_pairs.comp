@@ -53,6 +53,7 @@ const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
+const float k_most_half = 65504;
 // Halfs are rounded by less than this part.
 const float k_half_rounding = 1e-3;
 
@@ -112,7 +113,9 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     const vec3 sliding = approach.velocity - along * approach.n;
     if (wanted <= 0)
     {
-        drift = approach.missing > -k_near * approach.thickness ? sliding * push.interval : vec3(0);
+        // Packed as halfs: beyond their range it would be infinite, and the slip it adds up to not a number.
+        if (approach.missing > -k_near * approach.thickness)
+            drift = clamp(sliding * push.interval, vec3(-k_most_half), vec3(k_most_half));
         return vec3(0);
     }
     const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
