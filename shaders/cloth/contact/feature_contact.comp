@@ -14,6 +14,9 @@
 // fast, and on the vertex if that is slow. Pieces with a pinned vertex are skipped. The contact of vertices comes after
 // and overrides.
 //
+// Merged responses are not checked against each other. Vertices of fast or squeezed pieces are held by a guard, which
+// is kept for contact.comp: contact of vertices may not leave it, either (feature_guard.glsl).
+//
 // While depenetration moves a cloth out of a collider (depenetrate.comp), features of that collider do not push the
 // cloth back. A sheet that the collider protrudes through would be stretched across its edges until it snaps free.
 #include "shared/bindings.h"

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Tests each feature near a piece of cloth (find_near_features.comp) against that piece. One thread per item. Contacts
-// are kept with the item, and feature_contact.comp merges those of each vertex.
+// are kept with the item, and feature_contact.comp merges those of each vertex. So are planes that fast pieces may not
+// cross (feature_guard.glsl).
 //
 // Guards have no feature. They check that no vertex of a cell has moved farther than its margin since the items were
 // made, relative to the collider: then no other feature can touch the cell's pieces.
