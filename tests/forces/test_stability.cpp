@@ -115,7 +115,7 @@ TEST_CASE("damping of springs folded into one line is as stable as in a plane")
         voile::GridCloth grid;
         grid.columns = grid.rows = 9;
         grid.transform[0] = {0.6f, 0.8f, 0, 0};
-        grid.transform[2] = {0.222f, 0.296f, 0, 0};
+        grid.transform[2] = {0.222f, 0.296f, 1e-5f, 0}; // parallel axes are refused
         grid.velocity = {3, 4, 1};
         grid.pins = {0, 40};
         voile::Material material;
