@@ -81,11 +81,6 @@ bool is_near(Box a, Box b)
     return dot(gap, gap) <= self.thickness * self.thickness;
 }
 
-// A second visit of the features finds the planes of pieces that are fast or squeezed. Together with the contacts they would take too many
-// registers.
-bool finds_guards = false;
-bool any_guarded = false; // of this thread
-
 struct FeatureQuery
 {
     Box piece; // of cloth

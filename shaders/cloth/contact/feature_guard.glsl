@@ -23,6 +23,10 @@ const float k_guarded_part = 0.9;
 FeatureGuard guard;
 vec2 urgency; // of the planes: the approach over the distance
 bool is_guarded;
+// A second visit of the features finds the planes of pieces that are fast or squeezed. Together with the contacts they would take too many
+// registers.
+bool finds_guards = false;
+bool any_guarded = false; // of this thread
 
 void clear_guard()
 {

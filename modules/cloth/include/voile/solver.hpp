@@ -73,7 +73,7 @@ enum class MeshLayout
 struct Tuning
 {
     // Invocations per workgroup. A power of two, from 1 to the device's limits of invocations and shared memory; an
-    // invocation takes 53 bytes. A dispatch has at most maxComputeWorkGroupCount workgroups.
+    // invocation takes 125 bytes. A dispatch has at most maxComputeWorkGroupCount workgroups.
     uint32_t workgroup_size = 128;
 
     // Invocations per vertex in feature contact, which divide its triangles among them. A power of two up to
