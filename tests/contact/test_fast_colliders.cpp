@@ -75,7 +75,7 @@ void drive(const Driven& shape, float speed)
     for (uint32_t frame = 1; frame <= k_frames; ++frame)
     {
         const float way = speed * k_frame * static_cast<float>(frame);
-        harness.solver.move_collider(id, tests::moved({0, -way, 0}) * shape.start);
+        REQUIRE(harness.solver.move_collider(id, tests::moved({0, -way, 0}) * shape.start));
         harness.step({.duration = k_frame, .gravity = glm::vec3(0), .air_density = 0});
         const voile::Statistics statistics = harness.statistics();
         CHECK(statistics.penetrating_vertices == 0);
