@@ -69,8 +69,8 @@ struct FeatureGuard
     vec4 planes[2]; // unit, into the half-space, and m: the distance of the start from its border
     vec3 carried;   // m, the displacement with the nearest feature
     float least;    // m: displacements this far from `carried` are safe
-    float reach;    // m, from what integration proposes, to the border of the nearest other half-space; negative: outside
-    float stray;    // m, from the way that integration proposes, to where features may be that are not known
+    float reach; // m, from what integration proposes, to the border of the nearest other half-space; negative: outside
+    float stray; // m, from the way that integration proposes, to where features may be that are not known
     uint padding_0;
     uint padding_1;
 };
@@ -107,8 +107,8 @@ struct FeatureCell
 {
     uint first;
     uint count;
-    uint invalid; // the last substep in which features may be near that are not among them
-    uint guarded; // the last substep in which an item had a plane (FeatureGuard)
+    uint invalid;    // the last substep in which features may be near that are not among them
+    uint guarded;    // the last substep in which an item had a plane (FeatureGuard)
     uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
 };
 
@@ -122,7 +122,7 @@ struct FeatureResponse
     vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
     vec4 plane;       // collider's space: separates the piece from the feature before the motion; 0: none
     uint collider;
-    uint vertices;    // of the cell that the piece has, one bit each
+    uint vertices; // of the cell that the piece has, one bit each
     uint padding_0;
     uint padding_1;
 };
