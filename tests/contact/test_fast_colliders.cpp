@@ -1,8 +1,8 @@
 // Colliders that are driven through a sheet: no edge of either passes through the other. Intersections are counted
 // exactly, on the device.
-#include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/hard_shapes.hpp"
+#include "support/intersection_harness.hpp"
 
 #include "voile/fabrics.hpp"
 
@@ -61,25 +61,45 @@ voile::GridCloth sheet()
     return grid;
 }
 
-void drive(const Driven& shape, float speed)
+// The vertices as they are given.
+std::vector<glm::vec3> lowered(const Driven& shape, float way)
+{
+    const glm::vec3 down(glm::inverse(shape.start) * glm::vec4(0, -way, 0, 0));
+    std::vector<glm::vec3> positions = shape.mesh.positions;
+    for (glm::vec3& p : positions)
+        p += down;
+    return positions;
+}
+
+// Whether the collider is a rigid one that moves, or deforms from where it was to where it is.
+enum class Motion
+{
+    rigid,
+    deforming
+};
+
+void drive(const Driven& shape, float speed, Motion motion)
 {
     CAPTURE(shape.name);
     CAPTURE(speed);
-    tests::ClothHarness harness({.intersections = true});
+    tests::IntersectionHarness harness;
     const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(sheet()));
     voile::MeshCollider mesh = tests::collider(shape.mesh);
     mesh.transform = shape.start;
+    mesh.deforms = motion == Motion::deforming;
     const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(mesh));
     harness.upload();
     float lowest = 0;
     for (uint32_t frame = 1; frame <= k_frames; ++frame)
     {
         const float way = speed * k_frame * static_cast<float>(frame);
-        REQUIRE(harness.solver.move_collider(id, tests::moved({0, -way, 0}) * shape.start));
+        if (motion == Motion::rigid)
+            REQUIRE(harness.solver.move_collider(id, tests::moved({0, -way, 0}) * shape.start));
+        else
+            REQUIRE(harness.solver.deform_collider(id, lowered(shape, way)));
         harness.step({.duration = k_frame, .gravity = glm::vec3(0), .air_density = 0});
-        const voile::Statistics statistics = harness.statistics();
-        CHECK(statistics.penetrating_vertices == 0);
-        CHECK(statistics.intersections->collider_pairs == 0);
+        CHECK(harness.statistics().penetrating_vertices == 0);
+        CHECK(harness.counts().collider_pairs == 0);
         for (const glm::vec4& p : harness.positions(cloth))
             lowest = std::min(lowest, p.y);
     }
@@ -92,5 +112,50 @@ TEST_CASE("colliders that are driven through a sheet at up to 100 m/s take it al
 {
     for (const Driven& shape : driven())
         for (const float speed : k_speeds)
-            drive(shape, speed);
+            drive(shape, speed, Motion::rigid);
+}
+
+// A flat mesh has no features where it was added. Folded along its middle, it lifts a sheet without vertices near the
+// fold.
+TEST_CASE("a sheet lies on the edge that a flat mesh folds into")
+{
+    tests::IntersectionHarness harness;
+    voile::GridCloth grid = sheet();
+    grid.columns = grid.rows = 8;
+    grid.transform = tests::moved({0, 0.005f, 0}); // no row of vertices is above the mesh
+    grid.pins = {0, 7, 56, 63};
+    const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(grid));
+    const auto folded = [](float height)
+    {
+        std::vector<glm::vec3> positions;
+        for (const float z : {-0.1f, 0.f, 0.1f})
+            for (const float x : {-1.f, 1.f})
+                positions.emplace_back(x, z == 0 ? height : 0, z);
+        return positions;
+    };
+    const std::vector<glm::vec3> flat = folded(0);
+    const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}};
+    voile::MeshCollider mesh;
+    mesh.positions = flat;
+    mesh.triangles = triangles;
+    mesh.deforms = true;
+    const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(mesh));
+    harness.upload();
+    for (uint32_t frame = 1; frame <= 10; ++frame)
+    {
+        REQUIRE(harness.solver.deform_collider(id, folded(0.01f * static_cast<float>(frame))));
+        harness.step({.duration = k_frame, .gravity = glm::vec3(0), .air_density = 0});
+        CHECK(harness.counts().collider_pairs == 0);
+    }
+    float highest = 0;
+    for (const glm::vec4& p : harness.positions(cloth))
+        highest = std::max(highest, p.y);
+    CHECK(highest > 0.05f); // it was lifted
+}
+
+TEST_CASE("deforming colliders that are driven through a sheet at up to 100 m/s take it along")
+{
+    for (const Driven& shape : driven())
+        for (const float speed : k_speeds)
+            drive(shape, speed, Motion::deforming);
 }

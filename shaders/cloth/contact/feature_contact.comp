@@ -25,6 +25,7 @@
 #include "shared/collider_layout.h"
 #include "shared/contact_layout.h"
 #include "shared/feature_layout.h"
+#include "shared/padded_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
@@ -44,6 +45,11 @@ layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { Collid
 layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
 layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
+layout(VOILE_BINDING(feature_sources)) readonly buffer FeatureSources { FeatureSource feature_sources[]; };
+layout(VOILE_BINDING(feature_slots)) readonly buffer FeatureSlots { uint feature_slots[]; };
+layout(VOILE_BINDING(feature_facings)) readonly buffer FeatureFacings { FeatureFacing feature_facings[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
@@ -63,13 +69,12 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "shared/mesh.glsl"
 #include "contact/feature_fan.glsl"
 #include "contact/feature_pieces.glsl"
+#include "contact/swept_feature.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
 
-// Per thread of the workgroup. Threads of one vertex are adjacent.
-shared Response responses[gl_WorkGroupSize.x];
-shared FeatureGuard guards[gl_WorkGroupSize.x];
-shared vec2 urgencies[gl_WorkGroupSize.x];
+#include "contact/feature_lanes.glsl"
+
 // The vertices of the patch whose items do not suffice, in no order.
 shared uint traversing[gl_WorkGroupSize.x];
 shared uint traversing_count;
@@ -88,19 +93,19 @@ struct FeatureQuery
 
 bool enters_node(FeatureQuery query, Box node) { return is_near(query.piece, node); }
 
-void visit_edge(Feature feature, SweptVertex b)
+void visit_edge(SweptFeature feature, SweptVertex b)
 {
     const PieceContact touch = edge_contact(feature, b);
-    any_guarded = any_guarded || touch.contact.squeezed;
+    any_guarded = any_guarded || touch.contact.squeezed || is_fast(longest_motion(b, false, feature));
     if (finds_guards)
         add_plane(guard_plane(feature, b, false, touch.contact.squeezed));
     else if (touch.contact.found)
-        respond(impulse_of(touch), edge_portions(touch, b).x, collider_index);
+        respond(impulse_of(touch), edge_portions(touch, b).x, collider_index, motion_of(feature));
 }
 
-void visit_feature(Feature feature)
+void visit_feature(SweptFeature feature)
 {
-    if (feature.a != feature.b)
+    if (feature.now.a != feature.now.b)
     {
         if (piece.edge_b)
             visit_edge(feature, piece.b);
@@ -111,21 +116,43 @@ void visit_feature(Feature feature)
     if (!piece.triangle)
         return;
     const PieceContact touch = triangle_contact(feature);
-    any_guarded = any_guarded || touch.contact.squeezed;
+    any_guarded = any_guarded || touch.contact.squeezed || is_fast(longest_motion(piece.b, true, feature));
     if (finds_guards)
         add_plane(guard_plane(feature, piece.b, true, touch.contact.squeezed));
     else if (touch.contact.found)
-        respond(impulse_of(touch), triangle_portions(touch).x, collider_index);
+        respond(impulse_of(touch), triangle_portions(touch).x, collider_index, motion_of(feature));
 }
 
+void visit_slot(uint slot)
+{
+    const DeformingSet set = deforming_set(collider_index);
+    const uint first = feature_slots[slot] >> VOILE_SLOT_FEATURE_BITS;
+    const uint count = feature_slots[slot] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
+    for (uint f = first; f < first + count; ++f)
+        if (protrudes(set, f))
+            visit_feature(swept_feature(f));
+}
+
+// Of a mesh that deforms a leaf is a slot.
 void visit_leaf(inout FeatureQuery query, uint first, uint count)
 {
-    for (uint f = first; f < first + count; ++f)
-        visit_feature(features[f]);
+    if (is_deforming(collider_flags))
+        visit_slot(first);
+    else
+        for (uint f = first; f < first + count; ++f)
+            visit_feature(swept_feature(f));
 }
 
 #define VOILE_QUERY FeatureQuery
 #include "colliders/bvh.glsl"
+#include "colliders/padded.glsl"
+
+Box feature_box(FeatureSet set)
+{
+    if (!is_deforming(collider_flags))
+        return Box(set.box_min, set.box_max);
+    return padded_box(colliders[collider_index].first_node);
+}
 
 // Tests every `parts`-th piece around the vertex, from the `part`-th on.
 void visit_collider(uint c, uint part, uint parts)
@@ -139,7 +166,7 @@ void visit_collider(uint c, uint part, uint parts)
     // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
     const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
-    if (!is_near(around, Box(set.box_min, set.box_max)))
+    if (!is_near(around, feature_box(set)))
         return;
     prepare_collider();
     const uint count = corner_count(self.vertex);
@@ -147,10 +174,12 @@ void visit_collider(uint c, uint part, uint parts)
     {
         if (!load_piece(k))
             continue;
-        any_guarded = any_guarded || is_fast(longest_motion(piece.b, true));
         const Box box = piece_box();
         FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
-        traverse_bvh(query, set.first_node, set.first_feature);
+        if (is_deforming(collider_flags))
+            traverse_padded(query, collider.first_node, set.first_node, collider.triangles);
+        else
+            traverse_bvh(query, set.first_node, set.first_feature);
     }
 }
 
@@ -178,7 +207,7 @@ void merge_items(uint first, uint touched, uint i)
         const FeatureResponse touch = feature_responses[first + findLSB(touched)];
         if (touch.portions[i] > 0)
             respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
-                    touch.collider);
+                    touch.collider, FeatureMotion(touch.carried, touch.turned));
     }
 }
 
@@ -192,7 +221,7 @@ void add_planes(uint first, uint touched, uint i)
         if ((feature_responses[item].vertices & 1u << i) == 0 || plane.xyz == vec3(0))
             continue;
         select_collider(feature_responses[item].collider);
-        add_plane(plane);
+        add_plane(GuardPlane(plane, FeatureMotion(feature_responses[item].carried, feature_responses[item].turned)));
     }
 }
 
@@ -324,12 +353,12 @@ void traverse_for_guards(uint patch_index, uint part, bool exists)
     if (exists && any_guarded)
         visit_colliders(patch_index, part, push.lanes);
     finds_guards = false;
-    guards[thread] = guard;
-    urgencies[thread] = urgency;
+    barrier(); // the first lane has read all responses
+    store_guard(thread);
     barrier();
     if (part == 0 && exists)
         for (uint other = thread + 1; other < thread + push.lanes; ++other)
-            merge_guard(guards[other], urgencies[other]);
+            merge_stored_guard(other);
 }
 
 // The response of the `index`-th vertex of those that traverse.
@@ -348,12 +377,12 @@ void traverse(uint patch_index, uint index)
     }
     if (exists)
         visit_colliders(patch_index, part, push.lanes);
-    responses[thread] = response;
+    store_response(thread);
     barrier();
     if (part == 0 && exists)
     {
         for (uint other = thread + 1; other < thread + push.lanes; ++other)
-            merge(responses[other]);
+            merge(stored_response(other));
         find_change();
     }
     traverse_for_guards(patch_index, part, exists);

@@ -39,52 +39,72 @@ void clear_guard()
     is_guarded = false;
 }
 
-// m: the longest displacement of a vertex of the current piece, relative to the collider.
-float longest_motion(SweptVertex b, bool triangle)
+// m: the longest displacement of a vertex of the current piece, relative to one that moves by `moved`.
+float longest_motion(SweptVertex b, bool triangle, vec3 moved)
 {
-    const float longest = max(distance(piece.a.from, piece.a.to), distance(b.from, b.to));
-    return triangle ? max(longest, distance(piece.c.from, piece.c.to)) : longest;
+    const float longest =
+        max(distance(piece.a.from + moved, piece.a.to), distance(b.from + moved, b.to));
+    return triangle ? max(longest, distance(piece.c.from + moved, piece.c.to)) : longest;
+}
+
+// The same relative to all of a feature.
+float longest_motion(SweptVertex b, bool triangle, SweptFeature f)
+{
+    const float longest = longest_motion(b, triangle, f.moved);
+    return is_deforming(collider_flags) ? max(longest, longest_motion(b, triangle, moved_end(f))) : longest;
 }
 
 bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
 
 // Whether the box of the piece's motion comes closer than the thickness. What does not is not listed in all cases
 // (find_near_features.comp), and `stray` keeps it away.
-bool may_meet(Feature feature, SweptVertex b, bool triangle)
+bool may_meet(SweptFeature f, SweptVertex b, bool triangle)
 {
     Box swept = joined(box_around(piece.a.from, piece.a.to), box_around(b.from, b.to));
     if (triangle)
         swept = joined(swept, box_around(piece.c.from, piece.c.to));
-    const Box own = grown(box_around(feature.a, feature.b), feature.radius + self.thickness);
+    const Box own = grown(joined(box_around(f.now.a, f.now.b), box_around(a_before(f), b_before(f))),
+                          f.now.radius + self.thickness);
     return overlap(swept, own);
 }
 
-// The plane between a feature and the current piece, in the collider's space; 0: none, or the piece is slow and not
+struct GuardPlane
+{
+    vec4 plane; // before the motion, in the collider's space
+    FeatureMotion motion;
+};
+const GuardPlane k_no_plane = GuardPlane(vec4(0), k_no_motion);
+
+// The plane between a feature and the current piece; 0: none, or the piece is slow and not
 // squeezed, or too far to reach the feature. Also none if the piece is behind the feature, or the cloth leaves the
 // collider (feature_response.glsl).
-vec4 guard_plane(Feature feature, SweptVertex b, bool triangle, bool squeezed)
+GuardPlane guard_plane(SweptFeature f, SweptVertex b, bool triangle, bool squeezed)
 {
+    const Feature feature = f.now;
     const SweptVertex a = piece.a;
     const SweptVertex c = piece.c;
-    const float longest = longest_motion(b, triangle);
+    const float longest = longest_motion(b, triangle, f);
     if (exits_along != vec3(0) || (!squeezed && !is_fast(longest)))
-        return vec4(0);
-    if (!may_meet(feature, b, triangle))
-        return vec4(0);
-    vec3 x[4] = vec3[](feature.a, a.from, b.from, c.from);
+        return k_no_plane;
+    if (!may_meet(f, b, triangle))
+        return k_no_plane;
+    vec3 x[4] = vec3[](a_before(f), a.from, b.from, c.from);
     if (!triangle)
-        x = vec3[](feature.a, feature.b, a.from, b.from);
+        x = vec3[](a_before(f), b_before(f), a.from, b.from);
     const Nearest nearest = nearest_points(!triangle, x);
     if (length(nearest.apart) - feature.radius > self.thickness + longest)
-        return vec4(0);
+        return k_no_plane;
     const vec3 n = -normalize(separating_direction(!triangle, x, nearest)); // from the feature
     if (!(dot(n, n) > 0) || is_behind(feature, n))
-        return vec4(0);
+        return k_no_plane;
     const Separation separation = separate(!triangle, x, -n);
     // Of the feature, the first side: its border is farthest along n.
-    const float border =
-        (triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]))) + feature.radius + k_floor * self.thickness;
-    return vec4(n, separation.gap > feature.radius ? border : k_no_room);
+    const float border = triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]));
+    GuardPlane result;
+    result.plane = vec4(
+        n, separation.gap > feature.radius ? border + feature.radius + k_floor * self.thickness : k_no_room);
+    result.motion = motion_of(f);
+    return result;
 }
 
 void exceed(vec4 plane)
@@ -113,22 +133,24 @@ void insert_plane(vec4 plane, float urgent)
 }
 
 // Adds a plane in the space of the current collider.
-void add_plane(vec4 plane)
+void add_plane(GuardPlane added)
 {
+    const vec4 plane = added.plane;
     const SweptVertex own = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     if (plane.xyz == vec3(0))
         return;
     const float slack = k_guarded_part * max(dot(plane.xyz, own.from) - plane.w, 0);
     is_guarded = true;
     guard.stray = self.thickness;
-    const vec3 carried = surface_displacement();
+    const vec3 carried = surface_displacement(added.motion);
     if (slack < guard.least)
     {
         guard.least = slack;
         guard.carried = carried;
     }
-    const vec3 n = collider_moves ? rotate(pose_to.rotation, plane.xyz) : plane.xyz;
-    insert_plane(vec4(n, slack - dot(n, carried)), dot(plane.xyz, own.from - own.to) / max(slack, 1e-9));
+    const vec3 turned = turned_vector(added.motion, plane.xyz);
+    const vec3 n = collider_moves ? rotate(pose_to.rotation, turned) : turned;
+    insert_plane(vec4(n, slack - dot(n, carried)), dot(plane.xyz, own.from + motion_at(added.motion, own.from) - own.to) / max(slack, 1e-9));
 }
 
 // Adds the guard that another thread found for the same vertex.

@@ -41,13 +41,12 @@ void select_collider(uint c)
     }
 }
 
-// m, world: the displacement of the surface within the substep at the vertex.
-vec3 surface_displacement()
+// m, world: the displacement of a point of the collider's space that moves by `moved` in that space.
+vec3 carried_displacement(vec3 point, vec3 moved)
 {
     if (!collider_moves)
-        return vec3(0);
-    const vec3 point = to_collider(pose_from, from_origin(collider_index, collider_flags, self.earlier));
-    return displacement(pose_from, change_of_pose, point);
+        return moved;
+    return displacement(pose_from, change_of_pose, point) + rotate(pose_to.rotation, moved);
 }
 
 // A vertex of the cloth in the collider's space, before the substep and as proposed.

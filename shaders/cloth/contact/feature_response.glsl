@@ -1,6 +1,6 @@
 // Contact of a feature vertex or a feature edge of a collider with a piece of cloth, and its response on the vertex.
 //
-// The including kernel declares votes[] and includes feature_pieces.glsl and friction.glsl before. It calls
+// The including kernel declares votes[] and includes swept_feature.glsl and friction.glsl before. It calls
 // prepare_collider for each collider.
 #ifndef VOILE_FEATURE_RESPONSE_GLSL
 #define VOILE_FEATURE_RESPONSE_GLSL
@@ -34,8 +34,9 @@ struct Response
     vec3 change;   // m/s, across surfaces
     uint collider; // of the strongest contact
     vec3 slowing;  // m/s, by friction, of that contact
+    FeatureMotion motion; // of its feature
 };
-Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0)); }
+Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0), k_no_motion); }
 Response response = no_response();
 
 // Static and kinetic coefficient of the cloth with the current collider.
@@ -143,9 +144,6 @@ float holding_fraction(float pressed, float speed)
     return 1 - slips / max(speed, 1e-30);
 }
 
-// The part of a vector across a unit vector.
-vec3 tangential(vec3 v, vec3 n) { return v - dot(v, n) * n; }
-
 // Where a feature and a piece of cloth touch.
 struct PieceContact
 {
@@ -153,6 +151,7 @@ struct PieceContact
     vec3 point;    // of the feature, collider's space
     vec3 weights;  // barycentric coordinates
     vec3 velocity; // m/s, world, of the cloth there
+    vec3 moved;    // m, collider's space, of the point as the collider deforms
 };
 
 // What a contact does to the cloth there.
@@ -167,12 +166,9 @@ struct Impulse
 Impulse impulse_of(PieceContact touch)
 {
     vec3 n = touch.contact.direction;
-    vec3 relative = touch.velocity;
     if (collider_moves)
-    {
         n = rotate(pose_to.rotation, n);
-        relative -= displacement(pose_from, change_of_pose, touch.point) / push.step;
-    }
+    const vec3 relative = touch.velocity - carried_displacement(touch.point, touch.moved) / push.step;
     // A piece that swings back within several substeps would be lifted again and again, and gain energy each time.
     const float leaving = dot(relative, n);
     const float approach = touch.contact.held ? -leaving : max(-leaving, 0);
@@ -181,8 +177,9 @@ Impulse impulse_of(PieceContact touch)
                    friction_fraction(max(approach, 0), length(sliding)) * sliding, approach);
 }
 
-// Responds to a contact with collider c. `portion`: of the vertex in the motion of the cloth there.
-void respond(Impulse impulse, float portion, uint c)
+// Responds to a contact with collider c. `portion`: of the vertex in the motion of the cloth there; `motion`: of the
+// feature.
+void respond(Impulse impulse, float portion, uint c, FeatureMotion motion)
 {
     const vec3 n = impulse.direction;
     // Corrections by other contacts in this direction count.
@@ -194,6 +191,17 @@ void respond(Impulse impulse, float portion, uint c)
     response.pressed = portion * impulse.approach;
     response.collider = c;
     response.slowing = -portion * impulse.slowing;
+    response.motion = motion;
+}
+
+// m, world: the displacement of the surface within the substep at the vertex. `motion`: of the feature there.
+vec3 surface_displacement(FeatureMotion motion)
+{
+    if (!collider_moves && !is_deforming(collider_flags))
+        return vec3(0);
+    const vec3 offset = from_origin(collider_index, collider_flags, self.earlier);
+    const vec3 point = collider_moves ? to_collider(pose_from, offset) : offset;
+    return carried_displacement(point, motion_at(motion, point));
 }
 
 // Friction with the current collider, after all contacts. Cloth that slides fast is slowed at the contact. Slow cloth
@@ -205,7 +213,7 @@ void add_friction()
     if (pressed == 0 || response.pressed <= 0)
         return;
     const vec3 n = response.change / pressed;
-    const vec3 surface = surface_displacement();
+    const vec3 surface = surface_displacement(response.motion);
     const vec3 v_t = tangential(self.velocity - surface / push.step, n);
     const float speed = length(v_t);
     const float fraction = holding_fraction(pressed, speed);
@@ -244,6 +252,7 @@ void merge(Response other)
     {
         response.collider = other.collider;
         response.slowing = other.slowing;
+        response.motion = other.motion;
     }
     response.pressed = max(response.pressed, other.pressed);
 }
@@ -265,19 +274,20 @@ PieceContact no_contact()
 }
 
 // A feature vertex and the triangle.
-PieceContact triangle_contact(Feature feature)
+PieceContact triangle_contact(SweptFeature f)
 {
+    const Feature feature = f.now;
     const SweptVertex a = piece.a;
     const SweptVertex b = piece.b;
     const SweptVertex c = piece.c;
     const FeatureContact contact =
-        feature_contact(feature, piece.across_then, dot(piece.across_then, a.from - feature.a), piece.across,
+        feature_contact(feature, piece.across_then, dot(piece.across_then, a.from + f.moved - feature.a), piece.across,
                         dot(piece.across, a.to - feature.a));
     if (!contact.found)
         return no_contact();
-    const vec3 corner = mix(a.from, a.to, contact.time);
-    const vec3 ab = mix(b.from, b.to, contact.time) - corner;
-    const vec3 ac = mix(c.from, c.to, contact.time) - corner;
+    const vec3 corner = mix(a.from + f.moved, a.to, contact.time);
+    const vec3 ab = mix(b.from + f.moved, b.to, contact.time) - corner;
+    const vec3 ac = mix(c.from + f.moved, c.to, contact.time) - corner;
     const vec3 ap = feature.a - corner;
     const vec3 n = cross(ab, ac);
     const float area = max(dot(n, n), 1e-30);
@@ -287,12 +297,13 @@ PieceContact triangle_contact(Feature feature)
         return no_contact();
     const vec3 weights = clamp(vec3(1 - v - w, v, w), vec3(0), vec3(1));
     return PieceContact(contact, feature.a, weights,
-                        weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity);
+                        weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity, f.moved);
 }
 
 // A feature edge and the cloth's edge from a to b.
-PieceContact edge_contact(Feature feature, SweptVertex b)
+PieceContact edge_contact(SweptFeature f, SweptVertex b)
 {
+    const Feature feature = f.now;
     const SweptVertex a = piece.a;
     const vec3 along = feature.b - feature.a;
     const vec3 ab = b.to - a.to;
@@ -300,27 +311,30 @@ PieceContact edge_contact(Feature feature, SweptVertex b)
     if (dot(normal, normal) <= k_parallel * k_parallel * dot(ab, ab) * dot(along, along))
         return no_contact();
     const vec3 across = normalize(normal);
-    const vec3 earlier = cross(b.from - a.from, along);
+    const vec3 earlier = cross(b.from - a.from, f.along_before);
     // An edge that has turned over, or was parallel, has no side from before.
     const bool turned = dot(earlier, normal) <= 0;
     const vec3 across_then = turned ? across : normalize(earlier);
     const FeatureContact contact =
-        feature_contact(feature, across_then, dot(across_then, a.from - feature.a), across, dot(across, a.to - feature.a));
+        feature_contact(feature, across_then, dot(across_then, a.from + f.moved - feature.a), across,
+                        dot(across, a.to - feature.a));
     if (!contact.found)
         return no_contact();
     // The nearest points of two lines; Ericson 2004, Real-Time Collision Detection, 5.1.8.
-    const vec3 start = mix(a.from, a.to, contact.time);
-    const vec3 u = mix(b.from, b.to, contact.time) - start;
+    const vec3 start = mix(a.from + f.moved, a.to, contact.time);
+    const vec3 u = mix(b.from + f.moved, b.to, contact.time) - start;
+    const vec3 edge = f.along_before + contact.time * (along - f.along_before);
     const vec3 r = start - feature.a;
     const float uu = dot(u, u);
-    const float ua = dot(u, along);
-    const float aa = dot(along, along);
+    const float ua = dot(u, edge);
+    const float aa = dot(edge, edge);
     const float determinant = max(uu * aa - ua * ua, 1e-30);
-    const float s = (ua * dot(along, r) - aa * dot(u, r)) / determinant;
-    const float t = (uu * dot(along, r) - ua * dot(u, r)) / determinant;
+    const float s = (ua * dot(edge, r) - aa * dot(u, r)) / determinant;
+    const float t = (uu * dot(edge, r) - ua * dot(u, r)) / determinant;
     if (min(s, t) < 0 || max(s, t) > 1)
         return no_contact();
-    return PieceContact(contact, feature.a + t * along, vec3(1 - s, s, 0), mix(a.velocity, b.velocity, s));
+    return PieceContact(contact, feature.a + t * along, vec3(1 - s, s, 0), mix(a.velocity, b.velocity, s),
+                        mix(f.moved, moved_end(f), t));
 }
 
 vec3 triangle_portions(PieceContact touch)

@@ -15,6 +15,7 @@
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/feature_layout.h"
+#include "shared/padded_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
@@ -31,6 +32,12 @@ layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { Collid
 layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
 layout(VOILE_BINDING(feature_nodes)) readonly buffer FeatureNodes { BvhNode bvh_nodes[]; };
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
+layout(VOILE_BINDING(feature_sources)) readonly buffer FeatureSources { FeatureSource feature_sources[]; };
+layout(VOILE_BINDING(feature_slots)) readonly buffer FeatureSlots { uint feature_slots[]; };
+layout(VOILE_BINDING(feature_facings)) readonly buffer FeatureFacings { FeatureFacing feature_facings[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(deforming_reach)) readonly buffer DeformingReach { uint deforming_reach[]; };
 layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
 layout(VOILE_BINDING(feature_centers)) writeonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
@@ -46,7 +53,7 @@ layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 #include "colliders/collider_pose.glsl"
 #include "colliders/near_colliders.glsl"
 #include "contact/feature_fan.glsl"
-#include "contact/feature_gathering.glsl"
+#include "contact/near_feature.glsl"
 #include "contact/rounding.glsl"
 #include "contact/triangle.glsl"
 
@@ -93,6 +100,9 @@ struct FeatureSearch
     uint collider;
     Box box;            // of the piece, grown by the margin
     float query_radius; // m, the thickness with room for rounding
+    bool deforms;       // the collider does, and the cloth is expected to move on, in its space:
+    vec3 motion;        // m, of the piece's middle; else 0
+    float spread;       // m, of its vertices from that
     float widest;       // m, the margin that is counted with
     float margin;       // m
     bool writes;
@@ -111,9 +121,18 @@ FinePosition position_of(uint vertex)
 
 #include "contact/feature_surrounding.glsl"
 
-vec3 position_in(Space space, uint vertex)
+Space space_at(uint c, float progress)
 {
-    const vec3 offset = from_origin(space.collider, space.flags, position_of(vertex));
+    Space space = Space(c, colliders[c].flags, Pose(vec4(0, 0, 0, 1), vec3(0)));
+    if (is_moved(space.flags))
+        space.pose = pose_at(c, progress);
+    return space;
+}
+
+// Of a vertex after `time`, s, at its velocity.
+vec3 position_in(Space space, uint vertex, float time)
+{
+    const vec3 offset = from_origin(space.collider, space.flags, position_of(vertex)) + time * velocities[vertex].xyz;
     return is_moved(space.flags) ? to_collider(space.pose, offset) : offset;
 }
 
@@ -146,23 +165,51 @@ void add_item(inout FeatureSearch search, uint feature, float excess)
         search.counts += uvec4(lessThanEqual(vec4(excess), search.margin * vec4(k_fractions[0], k_fractions[1], k_fractions[2], k_fractions[3])));
 }
 
-void visit_feature(inout FeatureSearch search, uint f, vec4 a, vec3 b)
+void visit_feature(inout FeatureSearch search, uint f, NearFeature near)
 {
     const bool edge = search.piece.kind != VOILE_PIECE_TRIANGLE;
-    if ((a.xyz != b) != edge)
+    if ((near.a.xyz != near.b) != edge)
         return;
-    const float excess = feature_distance(a, b, search.shape, edge) - search.query_radius;
+    float distance_meanwhile = feature_distance(near.a, near.b, search.shape, edge);
+    if (search.deforms)
+        distance_meanwhile -=
+            max(distance(near.motion_a, search.motion), distance(near.motion_b, search.motion)) + search.spread;
+    const float excess = distance_meanwhile - search.query_radius;
     add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
 }
 
+void visit_slot(inout FeatureSearch search, uint slot)
+{
+    const DeformingSet set = deforming_set(search.collider);
+    const uint first = feature_slots[slot] >> VOILE_SLOT_FEATURE_BITS;
+    const uint count = feature_slots[slot] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
+    for (uint f = first; f < first + count; ++f)
+        if (protrudes(set, f))
+            visit_feature(search, f, near_feature(search.collider, f, true));
+}
+
+// Of a mesh that deforms a leaf is a slot.
 void visit_leaf(inout FeatureSearch search, uint first, uint count)
 {
-    for (uint f = first; f < first + count; ++f)
-        visit_feature(search, f, vec4(features[f].a, features[f].radius), features[f].b);
+    if (search.deforms)
+        visit_slot(search, first);
+    else
+        for (uint f = first; f < first + count; ++f)
+            visit_feature(search, f, near_feature(search.collider, f, false));
 }
 
 #define VOILE_QUERY FeatureSearch
 #include "colliders/bvh.glsl"
+#include "colliders/padded.glsl"
+#include "contact/feature_gathering.glsl"
+
+// Of all features of a collider, in its space.
+Box feature_box(uint c)
+{
+    if (is_deforming(colliders[c].flags))
+        return padded_box(colliders[c].first_node);
+    return Box(feature_sets[c].box_min, feature_sets[c].box_max);
+}
 
 bool may_touch(uint c, PatchVertex self)
 {
@@ -184,8 +231,8 @@ float find_margin(PatchVertex self, Box walked)
         const Surrounding around = surrounding(self, c, colliders[c].flags);
         const float wanted = k_resting_margin * thickness + k_moving_margin * around.longest;
         const Box reached =
-            grown(joined(around.box, around.later), 1.01 * thickness + max(wanted, push.sudden * push.time));
-        if (overlap(reached, Box(feature_sets[c].box_min, feature_sets[c].box_max)))
+            grown(joined(around.box, around.later), 1.01 * thickness + max(wanted, sudden_reach()));
+        if (overlap(reached, feature_box(c)))
             margin = max(margin, wanted);
     }
     return margin;
@@ -226,49 +273,73 @@ float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth
 // Gathers the features of collider c near the workgroup. All of its threads take part, those without a vertex, too.
 Gathering gather_near(inout FeatureSearch search, bool exists, uint c, uint lane, uint index)
 {
-    const FeatureSet set = feature_sets[c];
+    const bool deforms = is_deforming(colliders[c].flags);
     GroupBoxes own;
     if (exists)
     {
         const Surrounding around = surrounding(search.self, c, colliders[c].flags);
         const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
-        const float reach = max(search.widest, max(around.longest, push.sudden * push.time));
-        own.pieces = grown(around.cell, radius + search.widest);
+        const float reach = max(search.widest, max(around.longest, sudden_reach()));
+        own.pieces =
+            grown(deforms ? joined(around.box, around.later) : around.cell, radius + search.widest);
         own.sweep = grown(joined(around.box, around.later), radius + reach);
-        exists = overlap(own.sweep, Box(set.box_min, set.box_max));
+        exists = overlap(own.sweep, feature_box(c));
     }
-    const Gathering gathering = gather(index, joined_of_group(exists && lane == 0, own), set);
+    const Gathering gathering = gather(index, joined_of_group(exists && lane == 0, own), c, feature_sets[c], deforms);
     if (exists && gathering.near)
         search.near |= 1u << min(index, 31);
     return gathering;
+}
+
+Box box_of(Triangle t) { return joined(box_around(t.a, t.b), Box(t.c, t.c)); }
+
+Box swept_box(NearFeature near)
+{
+    return grown(joined(box_around(near.a.xyz, near.b),
+                        box_around(near.a.xyz + near.motion_a, near.b + near.motion_b)), near.a.w);
+}
+
+// Notes how the vertices of the piece are expected to move until the next query. Returns where they end.
+Box expect_motion(inout FeatureSearch search, uint c, uvec3 vertices)
+{
+    const Space space = space_at(c, push.progress_to);
+    const Triangle end = Triangle(position_in(space, vertices.x, push.time), position_in(space, vertices.y, push.time),
+                                  position_in(space, vertices.z, push.time));
+    const mat3 motions = mat3(end.a - search.shape.a, end.b - search.shape.b, end.c - search.shape.c);
+    search.motion = (motions[0] + motions[1] + motions[2]) / 3;
+    search.spread = max(max(distance(motions[0], search.motion), distance(motions[1], search.motion)),
+                        distance(motions[2], search.motion));
+    return box_of(end);
 }
 
 // Finds the features of a collider near the pieces of this lane.
 void search_pieces(inout FeatureSearch search, uint c, uint lane, Gathering gathering)
 {
     const FeatureSet set = feature_sets[c];
-    Space space = Space(c, colliders[c].flags, Pose(vec4(0, 0, 0, 1), vec3(0)));
-    if (is_moved(space.flags))
-        space.pose = pose_at(c, push.progress_from);
+    const Space space = space_at(c, push.progress_from);
     search.collider = c;
+    search.deforms = is_deforming(space.flags);
     const uint count = piece_count(search.self);
     for (uint i = lane; i < count; i += push.lanes)
     {
         if (!find_piece(search.self, i, search.piece))
             continue;
         const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
-        search.shape = Triangle(position_in(space, v.x), position_in(space, v.y), position_in(space, v.z));
-        const Box shape = joined(box_around(search.shape.a, search.shape.b), Box(search.shape.c, search.shape.c));
+        search.shape = Triangle(position_in(space, v.x, 0), position_in(space, v.y, 0), position_in(space, v.z, 0));
+        Box shape = box_of(search.shape);
         search.query_radius = query_radius(search.self, max(abs(shape.min), abs(shape.max)));
+        if (search.deforms)
+            shape = joined(shape, expect_motion(search, c, v));
         search.box = grown(shape, search.query_radius + search.margin);
-        if (gathering.crowded)
+        if (gathering.crowded && search.deforms)
+            traverse_padded(search, colliders[c].first_node, set.first_node, colliders[c].triangles);
+        else if (gathering.crowded)
             traverse_bvh(search, set.first_node, set.first_feature);
         for (uint f = gathering.first; f < gathering.end; ++f)
         {
-            const vec4 a = gathered_starts[f];
-            const vec3 b = gathered_ends[f].xyz;
-            if (overlap(search.box, grown(box_around(a.xyz, b), a.w)))
-                visit_feature(search, gathered[f], a, b);
+            const NearFeature near = gathered_feature(f);
+            if (overlap(search.box, swept_box(near)))
+                visit_feature(search, gathered[f], near);
         }
     }
     if (lane > 0)
@@ -409,17 +480,21 @@ void main()
     search.counts = uvec4(0);
     search.near = 0;
     search.widest = 0;
+    search.deforms = false;
+    search.motion = vec3(0);
+    search.spread = 0;
     Box walked = Box(vec3(0), vec3(0));
     bool searches = search.self.exists;
     if (searches)
     {
         const vec3 position = positions[search.self.index].xyz;
-        const float reach = max(2 * length(velocities[search.self.index].xyz), push.sudden) * push.time;
+        const vec3 velocity = velocities[search.self.index].xyz;
+        const float reach = max(2 * length(velocity) * push.time, sudden_reach());
         walked = grown(Box(position, position), reach);
         search.widest = find_margin(search.self, walked);
         if (lane == 0)
             feature_centers[search.self.index] =
-                FeatureCenter(position, 0, residuals[search.self.index], uvec2(0));
+                FeatureCenter(position, velocity.x, residuals[search.self.index], velocity.yz);
     }
     if (push.near_stride != 0) // else all colliders are walked over
         walked = joined_of_group(searches && lane == 0, GroupBoxes(walked, walked)).sweep;

@@ -25,6 +25,11 @@ layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex m
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
+layout(VOILE_BINDING(feature_sets)) readonly buffer FeatureSets { FeatureSet feature_sets[]; };
+layout(VOILE_BINDING(feature_sources)) readonly buffer FeatureSources { FeatureSource feature_sources[]; };
+layout(VOILE_BINDING(feature_facings)) readonly buffer FeatureFacings { FeatureFacing feature_facings[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
+layout(VOILE_BINDING(deforming_reach)) readonly buffer DeformingReach { uint deforming_reach[]; };
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
 layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
@@ -43,6 +48,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
 #include "contact/feature_pieces.glsl"
+#include "contact/swept_feature.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
 
@@ -62,6 +68,22 @@ PatchVertex item_vertex(uint cloth, uint index)
     return vertex;
 }
 
+// The same for a collider that deforms: from the straight path in its space that the vertex was expected to take.
+float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition earlier, FinePosition proposed)
+{
+    const float time = (push.progress_next - push.progress_listed) * push.step / (push.progress_to - push.progress_from);
+    const vec3 from = from_origin(collider_index, collider_flags, center);
+    const vec3 to = from + time * vec3(listed.velocity_x, listed.velocity_yz);
+    const vec3 start = collider_moves ? to_collider(pose_listed, from) : from;
+    vec3 end = to;
+    if (collider_moves)
+        end = to_collider(pose_at(collider_index, push.progress_next), to);
+    const float duration = push.progress_next - push.progress_listed;
+    const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1);
+    return max(distance(mix(start, end, (push.progress_from - push.progress_listed) / duration), path.from),
+               distance(mix(start, end, (push.progress_to - push.progress_listed) / duration), path.to));
+}
+
 // m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
 // the collider.
 float drift(uint index)
@@ -70,6 +92,8 @@ float drift(uint index)
     const FinePosition center = FinePosition(listed.x, unpack_residual(listed.residual));
     const FinePosition earlier = earlier_position(index);
     const FinePosition proposed = proposed_position(index);
+    if (is_deforming(collider_flags))
+        return drift_from_path(listed, center, earlier, proposed);
     if (!collider_moves)
         return max(length(displacement(center, earlier)), length(displacement(center, proposed)));
     const vec3 at = to_collider(pose_listed, from_origin(collider_index, collider_flags, center));
@@ -77,15 +101,26 @@ float drift(uint index)
                distance(at, to_collider(pose_to, from_origin(collider_index, collider_flags, proposed))));
 }
 
+// m: how far the surface of the current collider may push a vertex off the way that integration proposes.
+float longest_push()
+{
+    if (!is_deforming(collider_flags))
+        return 0;
+    return uintBitsToFloat(deforming_reach[0]) * (push.progress_to - push.progress_from);
+}
+
 void check_guard(float margin)
 {
-    bool valid = true;
+    // A vertex without a guard may be pushed off its way by as much. By more than the thickness is too much for lists.
+    const float longest = longest_push();
+    const float room = margin - longest;
+    bool valid = longest <= self.thickness;
     const uint count = cell_count(self.vertex);
     for (uint i = 0; i < count; ++i)
     {
         uint vertex;
         if (find_in_cell(self.vertex, i, vertex))
-            valid = valid && drift(vertex) <= margin; // not if it is not a number
+            valid = valid && drift(vertex) <= room; // not if it is not a number
     }
     if (!valid)
         cells[self.vertex.index].invalid = push.substep;
@@ -133,7 +168,7 @@ void test_piece(uint item, uint kind, uint k, float excess)
     if (!orient_piece(triangle) || min(piece.a.inverse_mass, piece.b.inverse_mass) == 0 || piece.triangle != triangle)
         return;
     prepare_collider();
-    const Feature feature = features[items[item].feature];
+    const SweptFeature feature = swept_feature(items[item].feature);
     PieceContact touch = no_contact();
     vec3 portions = vec3(0);
     if (triangle)
@@ -146,8 +181,8 @@ void test_piece(uint item, uint kind, uint k, float excess)
         touch = edge_contact(feature, piece.b);
         portions = edge_portions(touch, piece.b);
     }
-    const vec4 plane = guard_plane(feature, piece.b, triangle, touch.contact.squeezed);
-    const bool guarded = plane.xyz != vec3(0);
+    const GuardPlane plane = guard_plane(feature, piece.b, triangle, touch.contact.squeezed);
+    const bool guarded = plane.plane.xyz != vec3(0);
     if (!touch.contact.found && !guarded)
         return;
     if (guarded)
@@ -159,9 +194,10 @@ void test_piece(uint item, uint kind, uint k, float excess)
         impulse = impulse_of(touch);
         in_cell_portions = cell_portions(portions, kind, k);
     }
+    const FeatureMotion motion = motion_of(feature);
     feature_responses[item] =
-        FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach, in_cell_portions, plane,
-                        collider_index, cell_vertices(k), 0, 0);
+        FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach, in_cell_portions,
+                        plane.plane, motion.carried, collider_index, motion.turned, cell_vertices(k));
     const uint in_cell = item - cells[self.vertex.index].first;
     atomicOr(cells[self.vertex.index].touched[2 * (push.pass & 1) + in_cell / 32], 1u << in_cell % 32);
 }

@@ -61,7 +61,7 @@ struct ColliderMotion
     vec3 offset_from; // m, from `origin` to the collider's origin at the start of the step
     uint first_to;    // of a mesh that deforms: its first vertex at the end of the step
     vec3 offset_to;   // m, from `origin` to the collider's origin at the end of the step
-    uint padding;
+    uint halves; // of a mesh that deforms: bit 0 says which half of its data is of the step's start, bit 1 of its end
 };
 
 // Push constants of the query for near colliders.

@@ -1,5 +1,6 @@
 // Feature edges and feature vertices of colliders, as the GPU reads them. Written by
-// modules/cloth/src/colliders/collider_features.cpp, read by find_near_features.comp and feature_contact.comp.
+// modules/cloth/src/colliders/collider_features.cpp, read by find_near_features.comp and feature_contact.comp. Those of
+// meshes that deform: deforming_features.cpp and face_features.comp.
 #ifndef VOILE_FEATURE_LAYOUT_H
 #define VOILE_FEATURE_LAYOUT_H
 
@@ -29,6 +30,10 @@
 #define VOILE_DISPATCH_CLAIMED 7
 #define VOILE_DISPATCH_RETRY 8
 #define VOILE_DISPATCH_RETRY_CLAIMED 11
+// In a slot of a deforming mesh: its first feature, and how many there are in the lowest bits.
+#define VOILE_SLOT_FEATURE_BITS 3
+// Instead of the cosine of a facing: the mesh is too flat there for a feature.
+#define VOILE_NO_FACING 2.0f
 // The substep of a correction that applies in no substep.
 #define VOILE_NO_SUBSTEP 0xffffffffu
 // Instead of the substep in which a vertex's items are not valid: until the next query.
@@ -49,17 +54,55 @@ struct Feature
     uint padding;
 };
 
+// A feature of a mesh that deforms, in the order of the slots of its hierarchy: a vertex (a == b), or an edge. Which
+// way it faces follows from the hinges around it.
+struct FeatureSource
+{
+    uint a; // vertices of the mesh
+    uint b;
+    uint first_hinge;
+    uint hinges;
+};
+
+// The triangles at an edge of a mesh that deforms, (a, b, c) and (b, a, d), as vertices of the mesh.
+struct FeatureHinge
+{
+    uint a;
+    uint b;
+    uint c;
+    uint d; // VOILE_NO_VERTEX: a border, or an edge with more than two triangles
+};
+
+// Which way a feature of a mesh that deforms faces at one end of the step.
+struct FeatureFacing
+{
+    vec3 normal;  // as in Feature
+    float cosine; // or VOILE_NO_FACING
+};
+
 // The features of one collider.
 struct FeatureSet
 {
-    vec3 box_min; // m, bounds of all
-    uint first_node;
+    vec3 box_min;    // m, bounds of all; not of a mesh that deforms
+    uint first_node; // of a mesh that deforms: its first slot
     vec3 box_max;
+    uint first_feature; // of a mesh that deforms: its first source
+    uint features;      // 0: there are no nodes
+    float edge;         // m, the longest edge at rest of the cloths that can touch the collider
+    uint first_facing;  // of a mesh that deforms: of as many as there are features, twice
+    uint padding;
+};
+
+// Push constants of the pass that finds which way the features of a deforming mesh face.
+struct FaceFeaturesPush
+{
     uint first_feature;
-    uint features; // 0: there are no nodes
-    float edge;    // m, the longest edge at rest of the cloths that can touch the collider
-    uint padding_0;
-    uint padding_1;
+    uint features;
+    uint first_vertex; // where the mesh is now
+    uint first_facing; // of the result
+    uint two_sided;    // 1: features push in all directions
+    float edge;        // m, the longest of the cloths
+    float sag;         // m, by which cloth may sink towards a bend
 };
 
 // Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: two
@@ -84,13 +127,13 @@ struct FeatureCorrection
     uint guarded; // 1: the vertex has a guard in this substep
 };
 
-// Where a vertex was when near features were listed.
+// The motion of a vertex when near features were listed.
 struct FeatureCenter
 {
-    vec3 x; // m
-    uint padding;
-    uvec2 residual; // fine_position.glsl
-    uvec2 padding_1;
+    vec3 x;           // m
+    float velocity_x; // m/s
+    uvec2 residual;   // fine_position.glsl
+    vec2 velocity_yz; // m/s
 };
 
 // A feature near a piece of cloth, until the next query.
@@ -121,10 +164,10 @@ struct FeatureResponse
     float approach;   // m/s
     vec4 portions;    // of the cell's vertices in the motion of the contact point; of a mesh the first is the vertex's
     vec4 plane;       // collider's space: separates the piece from the feature before the motion; 0: none
+    vec3 carried;     // the motion of the feature and of the plane as the collider deforms, FeatureMotion
     uint collider;
+    vec3 turned;
     uint vertices; // of the cell that the piece has, one bit each
-    uint padding_0;
-    uint padding_1;
 };
 
 // Push constants of the query for near features.
@@ -156,6 +199,7 @@ struct FeaturePush
     uint near_stride;
     uint first_patch;      // of the entries in the list of patches near features
     float progress_listed; // 0..1, of the step, when near features were listed
+    float progress_next;   // 0..1, of the step, when they will be listed again
     uint first_item;       // of the dispatch over items
     uint items;            // that there is room for
     uint dispatch_word;    // of the sizes of the dispatches

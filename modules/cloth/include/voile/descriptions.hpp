@@ -200,8 +200,8 @@ enum class Sidedness
 // - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, enabled or not.
 //   Another such cloth changes how it holds this one (by 5 mm beside a sphere). Cloths of other layers do not.
 // - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 9 m/s without edges).
-// - Meshes that deform have no edges and corners. Only vertices collide with them, and spikes that turn through cloth
-//   can tear it along (551 m/s at tips of 23 m/s; 35 with edges and corners).
+// - A mesh that deforms has edges and corners where its present shape bends. Where its vertices move by more than the
+//   thickness between two contact passes, finding them takes longer.
 // - Static friction is less exact for cloth that edges, corners, thin spheres and capsules support between its
 //   vertices. It may slip from 0.8 of static friction on, and creeps by less than 0.3 mm/s. Finer cloth, which touches
 //   with its vertices, does neither.

@@ -105,6 +105,12 @@ ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale
     ColliderFeatures result;
     result.scale = scale;
     result.set.edge = scale.edge;
+    if (collider.deforming)
+    {
+        result.deforming = deforming_features(*collider.deforming, collider.record, scale);
+        result.set.features = static_cast<uint32_t>(result.deforming.sources.size());
+        return result;
+    }
     const std::vector<Feature> features = features_of(collider, scale);
     if (features.empty())
         return result;
@@ -148,7 +154,10 @@ void update_features(ColliderModels& colliders, const Model& model)
                 found = other.features;
         if (!found)
             found = std::make_shared<const ColliderFeatures>(make_features(collider, scale));
-        colliders.features.acquire(found, {found->nodes.size(), found->features.size()});
+        const DeformingFeatures& deforming = found->deforming;
+        colliders.features.acquire(found,
+                                   {found->nodes.size(), found->features.size(), deforming.sources.size(),
+                                    deforming.hinges.size(), deforming.slots.size(), 2 * deforming.sources.size()});
         colliders.features.release(collider.features.get());
         collider.features = std::move(found);
         collider.features_due = false;

@@ -1,6 +1,7 @@
 // Features: edges and corners of colliders that can protrude between the vertices of a cloth.
 #pragma once
 
+#include "colliders/deforming_features.hpp"
 #include "model/model.hpp"
 
 #include "geometry/shared_array.hpp"
@@ -15,20 +16,6 @@ namespace voile
 struct ColliderModel; // collider_model.hpp
 struct ColliderModels;
 
-// Decides whether contact of a cloth's vertices is enough at a corner or an edge: vertices keep `thickness` from the
-// surface, and a chord of length `edge` between two of them sinks towards it by as much as the surface bends.
-struct FeatureScale
-{
-    float edge = 0;      // m, the longest of the cloths
-    float thickness = 0; // m, the smallest
-
-    bool operator==(const FeatureScale&) const = default;
-};
-
-// The fraction of the thickness by which cloth may sink at an edge, or where a mesh bends within an edge's length. At 1
-// the cloth would lie on the surface itself, at rest and not stretched.
-constexpr float k_allowed_fraction = 0.75f;
-
 // Of the cloths that share a layer with these, as they were added. edge == 0: there is no such cloth.
 FeatureScale feature_scale(const Model& model, uint32_t layers);
 
@@ -39,12 +26,13 @@ struct ColliderFeatures
     shared::FeatureSet set{};
     std::vector<shared::Feature> features;
     SharedArray<shared::BvhNode> nodes;
+    DeformingFeatures deforming{}; // instead, of a mesh that deforms
 };
 
 // Of a mesh, where it bends by more than the thickness allows within the length of an edge: its edges, if they are
 // longer than twice the thickness or a quarter of that length, and corners that lie as far from each other. Of an
 // open or two-sided mesh its border too. Boxes, and spheres and capsules that are thin by the same measure. Meshes that
-// deform have none.
+// deform: deforming_features.hpp.
 ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale& scale);
 
 // Whether features that were found for one scale include those that another one needs.

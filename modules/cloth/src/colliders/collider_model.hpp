@@ -36,7 +36,7 @@ struct DeformingMesh
     uint32_t vertices = 0;
     uint32_t first_vertex = 0;        // in the buffer of positions; as many again follow them
     glm::mat4 transform{1.f};         // world from the mesh's space
-    std::vector<glm::vec4> positions; // as they were added. Empty once they are uploaded
+    std::vector<glm::vec3> positions; // m, as they were added
     std::vector<shared::PaddedLeaf> leaves;
     uint64_t first_range = 0; // of its boxes, with the room for their alignment
     uint64_t boxes = 0;       // with the same room
@@ -49,8 +49,9 @@ struct DeformingMesh
 
     [[nodiscard]] uint32_t first(uint32_t half) const { return first_vertex + half * vertices; }
     // The halves at the start and at the end of the step.
+    [[nodiscard]] uint32_t next() const { return due ? 1 - now : now; }
     [[nodiscard]] uint32_t first_from() const { return first(now); }
-    [[nodiscard]] uint32_t first_to() const { return first(due ? 1 - now : now); }
+    [[nodiscard]] uint32_t first_to() const { return first(next()); }
 };
 
 // Bytes from one vertex to the next in what the host gives for a deforming mesh, at most.
@@ -100,6 +101,10 @@ enum FeatureArray : size_t
 {
     k_feature_nodes,
     k_feature_list,
+    k_feature_sources, // from here on: of a mesh that deforms
+    k_feature_hinges,
+    k_feature_slots,
+    k_feature_facings, // two per source
     k_feature_arrays
 };
 

@@ -85,6 +85,7 @@ shared::ColliderMotion make_motion(const ColliderModel& collider)
     {
         motion.first_from = collider.deforming->first_from();
         motion.first_to = collider.deforming->first_to();
+        motion.halves = collider.deforming->now | collider.deforming->next() << 1;
     }
     return motion;
 }

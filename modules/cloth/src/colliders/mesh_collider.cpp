@@ -79,9 +79,7 @@ ColliderId ColliderModels::append_deforming(shared::ColliderRecord record, const
     added.vertices = static_cast<uint32_t>(mesh.positions.size());
     added.first_vertex = static_cast<uint32_t>(deforming_positions.allocate(2 * mesh.positions.size()));
     added.transform = transform;
-    for (int half = 0; half < 2; ++half)
-        for (const glm::vec3& p : mesh.positions)
-            added.positions.emplace_back(p, 0);
+    added.positions = mesh.positions;
     added.boxes = tree.boxes() + k_box_alignment;
     added.first_range = padded_boxes.allocate(added.boxes);
     added.leaves = std::move(tree.leaves);

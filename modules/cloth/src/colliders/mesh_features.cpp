@@ -9,6 +9,7 @@
 
 #include "geometry/closedness.hpp"
 #include "geometry/normal_cones.hpp"
+#include "geometry/spatial_cell.hpp"
 #include "shared/collider_layout.h"
 
 #include <algorithm>
@@ -50,8 +51,7 @@ public:
         : tree_(tree), scale_(scale), two_sided_((flags & VOILE_COLLIDER_ONE_SIDED) == 0),
           closed_((flags & VOILE_COLLIDER_CLOSED) != 0),
           bend_(std::atan(4 * k_allowed_fraction * scale.thickness / scale.edge)),
-          crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)),
-          spacing_(std::max(std::min(scale.edge / 4, 2 * scale.thickness), scale.thickness / 4))
+          crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)), spacing_(scale.spacing())
     {
     }
 
@@ -182,7 +182,7 @@ private:
         {
             if (!corners_[v].is_feature)
                 continue;
-            const auto [cell, is_new] = cells.emplace(cell_of(positions_[v]), v);
+            const auto [cell, is_new] = cells.emplace(spatial_cell(positions_[v], spacing_), v);
             if (!is_new && sharpness(v) > sharpness(cell->second))
                 cell->second = v;
         }
@@ -198,14 +198,6 @@ private:
         }
     }
 
-    [[nodiscard]] uint64_t cell_of(const glm::vec3& p) const
-    {
-        uint64_t key = 0;
-        for (int axis = 0; axis < 3; ++axis)
-            key = key << 21 | (static_cast<uint64_t>(static_cast<int64_t>(std::floor(p[axis] / spacing_))) & 0x1fffff);
-        return key;
-    }
-
     [[nodiscard]] float sharpness(uint32_t v) const { return corners_[v].any_direction ? 2 : 1 - corners_[v].cosine; }
 
     MeshTree tree_;
@@ -214,7 +206,7 @@ private:
     bool closed_;
     float bend_;    // rad: half of the spread of normals that counts where the mesh is narrow
     float crease_;  // rad: half of the angle of an edge that counts by itself
-    float spacing_; // m, of corners, between which coarse cloth would sag, and the length of edges
+    float spacing_; // m
     std::vector<Surroundings> surroundings_;
     std::vector<uint32_t> chosen_;     // triangles
     std::vector<glm::vec3> positions_; // three per chosen triangle

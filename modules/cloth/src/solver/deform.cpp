@@ -48,6 +48,25 @@ void record_boxes(gpu::Recorder& recorder, const Solver::State& solver, const Co
     record_refit(recorder, solver.kernels.refit, solver.device->sets.refit, tree);
 }
 
+// Which way its features face in one of the two sets of positions.
+void record_facings(gpu::Recorder& recorder, const Solver::State& solver, const ColliderModel& collider, uint32_t half)
+{
+    if (!collider.features || collider.features->set.features == 0)
+        return;
+    const ColliderFeatures& features = *collider.features;
+    const auto& first = solver.collider_models.features.find(&features)->first;
+    const uint32_t count = features.set.features;
+    const shared::FaceFeaturesPush push{static_cast<uint32_t>(first[k_feature_sources]),
+                                        count,
+                                        collider.deforming->first(half),
+                                        static_cast<uint32_t>(first[k_feature_facings]) + half * count,
+                                        (collider.record.flags & VOILE_COLLIDER_ONE_SIDED) == 0 ? 1u : 0u,
+                                        features.scale.edge,
+                                        k_allowed_fraction * features.scale.thickness};
+    recorder.dispatch(solver.kernels.face_features, solver.device->sets.face_features, count,
+                      solver.options.tuning.workgroup_size, push);
+}
+
 // The deforming mesh of a collider, or the reason why there is none.
 Result<DeformingMesh*> find_deforming(ColliderModels& models, ColliderId id)
 {
@@ -77,6 +96,7 @@ Result<void> check_deformed(const std::string& name, const DeformingMesh& mesh, 
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const VkBuffer input = (*solver.device)[buffer::deforming_input].handle();
+    recorder.fill((*solver.device)[buffer::deforming_reach].handle(), 0);
     for (const auto [index, collider] : solver.collider_models.colliders)
     {
         if (!collider.uploaded || !collider.deforming || !collider.deforming->due)
@@ -100,7 +120,10 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
             continue;
         DeformingMesh& mesh = *collider.deforming;
         if (mesh.due)
+        {
             record_vertices(recorder, solver, collider);
+            record_facings(recorder, solver, collider, mesh.next());
+        }
         if (mesh.due || mesh.refit_due)
             record_boxes(recorder, solver, collider);
         mesh.refit_due = mesh.due; // if it rests then: this step's boxes are too large for the next
@@ -110,10 +133,15 @@ void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver)
     }
 }
 
-void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, std::span<const ColliderId> colliders)
+void record_at_rest(gpu::Recorder& recorder, const Solver::State& solver, const NewDeforming& colliders)
 {
-    for (const ColliderId id : colliders)
+    for (const ColliderId id : colliders.meshes)
         record_boxes(recorder, solver, *solver.find(id));
+    for (const ColliderId id : colliders.features)
+    {
+        const ColliderModel& collider = *solver.find(id);
+        record_facings(recorder, solver, collider, collider.deforming->now);
+    }
 }
 
 Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::vec3> positions)

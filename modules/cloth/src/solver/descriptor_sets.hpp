@@ -53,6 +53,7 @@ struct DescriptorSets
     std::array<std::array<VkDescriptorSet, 2>, 4> feature_contact{};
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
+    VkDescriptorSet face_features{};
     std::array<VkDescriptorSet, 2> pair_clear{};  // of the state, of stage B
     std::array<VkDescriptorSet, 2> pair_sweeps{}; // of the state, of stage B
     VkDescriptorSet pair_boxes{};

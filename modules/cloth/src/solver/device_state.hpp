@@ -50,6 +50,10 @@ struct BufferCounts
     uint64_t near_words = 0; // of all patches
     uint64_t feature_nodes = 0;
     uint64_t features = 0;
+    uint64_t feature_sources = 0; // of meshes that deform
+    uint64_t feature_hinges = 0;
+    uint64_t feature_slots = 0;
+    uint64_t featured_vertices = 0; // 0 unless a collider has features
     uint64_t anchors = 0;
     uint64_t attachments = 0;
     uint64_t tethers = 0;

@@ -107,6 +107,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.depenetrate, "cloth depenetrate", shaders::k_depenetrate_comp, at_rest);
     add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
+    add(kernels.face_features, "cloth face features", shaders::k_face_features_comp, plain);
     add(kernels.normals, "cloth normals", shaders::k_normals_comp, with_lists);
     add(kernels.output, "cloth output", shaders::k_output_comp, plain);
     if (options.intersections)

@@ -51,6 +51,7 @@ struct Kernels
     gpu::Kernel depenetrate;        // out of meshes at rest
     gpu::Kernel depenetrate_moving; // where colliders move or deform
     gpu::Kernel deform;
+    gpu::Kernel face_features;
     RefitKernels refit;
     gpu::Kernel normals;
     gpu::Kernel output;

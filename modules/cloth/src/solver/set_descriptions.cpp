@@ -306,6 +306,7 @@ std::vector<SetDescription> Describer::describe()
     add_depenetration();
     add_pairs();
     add(sets_.deform, kernels_.deform);
+    add(sets_.face_features, kernels_.face_features);
     add_refit();
     add_intersections();
     add(sets_.normals, kernels_.normals);

@@ -164,8 +164,17 @@ struct Solver::State
 // compute, the passes. Both do nothing if no mesh deforms.
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver);
 void record_deforming_passes(gpu::Recorder& recorder, Solver::State& solver);
-// Computes the boxes of deforming meshes at rest, for statistics that are recorded before the next step.
-void record_boxes_at_rest(gpu::Recorder& recorder, const Solver::State& solver, std::span<const ColliderId> colliders);
+
+// What an upload brings of deforming meshes.
+struct NewDeforming
+{
+    std::vector<ColliderId> meshes;
+    std::vector<ColliderId> features;
+};
+
+// Computes the boxes and the facings of deforming meshes at rest, for the next step and statistics that are recorded
+// before it.
+void record_at_rest(gpu::Recorder& recorder, const Solver::State& solver, const NewDeforming& colliders);
 
 // Writes sizes of indirect dispatches, and clears another buffer, if any. Between barriers of its own.
 void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,

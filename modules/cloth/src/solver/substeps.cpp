@@ -207,7 +207,7 @@ void BatchRecorder::record_near_colliders(uint32_t substep)
 
 BatchRecorder::ItemRange BatchRecorder::feature_items() const
 {
-    const uint64_t per_vertex = device_.capacities.features == 0 ? 0 : solver_.options.tuning.feature_items;
+    const uint64_t per_vertex = device_.capacities.featured_vertices == 0 ? 0 : solver_.options.tuning.feature_items;
     const uint64_t capacity = device_.capacities.vertices * per_vertex;
     const auto before = [&](uint64_t patch)
     { return static_cast<uint32_t>(capacity * patch / std::max(context_.lists.patch_count(), 1u)); };
@@ -263,6 +263,7 @@ void BatchRecorder::record_features(uint32_t substep)
                                    device_.near_stride,
                                    lists_.patches.first,
                                    progress(substep - substep % list_period_),
+                                   progress(std::min(substep - substep % list_period_ + list_period_, substeps_)),
                                    items.first,
                                    items.count,
                                    word,

@@ -67,8 +67,13 @@ void stage_collider(Staging& staging, const ColliderModel& collider, uint32_t in
     staging.add_copy(buffer::collider_motions, index, std::vector{make_motion(collider)});
     if (collider.uploaded || !collider.deforming)
         return;
-    staging.add(buffer::deforming_positions, collider.deforming->first_vertex, collider.deforming->positions);
-    staging.add(buffer::padded_leaves, collider.record.first_triangle, collider.deforming->leaves);
+    const DeformingMesh& mesh = *collider.deforming;
+    std::vector<glm::vec4> positions;
+    for (const glm::vec3& p : mesh.positions)
+        positions.emplace_back(p, 0);
+    for (uint32_t half = 0; half < 2; ++half)
+        staging.add_copy(buffer::deforming_positions, mesh.first(half), positions);
+    staging.add(buffer::padded_leaves, collider.record.first_triangle, mesh.leaves);
 }
 
 // The edges that the triangles of a rigid mesh own. Vertices at the same position are one.
@@ -86,17 +91,38 @@ std::vector<uint32_t> bvh_edges(const Bvh& bvh)
     return {owned.begin(), owned.end()};
 }
 
+using FeaturePlacement = SharedRanges<ColliderFeatures, k_feature_arrays>::Placement;
+
+// The features of meshes that deform. Sources and slots count from the first entries of all meshes.
+void stage_deforming(Staging& staging, const FeaturePlacement& placement)
+{
+    const DeformingFeatures& features = placement.owner->deforming;
+    std::vector<shared::FeatureSource> sources = features.sources;
+    for (shared::FeatureSource& source : sources)
+        source.first_hinge += static_cast<uint32_t>(placement.first[k_feature_hinges]);
+    std::vector<uint32_t> slots = features.slots;
+    for (uint32_t& slot : slots)
+        slot += static_cast<uint32_t>(placement.first[k_feature_sources]) << VOILE_SLOT_FEATURE_BITS;
+    staging.add_copy(buffer::feature_sources, placement.first[k_feature_sources], std::move(sources));
+    staging.add_copy(buffer::feature_slots, placement.first[k_feature_slots], std::move(slots));
+    staging.add(buffer::feature_hinges, placement.first[k_feature_hinges], features.hinges);
+}
+
 // The features of one collider, its offsets those in the buffers of all.
+shared::FeatureSet placed_set(const FeaturePlacement& placement, bool deforms)
+{
+    shared::FeatureSet set = placement.owner->set;
+    set.first_node = static_cast<uint32_t>(placement.first[deforms ? k_feature_slots : k_feature_nodes]);
+    set.first_feature = static_cast<uint32_t>(placement.first[deforms ? k_feature_sources : k_feature_list]);
+    set.first_facing = static_cast<uint32_t>(placement.first[k_feature_facings]);
+    return set;
+}
+
 void stage_features(Staging& staging, const ColliderModels& models, const ColliderModel& collider, uint32_t index)
 {
     shared::FeatureSet set{};
     if (collider.features)
-    {
-        set = collider.features->set;
-        const auto& placement = *models.features.find(collider.features.get());
-        set.first_node = static_cast<uint32_t>(placement.first[k_feature_nodes]);
-        set.first_feature = static_cast<uint32_t>(placement.first[k_feature_list]);
-    }
+        set = placed_set(*models.features.find(collider.features.get()), collider.deforming.has_value());
     staging.add_copy(buffer::feature_sets, index, std::vector{set});
 }
 
@@ -119,6 +145,7 @@ Staging stage_new(Solver::State& solver)
         if (!cloth.uploaded)
             stage_cloth(staging, cloth, index, solver.options.output);
     staging.add_copy(buffer::pair_order, 0, pair_order(solver.model));
+    staging.add_copy(buffer::deforming_reach, 0, std::vector<uint32_t>{0});
     solver.model.lists.for_each_new([&](const auto& placement) { stage_lists(staging, placement); });
     for (auto [index, collider] : models.colliders)
     {
@@ -146,6 +173,7 @@ Staging stage_new(Solver::State& solver)
         {
             staging.add(buffer::feature_nodes, placement.first[k_feature_nodes], placement.owner->nodes);
             staging.add(buffer::features, placement.first[k_feature_list], placement.owner->features);
+            stage_deforming(staging, placement);
         });
     return staging;
 }
@@ -165,6 +193,7 @@ BufferCounts count_entries(const Solver::State& solver)
     const ColliderModels& models = solver.collider_models;
     const AttachmentCounts attached = count_attachments(model);
     const bool intersections = solver.options.intersections;
+    const bool has_features = models.features.end(k_feature_list) + models.features.end(k_feature_sources) > 0;
     return {.cloths = model.cloths.size(),
             .vertices = model.vertices.end(),
             .patches = model.patches,
@@ -179,6 +208,10 @@ BufferCounts count_entries(const Solver::State& solver)
             .padded_boxes = models.padded_boxes.end(),
             .feature_nodes = models.features.end(k_feature_nodes),
             .features = models.features.end(k_feature_list),
+            .feature_sources = models.features.end(k_feature_sources),
+            .feature_hinges = models.features.end(k_feature_hinges),
+            .feature_slots = models.features.end(k_feature_slots),
+            .featured_vertices = has_features ? model.vertices.end() : 0,
             .anchors = attached.anchors,
             .attachments = attached.attachments,
             .tethers = attached.tethers,
@@ -192,13 +225,19 @@ BufferCounts count_entries(const Solver::State& solver)
             .intersecting_vertices = intersections ? model.vertices.end() : 0};
 }
 
-std::vector<ColliderId> new_deforming(const ColliderModels& models)
+NewDeforming new_deforming(const ColliderModels& models)
 {
-    std::vector<ColliderId> ids;
+    NewDeforming found;
     for (const auto [index, collider] : models.colliders)
-        if (!collider.uploaded && collider.deforming)
-            ids.push_back(models.colliders.id_at(index));
-    return ids;
+    {
+        if (!collider.deforming)
+            continue;
+        if (!collider.uploaded)
+            found.meshes.push_back(models.colliders.id_at(index));
+        if (collider.features_new)
+            found.features.push_back(models.colliders.id_at(index));
+    }
+    return found;
 }
 
 // From now on the GPU has the state.
@@ -214,8 +253,6 @@ void mark_uploaded(Solver::State& solver)
     {
         collider.uploaded = true;
         collider.features_new = false;
-        if (collider.deforming)
-            collider.deforming->positions = {};
     }
     solver.model.lists.mark_uploaded();
     solver.model.trees.mark_uploaded();
@@ -292,7 +329,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
 
 void Solver::State::finish_upload(gpu::Recorder& recorder)
 {
-    const std::vector<ColliderId> deforming = new_deforming(collider_models);
+    const NewDeforming deforming = new_deforming(collider_models);
     mark_uploaded(*this);
     device->pair_places = static_cast<uint32_t>(count_pair_places(model));
     update_patches();
@@ -307,7 +344,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
         clear_dispatch(recorder, (*device)[buffer::depenetrations].handle(), depenetration_word(i));
     if (options.intersections)
         clear_intersections(recorder, *device);
-    record_boxes_at_rest(recorder, *this, deforming);
+    record_at_rest(recorder, *this, deforming);
     history.normals_due = true;
     history.depenetration_due = true;
     history.pairs_met = false;

@@ -1,0 +1,46 @@
+// What the threads of one vertex found, in shared memory: first their responses, then their guards in the same place.
+//
+// The including kernel includes feature_guard.glsl before. A barrier must separate storing from reading.
+#ifndef VOILE_FEATURE_LANES_GLSL
+#define VOILE_FEATURE_LANES_GLSL
+
+const uint k_lane_words = 5;
+// Per thread of the workgroup. Threads of one vertex are adjacent.
+shared vec4 lanes[k_lane_words * gl_WorkGroupSize.x];
+
+void store_response(uint thread)
+{
+    const float collider = response.collider == k_no_collider ? -1 : float(response.collider);
+    lanes[k_lane_words * thread] = vec4(response.shift, response.pressed);
+    lanes[k_lane_words * thread + 1] = vec4(response.change, collider);
+    lanes[k_lane_words * thread + 2] = vec4(response.slowing, 0);
+    lanes[k_lane_words * thread + 3] = vec4(response.motion.carried, 0);
+    lanes[k_lane_words * thread + 4] = vec4(response.motion.turned, 0);
+}
+
+Response stored_response(uint thread)
+{
+    const vec4 change = lanes[k_lane_words * thread + 1];
+    const FeatureMotion motion =
+        FeatureMotion(lanes[k_lane_words * thread + 3].xyz, lanes[k_lane_words * thread + 4].xyz);
+    return Response(lanes[k_lane_words * thread].xyz, lanes[k_lane_words * thread].w, change.xyz,
+                    change.w < 0 ? k_no_collider : uint(change.w), lanes[k_lane_words * thread + 2].xyz, motion);
+}
+
+void store_guard(uint thread)
+{
+    lanes[k_lane_words * thread] = guard.planes[0];
+    lanes[k_lane_words * thread + 1] = guard.planes[1];
+    lanes[k_lane_words * thread + 2] = vec4(guard.carried, guard.least);
+    lanes[k_lane_words * thread + 3] = vec4(guard.reach, guard.stray, urgency);
+}
+
+void merge_stored_guard(uint thread)
+{
+    const vec4 carried = lanes[k_lane_words * thread + 2];
+    const vec4 rest = lanes[k_lane_words * thread + 3];
+    merge_guard(FeatureGuard(vec4[](lanes[k_lane_words * thread], lanes[k_lane_words * thread + 1]), carried.xyz, carried.w, rest.x, rest.y, 0, 0),
+                rest.zw);
+}
+
+#endif
