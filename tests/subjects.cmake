@@ -2,7 +2,7 @@ voile_add_test(test_samples SOURCES viewer/test_hello_cloth.cpp viewer/test_samp
 add_dependencies(test_samples batch hello_cloth own_component skinned)
 voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_save_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
-voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp geometry/test_self_intersection.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
                                   colliders/test_cooked_collider.cpp
                LIBRARIES voile::cloth_internal voile::engine)

@@ -291,6 +291,7 @@ TEST_CASE("a curtain starts in pleats, upright and as wide as its fabric")
             width = std::max(width, double{curtain.texture_coordinates[a].x});
         }
     CHECK(width > 1.6 * (box.max.x - box.min.x));
+    CHECK(voile::count_self_intersections(curtain.positions, curtain.triangles) == 0);
     // A row never turns back, and all rows lie below the first: it cannot intersect itself.
     std::vector<glm::vec3> top;
     for (const glm::vec3& p : curtain.positions)

@@ -52,10 +52,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Number of pairs of triangles without a common corner of which an edge of one passes through the other, in double
-// precision (Möller and Trumbore 1997). Triangles that overlap in a plane are not counted, and where they touch,
-// rounding decides. Solver::record_statistics counts without rounding (IntersectionCounts). Indices must be within
-// `positions`; triangles with a corner that is not finite are left out.
+// Number of pairs of triangles without a common corner that have a point in common, decided without rounding. Triangles
+// that touch count. Those that lie in one plane do not; Solver::record_statistics counts their edges that overlap
+// (IntersectionCounts). Indices must be within `positions`; triangles with a corner that is not finite are left out.
 VOILE_API uint64_t count_self_intersections(std::span<const Vec3> positions, std::span<const UVec3> triangles);
 
 } // namespace voile

@@ -1,7 +1,8 @@
-// Self-intersection of a mesh: every pair of triangles whose boxes overlap, once.
+// Self-intersection of a mesh: every pair of triangles whose boxes overlap, once. All decisions are exact.
 #include "voile/mesh_checks.hpp"
 
 #include "geometry/bvh_query.hpp"
+#include "geometry/orientation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,15 +14,28 @@ namespace voile
 namespace
 {
 
-using Corners = std::array<glm::dvec3, 3>;
+using Corners = std::array<glm::vec3, 3>;
 
 bool edge_cuts(const Corners& edges, const Corners& face)
 {
+    std::array<int, 3> sides{};
+    for (size_t i = 0; i < 3; ++i)
+        sides[i] = orientation(face[0], face[1], face[2], edges[i]);
     for (size_t i = 0; i < 3; ++i)
     {
-        const glm::dvec3& from = edges[i];
-        const auto t = ray_triangle(from, edges[(i + 1) % 3] - from, face[0], face[1], face[2]);
-        if (t && *t <= 1)
+        const size_t next = (i + 1) % 3;
+        if (sides[i] * sides[next] > 0 || (sides[i] == 0 && sides[next] == 0))
+            continue;
+        // The edge meets the plane in one point: inside, if the line passes all sides of the face in one direction.
+        bool left = false;
+        bool right = false;
+        for (size_t side = 0; side < 3; ++side)
+        {
+            const int turn = orientation(edges[i], edges[next], face[side], face[(side + 1) % 3]);
+            left = left || turn > 0;
+            right = right || turn < 0;
+        }
+        if (!(left && right))
             return true;
     }
     return false;
