@@ -115,7 +115,7 @@ TEST_CASE("each limit of a device has an error message")
     const auto large = [](auto& limits)
     {
         limits.maxComputeWorkGroupInvocations = limits.maxComputeWorkGroupSize[0] = 1024;
-        limits.maxComputeSharedMemorySize = 32768;
+        limits.maxComputeSharedMemorySize = 24 * 1024;
     };
     CHECK(refused(large, {.tuning = {.workgroup_size = 256}}) == "accepted");
     CHECK(refused(large, {.tuning = {.workgroup_size = 512}}).find(" bytes of shared memory") != std::string::npos);

@@ -201,7 +201,8 @@ enum class Sidedness
 //   Another such cloth changes how it holds this one (by 5 mm beside a sphere). Cloths of other layers do not.
 // - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 9 m/s without edges).
 // - A mesh that deforms has edges and corners where its present shape bends. Where its vertices move by more than the
-//   thickness between two contact passes, finding them takes longer.
+//   thickness between two contact passes, finding them takes longer. Needles that bend and turn at more than 30 m/s
+//   may be left through the cloth.
 // - Static friction is less exact for cloth that edges, corners, thin spheres and capsules support between its
 //   vertices. It may slip from 0.8 of static friction on, and creeps by less than 0.3 mm/s. Finer cloth, which touches
 //   with its vertices, does neither.
