@@ -25,8 +25,8 @@ int exact_orientation(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c
 
 bool lies_in_plane(const tests::TriangleCorners& points, const tests::TriangleCorners& plane)
 {
-    return std::none_of(points.begin(), points.end(), [&](const glm::vec3& p)
-                        { return exact_orientation(plane[0], plane[1], plane[2], p) != 0; });
+    return std::none_of(points.begin(), points.end(),
+                        [&](const glm::vec3& p) { return exact_orientation(plane[0], plane[1], plane[2], p) != 0; });
 }
 
 bool an_edge_meets(const tests::TriangleCorners& edges, const tests::TriangleCorners& face)
@@ -46,8 +46,9 @@ struct Counts
 Counts exact_counts(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles)
 {
     Counts counts;
-    const auto corners = [&](const glm::uvec3& t)
-    { return tests::TriangleCorners{positions[t.x], positions[t.y], positions[t.z]}; };
+    const auto corners = [&](const glm::uvec3& t) {
+        return tests::TriangleCorners{positions[t.x], positions[t.y], positions[t.z]};
+    };
     for (size_t i = 0; i < triangles.size(); ++i)
         for (size_t j = 0; j < i; ++j)
         {
