@@ -28,7 +28,7 @@ struct HingeShape
 {
     vec3 first; // unit normals of its triangles
     vec3 second;
-    bool bends; // by more than the cloth allows, outwards
+    float sag; // m: by how much a chord sinks towards it, if it bends outwards; of a border without bounds
 };
 
 HingeShape hinge_shape(FeatureHinge hinge)
@@ -39,7 +39,7 @@ HingeShape hinge_shape(FeatureHinge hinge)
     const float first_area = length(first);
     HingeShape result;
     result.first = result.second = first / max(first_area, 1e-30);
-    result.bends = true;
+    result.sag = 1e30;
     if (hinge.d == VOILE_NO_VERTEX)
         return result;
     const vec3 to_d = position(hinge.d) - a;
@@ -50,9 +50,29 @@ HingeShape hinge_shape(FeatureHinge hinge)
     const bool convex = dot(result.first, to_d) < 0;
     // A triangle's center lies at a third of its height.
     const float apart = (first_area + second_area) / (3 * max(length(along), 1e-30));
-    const float sag = push.edge / 2 * tan(min(turn / 2, 1.5)) * max(1, push.edge / max(2 * apart, 1e-6));
-    result.bends = (convex || push.two_sided != 0) && turn >= k_flat && sag >= push.sag;
+    const bool bends = (convex || push.two_sided != 0) && turn >= k_flat;
+    result.sag = bends ? push.edge / 2 * tan(min(turn / 2, 1.5)) * max(1, push.edge / max(2 * apart, 1e-6)) : 0;
     return result;
+}
+
+float largest_sag(FeatureSource source)
+{
+    float sag = 0;
+    for (uint h = source.first_hinge; h < source.first_hinge + source.hinges; ++h)
+        sag = max(sag, hinge_shape(feature_hinges[h]).sag);
+    return sag;
+}
+
+// Whether cloth sinks too far without it. Features that are closer to each other than `spacing` hold the cloth between
+// them (FeatureScale::spacing_for).
+bool counts(FeatureSource source, float sag)
+{
+    if (sag < push.sag)
+        return false;
+    const float spacing = push.edge * push.sag / sag;
+    if (source.a != source.b && distance(position(source.a), position(source.b)) < spacing)
+        return false;
+    return spacing < source.reach || largest_sag(feature_sources[source.stand_in]) < push.sag;
 }
 
 // rad: of the triangle (a, b, c) at b.
@@ -84,13 +104,13 @@ void main()
         return;
     const FeatureSource source = feature_sources[push.first_feature + i];
     vec3 sum = vec3(0);
-    bool bends = false;
+    float sag = 0;
     bool border = false;
     for (uint h = source.first_hinge; h < source.first_hinge + source.hinges; ++h)
     {
         const HingeShape shape = hinge_shape(feature_hinges[h]);
         sum += weighted_normals(source, feature_hinges[h], shape);
-        bends = bends || shape.bends;
+        sag = max(sag, shape.sag);
         border = border || feature_hinges[h].d == VOILE_NO_VERTEX;
     }
     const float size = length(sum);
@@ -106,7 +126,7 @@ void main()
     }
     if (facing.cosine < 0) // a saddle: no direction is certainly inside
         facing.cosine = -1;
-    if (!bends)
+    if (!counts(source, sag))
         facing.cosine = VOILE_NO_FACING;
     feature_facings[push.first_facing + i] = facing;
 }

@@ -104,8 +104,8 @@ VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are n
 VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, VOILE_SUBSTEP_BATCHES * VOILE_FEATURE_DISPATCH_WORDS, "the sizes of the indirect dispatches over feature items, over the patches near features and of a second query for them, with the numbers of items, for each batch of cloths; cleared before they are written")
 VOILE_SCRATCH_BUFFER(79, feature_centers, FeatureCenter, featured_vertices, "the position of a vertex when near features were listed")
 VOILE_SCRATCH_BUFFER(80, feature_cells, FeatureCell, featured_vertices, "per vertex which items are of its pieces")
-VOILE_SCRATCH_BUFFER(81, feature_items, FeatureItem, featured_vertices * VOILE_FEATURE_ITEMS, "features near pieces of cloth; levels of substeps have parts in proportion to their patches")
-VOILE_SCRATCH_BUFFER(82, feature_responses, FeatureResponse, featured_vertices * VOILE_FEATURE_ITEMS, "per item its last contact")
+VOILE_SCRATCH_BUFFER(81, feature_items, FeatureItem, feature_items, "features near pieces of cloth; levels of substeps have parts in proportion to their patches")
+VOILE_SCRATCH_BUFFER(82, feature_responses, FeatureResponse, feature_items, "per item its last contact")
 
 // Strain limit.
 VOILE_SCRATCH_BUFFER(44, step_start_positions, vec4, vertices, "the positions at the start of a step with a strain limit")

@@ -8,10 +8,11 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// The mean number of items per vertex that there is room for. The largest number of one vertex, and that of a second
-// query where those of the first are more than there is room for. Where that is not enough, either, all vertices get
-// the same.
+// The mean number of items per vertex that there is room for, and the number of all vertices beyond that. The largest
+// number of one vertex, and that of a second query where those of the first are more than there is room for. Where that
+// is not enough, either, all vertices get the same.
 #define VOILE_FEATURE_ITEMS 8
+#define VOILE_MORE_FEATURE_ITEMS 65536
 #define VOILE_MOST_FEATURE_ITEMS 64
 #define VOILE_FEWER_FEATURE_ITEMS 24
 // The kind of a piece in an item.
@@ -62,6 +63,8 @@ struct FeatureSource
     uint b;
     uint first_hinge;
     uint hinges;
+    float reach;   // m: where features may be this far apart, another one stands for it if the mesh bends there
+    uint stand_in; // that one
 };
 
 // The triangles at an edge of a mesh that deforms, (a, b, c) and (b, a, d), as vertices of the mesh.

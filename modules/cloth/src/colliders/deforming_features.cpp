@@ -5,6 +5,9 @@
 #include "geometry/spatial_cell.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace voile
@@ -24,6 +27,7 @@ struct Side
 };
 
 constexpr uint32_t k_no_slot = UINT32_MAX;
+constexpr float k_everywhere = std::numeric_limits<float>::infinity();
 
 // The vertices of a cell that are one feature.
 struct Cluster
@@ -37,7 +41,8 @@ struct Cluster
 struct Found
 {
     uint32_t slot;
-    shared::FeatureSource source;
+    float sharpness;
+    shared::FeatureSource source; // its stand-in: counted as they were found
 };
 
 class DeformingFeatureFinder
@@ -58,15 +63,24 @@ public:
     {
         find_hinges();
         add_edges();
+        find_clusters();
         add_vertices();
-        std::ranges::stable_sort(found_, {}, &Found::slot);
-        for (const Found& found : found_)
+        find_stand_ins();
+        std::vector<uint32_t> order(found_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::stable_sort(order, {}, [&](uint32_t i) { return found_[i].slot; });
+        std::vector<uint32_t> places(found_.size()); // of what was found, in the order
+        for (uint32_t i = 0; i < order.size(); ++i)
+            places[order[i]] = i;
+        for (const uint32_t i : order)
         {
+            const Found& found = found_[i];
             uint32_t& slot = result_.slots[found.slot];
             if (slot == 0)
                 slot = static_cast<uint32_t>(result_.sources.size()) << VOILE_SLOT_FEATURE_BITS;
             ++slot;
             result_.sources.push_back(found.source);
+            result_.sources.back().stand_in = places[found.source.stand_in];
         }
         return std::move(result_);
     }
@@ -123,25 +137,27 @@ private:
         for (size_t i = 0; i < hinges_.size(); ++i)
         {
             const shared::FeatureHinge& hinge = hinges_[i];
-            if (glm::distance(positions_[hinge.a], positions_[hinge.b]) <= scale_.spacing() / 2)
+            if (glm::distance(positions_[hinge.a], positions_[hinge.b]) <= scale_.finest_spacing() / 2)
                 continue;
-            found_.push_back({owners_[i], {hinge.a, hinge.b, static_cast<uint32_t>(result_.hinges.size()), 1}});
+            const auto n = normals(hinge);
+            found_.push_back({owners_[i],
+                              1 - glm::dot(n.front(), n.back()),
+                              {hinge.a, hinge.b, static_cast<uint32_t>(result_.hinges.size()), 1, k_everywhere, 0}});
             result_.hinges.push_back(hinge);
         }
     }
 
-    void add_vertices()
+    void find_clusters()
     {
         std::unordered_map<uint64_t, uint32_t> cells;
-        std::vector<Cluster> clusters; // in the order of their first hinges
         for (uint32_t i = 0; i < hinges_.size(); ++i)
             for (const uint32_t v : {hinges_[i].a, hinges_[i].b})
             {
                 const auto [cell, is_new] =
-                    cells.emplace(spatial_cell(positions_[v], scale_.spacing()), clusters.size());
+                    cells.emplace(spatial_cell(positions_[v], scale_.finest_spacing()), clusters_.size());
                 if (is_new)
-                    clusters.emplace_back();
-                Cluster& cluster = clusters[cell->second];
+                    clusters_.emplace_back();
+                Cluster& cluster = clusters_[cell->second];
                 if (cluster.hinges.empty() || cluster.hinges.back() != i)
                     cluster.hinges.push_back(i);
                 if (1 - cosines_[v] > cluster.sharpness)
@@ -150,11 +166,66 @@ private:
                     cluster.vertex = v;
                 }
             }
-        for (const Cluster& cluster : clusters)
+    }
+
+    [[nodiscard]] glm::vec3 along(const Found& found) const
+    {
+        return positions_[found.source.b] - positions_[found.source.a];
+    }
+
+    [[nodiscard]] glm::vec3 middle(const Found& found) const
+    {
+        return 0.5f * (positions_[found.source.a] + positions_[found.source.b]);
+    }
+
+    // Whether `other` can do what `found` does, if it is near: vertices, or edges with about the same direction, of
+    // which it is not much shorter.
+    [[nodiscard]] bool can_stand_in(const Found& other, const Found& found) const
+    {
+        const glm::vec3 a = along(found);
+        const glm::vec3 b = along(other);
+        const float own = glm::length(a);
+        const float others = glm::length(b);
+        if (own == 0 || others == 0)
+            return own == others;
+        return others >= 0.75f * own && std::abs(glm::dot(a, b)) >= 0.9f * own * others;
+    }
+
+    // In grids that are coarser and coarser: the sharpest of each cell stays.
+    void find_stand_ins()
+    {
+        std::vector<uint32_t> left(found_.size());
+        std::iota(left.begin(), left.end(), 0u);
+        std::ranges::stable_sort(left, std::greater(), [&](uint32_t i) { return found_[i].sharpness; });
+        for (float spacing = 2 * scale_.finest_spacing(); spacing <= scale_.edge; spacing *= 2)
+        {
+            std::unordered_map<uint64_t, std::vector<uint32_t>> cells; // those that stay
+            const auto has_stand_in = [&](uint32_t i)
+            {
+                std::vector<uint32_t>& staying = cells[spatial_cell(middle(found_[i]), spacing)];
+                const auto other =
+                    std::ranges::find_if(staying, [&](uint32_t j) { return can_stand_in(found_[j], found_[i]); });
+                if (other == staying.end())
+                {
+                    staying.push_back(i);
+                    return false;
+                }
+                found_[i].source.reach = spacing;
+                found_[i].source.stand_in = *other;
+                return true;
+            };
+            std::erase_if(left, has_stand_in);
+        }
+    }
+
+    void add_vertices()
+    {
+        for (const Cluster& cluster : clusters_)
         {
             found_.push_back({slots_[cluster.vertex],
+                              cluster.sharpness,
                               {cluster.vertex, cluster.vertex, static_cast<uint32_t>(result_.hinges.size()),
-                               static_cast<uint32_t>(cluster.hinges.size())}});
+                               static_cast<uint32_t>(cluster.hinges.size()), k_everywhere, 0}});
             for (const uint32_t hinge : cluster.hinges)
                 result_.hinges.push_back(hinges_[hinge]);
         }
@@ -169,6 +240,7 @@ private:
     std::vector<uint32_t> owners_;             // of their slots
     std::vector<glm::vec3> normals_;           // of the vertices: sums
     std::vector<float> cosines_;               // of the largest angle between that and the normal of a triangle
+    std::vector<Cluster> clusters_;            // in the order of their first hinges
     std::vector<Found> found_;
     DeformingFeatures result_;
 };

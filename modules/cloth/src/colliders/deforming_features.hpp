@@ -24,8 +24,9 @@ struct DeformingFeatures
 };
 
 // An edge belongs to a triangle that has it, unless it is shorter than half of the spacing as the mesh was added: the
-// mesh may stretch. Of the vertices in a cell of that size the sharpest counts, with the hinges around all of them. No
-// cloth that can touch it (scale.edge == 0): none.
+// mesh may stretch. Of the vertices in a cell of that size the sharpest counts, with the hinges around all of them. The
+// sharpest in a larger cell stands for the others there, and for edges along it, where features may be that far apart
+// (FeatureScale). No cloth that can touch it (scale.edge == 0): none.
 DeformingFeatures deforming_features(const DeformingMesh& mesh, const shared::ColliderRecord& record,
                                      const FeatureScale& scale);
 

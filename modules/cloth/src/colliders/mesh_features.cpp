@@ -1,10 +1,11 @@
 // Selects the feature edges and feature vertices of a mesh.
 //
 // A triangle is a candidate if the normals around it spread enough (normal_cones.hpp). A smooth mesh has no candidates,
-// however many triangles it has. An edge between two candidates is a feature if the angle between them is large enough.
-// Where the mesh is narrow, as a wire or a needle, every edge with an angle is a feature. Around a long edge the mesh
-// must be narrow across the edge, not at its ends: the flats of a cylinder are no features although they end at its
-// rims.
+// however many triangles it has. The vertices of an edge between two candidates are features if the angle between them
+// is large enough. Where the mesh is narrow, as a wire or a needle, those of every edge with an angle are. Around a
+// long edge the mesh must be narrow across the edge, not at its ends: the flats of a cylinder are no features although
+// they end at its rims. Of vertices that are close to each other for how much the mesh bends there, one is enough, and
+// an edge between two such vertices is no feature itself (FeatureScale::spacing_for).
 #include "colliders/mesh_features.hpp"
 
 #include "geometry/closedness.hpp"
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace voile
@@ -25,11 +28,12 @@ namespace
 using shared::Feature;
 
 constexpr float k_flat = 0.035f; // rad; an edge that turns by less is no feature
+constexpr float k_any_sag = std::numeric_limits<float>::infinity();
 
 struct Corner
 {
-    glm::vec3 normal{0.f}; // sum over its triangles, by their angles
-    bool is_feature = false;
+    glm::vec3 normal{0.f};      // sum over its triangles, by their angles
+    float sag = -1;             // m, of a feature: FeatureScale; the largest of its edges
     bool any_direction = false; // on the border of an open mesh
     float cosine = 1;
 };
@@ -51,7 +55,7 @@ public:
         : tree_(tree), scale_(scale), two_sided_((flags & VOILE_COLLIDER_ONE_SIDED) == 0),
           closed_((flags & VOILE_COLLIDER_CLOSED) != 0),
           bend_(std::atan(4 * k_allowed_fraction * scale.thickness / scale.edge)),
-          crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)), spacing_(scale.spacing())
+          crease_(std::atan(2 * k_allowed_fraction * scale.thickness / scale.edge)), finest_(scale.finest_spacing())
     {
     }
 
@@ -78,7 +82,7 @@ private:
     // border anywhere.
     void select_triangles()
     {
-        surroundings_ = surroundings(tree_, scale_.edge, std::max(bend_, crease_));
+        surroundings_ = surroundings(tree_, scale_.edge, spread_that_counts());
         std::vector<glm::vec3> corners;
         for (uint32_t t = 0; t < tree_.triangles.size(); ++t)
         {
@@ -102,11 +106,17 @@ private:
                   [](const Side& a, const Side& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
     }
 
+    // rad: where normals spread by more, the spacing is the finest.
+    [[nodiscard]] float spread_that_counts() const
+    {
+        return std::max(crease_, std::atan(4 * k_allowed_fraction * scale_.thickness / finest_));
+    }
+
     [[nodiscard]] bool bends(uint32_t t) const { return surroundings_[t].narrow && surroundings_[t].spread >= bend_; }
 
     [[nodiscard]] bool bends_across(const glm::vec3& a, const glm::vec3& b) const
     {
-        return glm::distance(a, b) <= spacing_ || turn_about(tree_, a, b, scale_.edge / 2, bend_) >= bend_;
+        return glm::distance(a, b) <= finest_ || turn_about(tree_, a, b, scale_.edge / 2, bend_) >= bend_;
     }
 
     // Normals by angle: Thürmer and Wüthrich 1998, "Computing vertex normals from polygonal facets".
@@ -146,7 +156,7 @@ private:
         if (sides.size() == 1 && closed_)
             return; // its other triangle lies where the mesh is flat
         if (sides.size() != 2)
-            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0});
+            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0}, k_any_sag);
         const glm::vec3 n = unit_normal(tree_.triangles[first.triangle]);
         const bool agree = first.upwards != sides[1].upwards; // on which side is outside
         const glm::vec3 m = (agree ? 1.f : -1.f) * unit_normal(tree_.triangles[sides[1].triangle]);
@@ -154,41 +164,68 @@ private:
         const bool convex = glm::dot(n, positions_[sides[1].opposite] - a) < 0;
         if (turn < k_flat || (!convex && !two_sided_))
             return;
-        if (turn / 2 < crease_ && !((bends(first.triangle) || bends(sides[1].triangle)) && bends_across(a, b)))
+        const bool narrow = (bends(first.triangle) || bends(sides[1].triangle)) && bends_across(a, b);
+        if (turn / 2 < crease_ && !narrow)
             return;
+        const float sag = sag_at(turn, narrow ? widest(sides) : 0);
         const glm::vec3 outwards = n + m;
         if (two_sided_ || glm::length(outwards) < 1e-3f)
-            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0});
+            return keep_edge(first, {a, 0, b, -1, glm::vec3(0, 1, 0), 0}, sag);
         const glm::vec3 normal = glm::normalize(outwards);
-        keep_edge(first, {a, 0, b, glm::dot(normal, n), normal, 0});
+        keep_edge(first, {a, 0, b, glm::dot(normal, n), normal, 0}, sag);
     }
 
-    void keep_edge(const Side& side, const Feature& edge)
+    // rad: the spread around the triangles at an edge.
+    [[nodiscard]] float widest(std::span<const Side> sides) const
+    {
+        return std::max(surroundings_[sides[0].triangle].spread, surroundings_[sides[1].triangle].spread);
+    }
+
+    // m: at an edge that turns by `turn`, rad, where normals spread by `spread`, rad.
+    [[nodiscard]] float sag_at(float turn, float spread) const
+    {
+        constexpr float k_steepest = 1.5f; // rad
+        return scale_.edge *
+               std::max(std::tan(std::min(turn / 2, k_steepest)) / 2, std::tan(std::min(spread, k_steepest)) / 4);
+    }
+
+    void keep_edge(const Side& side, const Feature& edge, float sag)
     {
         for (const uint32_t v : {side.low, side.high})
         {
-            corners_[v].is_feature = true;
+            corners_[v].sag = std::max(corners_[v].sag, sag);
             corners_[v].any_direction |= edge.cosine == -1;
         }
-        if (glm::distance(edge.a, edge.b) > spacing_)
+        if (glm::distance(edge.a, edge.b) > std::max(finest_, scale_.spacing_for(sag)))
             features_.push_back(edge);
     }
 
-    // The sharpest of each cell of a grid.
+    // The finest spacing, doubled as often as the mesh's bends allow.
+    [[nodiscard]] float spacing_at(const Corner& corner) const
+    {
+        float spacing = finest_;
+        while (2 * spacing <= scale_.spacing_for(corner.sag))
+            spacing *= 2;
+        return spacing;
+    }
+
+    // The sharpest of each cell of a grid. Corners with different spacings have different grids.
     void add_corners()
     {
-        std::unordered_map<uint64_t, uint32_t> cells;
+        std::map<float, std::unordered_map<uint64_t, uint32_t>> grids;
         for (uint32_t v = 0; v < corners_.size(); ++v)
         {
-            if (!corners_[v].is_feature)
+            if (corners_[v].sag < 0)
                 continue;
-            const auto [cell, is_new] = cells.emplace(spatial_cell(positions_[v], spacing_), v);
+            const float spacing = spacing_at(corners_[v]);
+            const auto [cell, is_new] = grids[spacing].emplace(spatial_cell(positions_[v], spacing), v);
             if (!is_new && sharpness(v) > sharpness(cell->second))
                 cell->second = v;
         }
         std::vector<uint32_t> kept;
-        for (const auto& [cell, v] : cells)
-            kept.push_back(v);
+        for (const auto& [spacing, cells] : grids)
+            for (const auto& [cell, v] : cells)
+                kept.push_back(v);
         std::sort(kept.begin(), kept.end()); // the order of the table is not defined
         for (const uint32_t v : kept)
         {
@@ -204,9 +241,9 @@ private:
     FeatureScale scale_;
     bool two_sided_;
     bool closed_;
-    float bend_;    // rad: half of the spread of normals that counts where the mesh is narrow
-    float crease_;  // rad: half of the angle of an edge that counts by itself
-    float spacing_; // m
+    float bend_;   // rad: half of the spread of normals that counts where the mesh is narrow
+    float crease_; // rad: half of the angle of an edge that counts by itself
+    float finest_; // m: FeatureScale::finest_spacing
     std::vector<Surroundings> surroundings_;
     std::vector<uint32_t> chosen_;     // triangles
     std::vector<glm::vec3> positions_; // three per chosen triangle

@@ -36,6 +36,7 @@ constexpr uint64_t BufferCounts::*k_counts[] = {
     &BufferCounts::feature_hinges,
     &BufferCounts::feature_slots,
     &BufferCounts::featured_vertices,
+    &BufferCounts::feature_items,
     &BufferCounts::anchors,
     &BufferCounts::attachments,
     &BufferCounts::tethers,

@@ -54,6 +54,7 @@ struct BufferCounts
     uint64_t feature_hinges = 0;
     uint64_t feature_slots = 0;
     uint64_t featured_vertices = 0; // 0 unless a collider has features
+    uint64_t feature_items = 0;
     uint64_t anchors = 0;
     uint64_t attachments = 0;
     uint64_t tethers = 0;

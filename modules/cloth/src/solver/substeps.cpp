@@ -207,8 +207,7 @@ void BatchRecorder::record_near_colliders(uint32_t substep)
 
 BatchRecorder::ItemRange BatchRecorder::feature_items() const
 {
-    const uint64_t per_vertex = device_.capacities.featured_vertices == 0 ? 0 : solver_.options.tuning.feature_items;
-    const uint64_t capacity = device_.capacities.vertices * per_vertex;
+    const uint64_t capacity = device_.capacities.feature_items;
     const auto before = [&](uint64_t patch)
     { return static_cast<uint32_t>(capacity * patch / std::max(context_.lists.patch_count(), 1u)); };
     const uint32_t first = before(lists_.patches.first);

@@ -99,7 +99,10 @@ void stage_deforming(Staging& staging, const FeaturePlacement& placement)
     const DeformingFeatures& features = placement.owner->deforming;
     std::vector<shared::FeatureSource> sources = features.sources;
     for (shared::FeatureSource& source : sources)
+    {
+        source.stand_in += static_cast<uint32_t>(placement.first[k_feature_sources]);
         source.first_hinge += static_cast<uint32_t>(placement.first[k_feature_hinges]);
+    }
     std::vector<uint32_t> slots = features.slots;
     for (uint32_t& slot : slots)
         slot += static_cast<uint32_t>(placement.first[k_feature_sources]) << VOILE_SLOT_FEATURE_BITS;
@@ -186,6 +189,15 @@ uint64_t count_pair_places(const Model& model)
     return places;
 }
 
+// Few vertices of coarse cloth may need many items each.
+uint64_t feature_item_room(const Tuning& tuning, uint64_t vertices)
+{
+    if (tuning.feature_items)
+        return vertices * *tuning.feature_items;
+    constexpr uint64_t k_most_more = VOILE_MOST_FEATURE_ITEMS - VOILE_FEATURE_ITEMS;
+    return vertices * VOILE_FEATURE_ITEMS + std::min<uint64_t>(vertices * k_most_more, VOILE_MORE_FEATURE_ITEMS);
+}
+
 // The entries that the buffers must have room for.
 BufferCounts count_entries(const Solver::State& solver)
 {
@@ -212,6 +224,7 @@ BufferCounts count_entries(const Solver::State& solver)
             .feature_hinges = models.features.end(k_feature_hinges),
             .feature_slots = models.features.end(k_feature_slots),
             .featured_vertices = has_features ? model.vertices.end() : 0,
+            .feature_items = has_features ? feature_item_room(solver.options.tuning, model.vertices.end()) : 0,
             .anchors = attached.anchors,
             .attachments = attached.attachments,
             .tethers = attached.tethers,
