@@ -45,6 +45,7 @@ struct DeformingMesh
     bool due = false;                     // the host gave new vertices: the next step moves to them, in the other half
     bool refit_due = false;               // its boxes do not fit: after it came to rest
     std::vector<glm::vec3> input;         // given by the host, m
+    float farthest = 0;                   // m, how far a vertex moves to there; 0 if they lie on the GPU
     std::optional<DeviceVertices> source; // or where they lie on the GPU
 
     [[nodiscard]] uint32_t first(uint32_t half) const { return first_vertex + half * vertices; }

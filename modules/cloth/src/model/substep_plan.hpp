@@ -33,6 +33,7 @@ struct SubstepLimits
 struct SubstepPlan
 {
     uint32_t substeps = 1;      // of level 0
+    uint32_t pair_period = 1;   // of these from one pass over pairs to the next
     uint32_t levels = 1;        // that may be used
     double fraction = 1;        // of the needed substeps that the budget leaves, 0..1
     uint32_t most = UINT32_MAX; // of a cloth: a need above it counts as this

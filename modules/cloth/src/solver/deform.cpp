@@ -1,6 +1,9 @@
 // Meshes that deform: their vertices from the host or from its buffers, and the refit of their hierarchies.
 #include "solver/solver_state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace voile
 {
 
@@ -91,6 +94,19 @@ Result<void> check_deformed(const std::string& name, const DeformingMesh& mesh, 
     return {};
 }
 
+// m: how far a vertex moves from what the host gave last.
+float farthest_vertex(const DeformingMesh& mesh, std::span<const glm::vec3> positions)
+{
+    const std::vector<glm::vec3>& last = mesh.input.empty() ? mesh.positions : mesh.input;
+    float farthest = 0;
+    for (size_t i = 0; i < positions.size(); ++i)
+    {
+        const glm::vec3 motion = glm::mat3(mesh.transform) * (positions[i] - last[i]);
+        farthest = std::max(farthest, glm::dot(motion, motion));
+    }
+    return std::sqrt(farthest);
+}
+
 } // namespace
 
 void record_deforming_input(gpu::Recorder& recorder, const Solver::State& solver)
@@ -160,6 +176,7 @@ Result<void> Solver::deform_collider(ColliderId collider, std::span<const glm::v
             return Error{name + ": position " + std::to_string(i) + " is not finite"};
     if (auto range = check_deformed(name, mesh, positions); !range)
         return range;
+    mesh.farthest = (mesh.due ? mesh.farthest : 0) + farthest_vertex(mesh, positions);
     mesh.input.assign(positions.begin(), positions.end());
     mesh.source.reset();
     mesh.due = true;
@@ -183,6 +200,7 @@ Result<void> Solver::deform_collider(ColliderId collider, const DeviceVertices& 
         return Error{name + ": the vertices' stride is " + std::to_string(vertices.stride) +
                      " bytes, must be 12 to 64 and a multiple of 4"};
     mesh.source = vertices;
+    mesh.farthest = 0;
     mesh.due = true;
     return {};
 }

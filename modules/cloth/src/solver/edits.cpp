@@ -118,23 +118,6 @@ float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::
     return static_cast<float>(glm::length(glm::dvec3(change * glm::dvec4(center, 1))) + std::sqrt(squares) * radius);
 }
 
-// Anchors, and colliders without a box, count with the points within a meter of their origin.
-float farthest_motion(const Solver::State& solver)
-{
-    float farthest = 0;
-    for (const auto [index, anchor] : solver.model.anchors)
-        farthest = std::max(farthest, displacement_bound(anchor.from, anchor.to, glm::dvec3(0), 1));
-    for (const auto [index, collider] : solver.collider_models.colliders)
-    {
-        const shared::ColliderRecord& record = collider.record;
-        const bool has_box = record.kind == VOILE_COLLIDER_MESH;
-        const glm::dvec3 center = has_box ? collider.origin : glm::dvec3(0);
-        const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
-        farthest = std::max(farthest, displacement_bound(collider.pose.from, collider.pose.to, center, radius));
-    }
-    return farthest;
-}
-
 bool is_uploaded(const Solver::State& solver, const shared::EditPush& edit)
 {
     const ClothModel* cloth = solver.model.cloths.at(edit.cloth);
@@ -245,10 +228,26 @@ void record_patches(gpu::Recorder& recorder, Solver::State& solver)
     solver.edits.patches = false;
 }
 
+float farthest_motion(const Solver::State& solver)
+{
+    float farthest = 0;
+    for (const auto [index, anchor] : solver.model.anchors)
+        farthest = std::max(farthest, displacement_bound(anchor.from, anchor.to, glm::dvec3(0), 1));
+    for (const auto [index, collider] : solver.collider_models.colliders)
+    {
+        const shared::ColliderRecord& record = collider.record;
+        const bool has_box = record.kind == VOILE_COLLIDER_MESH;
+        const glm::dvec3 center = has_box ? collider.origin : glm::dvec3(0);
+        const double radius = has_box ? static_cast<double>(0.5f * glm::distance(record.box_min, record.box_max)) : 1;
+        farthest = std::max(farthest, displacement_bound(collider.pose.from, collider.pose.to, center, radius));
+        if (collider.deforming && collider.deforming->due)
+            farthest = std::max(farthest, collider.deforming->farthest);
+    }
+    return farthest;
+}
+
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step)
 {
-    if (solver.passes.features)
-        solver.farthest_motion = farthest_motion(solver);
     const DeviceState& device = *solver.device;
     const Moved now = find_moved(solver);
     // Anchors that came to rest leave their pins with the velocity of the last step, colliders their surfaces.

@@ -16,6 +16,9 @@ namespace
 // s: contact between cloths needs no more passes than this has in a step.
 constexpr float k_interval = 0.4e-3f;
 
+// A collider pushes a vertex by this part of its reach from one pass to the next at most.
+constexpr float k_pushed_part = 0.3f;
+
 // That share the pairs of a vertex. On CPU devices one.
 uint32_t threads_per_vertex(const Tuning& tuning)
 {
@@ -47,22 +50,21 @@ VkDeviceSize offset_of(uint32_t dispatch)
 
 } // namespace
 
-uint32_t substeps_per_pass(float substep)
+uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32_t substeps, float farthest)
 {
-    return std::max(1u, static_cast<uint32_t>(std::lround(k_interval / substep)));
-}
-
-uint32_t count_pair_passes(const Step& step, uint32_t substeps)
-{
-    const uint32_t period = substeps_per_pass(step.duration / static_cast<float>(substeps));
-    return (substeps + period - 1) / period;
+    const float substep = step.duration / static_cast<float>(substeps);
+    const auto usual = static_cast<uint32_t>(std::lround(k_interval / substep));
+    const float pushed = k_pushed_part * solver.passes.pair_reach * static_cast<float>(substeps);
+    const uint32_t period =
+        pushed < farthest * static_cast<float>(usual) ? static_cast<uint32_t>(pushed / farthest) : usual;
+    return std::max(1u, period);
 }
 
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
-                           const Step& step, uint32_t substeps, uint32_t first_pass)
+                           const Step& step, const SubstepPlan& plan, uint32_t first_pass)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
-      leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(substeps),
-      h_(step.duration / static_cast<float>(substeps)), period_(substeps_per_pass(h_)), first_pass_(first_pass),
+      leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(plan.substeps),
+      h_(step.duration / static_cast<float>(plan.substeps)), period_(plan.pair_period), first_pass_(first_pass),
       gravity_(step.gravity)
 {
 }

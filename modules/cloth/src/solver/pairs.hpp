@@ -8,19 +8,17 @@
 namespace voile
 {
 
-// The number of substeps of level 0, each of so many s, from one pass to the next. Each pass can make new lists.
-uint32_t substeps_per_pass(float substep);
-
-// The number of passes in a step with so many substeps of level 0.
-uint32_t count_pair_passes(const Step& step, uint32_t substeps);
+// The number of substeps of level 0 from one pass to the next. Each pass can make new lists. `farthest`: m, how far
+// colliders and anchors move in the step. Vertices that they push may not reach where lists end before the next pass.
+uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32_t substeps, float farthest);
 
 // Records the passes at the beginning of those substeps that have one.
 class PairRecorder
 {
 public:
-    // `substeps`: of level 0, per step. `first_pass`: counted over all steps.
+    // `first_pass`: counted over all steps.
     PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, const Step& step,
-                 uint32_t substeps, uint32_t first_pass);
+                 const SubstepPlan& plan, uint32_t first_pass);
 
     // Whether a substep begins with a pass. The first one of a step does.
     [[nodiscard]] bool begins(uint32_t substep) const { return substep % period_ == 0; }

@@ -2,6 +2,8 @@
 #include "model/stability.hpp"
 #include "solver/solver_state.hpp"
 
+#include "shared/pair_layout.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -115,7 +117,11 @@ Passes Solver::State::passes_with(const StrainLimitOf& limit_of) const
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
             next.strain_passes = std::max(next.strain_passes, limit.passes);
         }
-        next.pairs = next.pairs || cloth.self_collision;
+        if (!cloth.self_collision)
+            continue;
+        const float reach = VOILE_PAIR_APPROACH * cloth.record.pair_range;
+        next.pair_reach = next.pairs ? std::min(next.pair_reach, reach) : reach;
+        next.pairs = true;
     }
     const bool attached = lists.resting_pins.first > lists.pins || !lists.tethers.empty();
     next.contact = next.colliders > 0 || attached || next.pairs;

@@ -78,7 +78,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     passes.record();
     history.pairs_met = solver.passes.pairs;
     if (solver.passes.pairs)
-        history.next_pair_pass += count_pair_passes(step, plan.substeps);
+        history.next_pair_pass += (plan.substeps + plan.pair_period - 1) / plan.pair_period;
     record_normals(recorder, solver);
 }
 
@@ -172,7 +172,9 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     record_previous_positions(recorder, *state_);
     begin_scope(recorder, state_->options);
     state_->history.depenetration_due |= state_->changes_due();
-    const SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
+    SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
+    state_->farthest_motion = farthest_motion(*state_);
+    plan.pair_period = substeps_per_pass(*state_, step, plan.substeps, state_->farthest_motion);
     state_->assign_levels(plan, step);
     record_edits(recorder, *state_, step);
     record_passes(recorder, *state_, state_->lists, state_->history, step, plan, state_->passes);
@@ -190,7 +192,8 @@ uint32_t Solver::dispatches(const Step& step) const
     StepHistory history = state_->history;
     history.normals_due = false; // passes after an upload are not counted
     std::vector<SubstepNeed> needs;
-    const SubstepPlan plan = state_->plan(step, needs, nullptr);
+    SubstepPlan plan = state_->plan(step, needs, nullptr);
+    plan.pair_period = substeps_per_pass(*state_, step, plan.substeps, farthest_motion(*state_));
     const LevelOf level_of = [&](const ClothModel& cloth)
     { return plan.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration))); };
     ActiveLists lists;

@@ -54,6 +54,7 @@ struct Passes
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's
     bool pairs = false;          // cloths that collide with themselves
+    float pair_reach = 0;        // m, how far the finest of those may be from where its lists expect it
     float mesh_extent = 0;       // m, the largest of a collider's mesh along an axis from its origin
 };
 
@@ -95,7 +96,7 @@ struct Solver::State
     ColliderModels collider_models;
     bool anchors_moved = false;   // in the last step
     bool colliders_moved = false; // in the last step
-    float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded, if there are features
+    float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded
     StepHistory history;
     ActiveLists lists;
     std::vector<SubstepNeed> needs; // of the active cloths, in no order; kept so that recording does not allocate
@@ -201,6 +202,10 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 
 // Writes the list of patches. Between barriers of the caller's.
 void record_patches(gpu::Recorder& recorder, Solver::State& solver);
+
+// m: how far colliders and anchors move in the next step. Anchors, and colliders without a box, count with the points
+// within a meter of their origin; vertices that lie on the GPU do not count.
+float farthest_motion(const Solver::State& solver);
 
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
 void record_edits(gpu::Recorder& recorder, Solver::State& solver, const Step& step);

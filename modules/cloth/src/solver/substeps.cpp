@@ -187,7 +187,8 @@ float BatchRecorder::progress(uint32_t substeps_done) const
 float BatchRecorder::sudden_speed() const
 {
     constexpr float k_sudden = 10; // m/s
-    return std::max(k_sudden, solver_.farthest_motion / context_.step.duration);
+    const float farthest = solver_.passes.features ? solver_.farthest_motion : 0;
+    return std::max(k_sudden, farthest / context_.step.duration);
 }
 
 void BatchRecorder::record_near_colliders(uint32_t substep)
@@ -301,7 +302,7 @@ void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
     push.after_pairs = after_pairs ? 1 : 0;
-    const uint32_t period = substeps_per_pass(h_);
+    const uint32_t period = context_.plan.pair_period;
     push.pair_ahead = static_cast<float>(period);
     // After the last substep no time passes.
     push.pair_from = h_ * static_cast<float>(substep < substeps_ ? substep % period : (substeps_ - 1) % period + 1);
