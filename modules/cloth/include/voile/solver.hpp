@@ -80,10 +80,10 @@ struct Tuning
     // workgroup_size. 0: eight, on CPU devices one.
     uint32_t feature_threads = 0;
 
-    // The mean number of features near the cloth that there is room for per vertex, 128 bytes each, at most 64. None: 8,
-    // and room for 65,536 more but no more than 64 per vertex. Where there is no room for all, they are listed again for
-    // a shorter time or for fewer vertices. The others find theirs in every substep, which is slower and merges contacts
-    // in another order. Two equal runs are equal to the bit.
+    // The mean number of features near the cloth that there is room for per vertex, 128 bytes each, at most 64. None:
+    // 8, and room for 65,536 more but no more than 64 per vertex. Where there is no room for all, they are listed again
+    // for a shorter time or for fewer vertices. The others find theirs in every substep, which is slower and merges
+    // contacts in another order. Two equal runs are equal to the bit.
     std::optional<uint32_t> feature_items{};
 
     // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that

@@ -99,8 +99,8 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
         return Error{"Tuning: contact_interval is " + std::to_string(options.tuning.contact_interval) +
                      " s, must be at least 0 and finite"};
     if (options.tuning.feature_items.value_or(0) > VOILE_MOST_FEATURE_ITEMS)
-        return Error{"Tuning: feature_items is " + std::to_string(*options.tuning.feature_items) + ", must be at most " +
-                     std::to_string(VOILE_MOST_FEATURE_ITEMS)};
+        return Error{"Tuning: feature_items is " + std::to_string(*options.tuning.feature_items) +
+                     ", must be at most " + std::to_string(VOILE_MOST_FEATURE_ITEMS)};
     if (options.tuning.pair_capacity < 1 || options.tuning.pair_capacity > VOILE_PAIRS)
         return Error{"Tuning: pair_capacity is " + std::to_string(options.tuning.pair_capacity) + ", not from 1 to " +
                      std::to_string(VOILE_PAIRS)};
