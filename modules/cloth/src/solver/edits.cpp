@@ -230,6 +230,8 @@ void record_patches(gpu::Recorder& recorder, Solver::State& solver)
 
 float farthest_motion(const Solver::State& solver)
 {
+    if (!solver.passes.features && !solver.passes.pairs)
+        return 0; // nothing asks for it
     float farthest = 0;
     for (const auto [index, anchor] : solver.model.anchors)
         farthest = std::max(farthest, displacement_bound(anchor.from, anchor.to, glm::dvec3(0), 1));

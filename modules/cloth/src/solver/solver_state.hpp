@@ -204,7 +204,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 void record_patches(gpu::Recorder& recorder, Solver::State& solver);
 
 // m: how far colliders and anchors move in the next step. Anchors, and colliders without a box, count with the points
-// within a meter of their origin; vertices that lie on the GPU do not count.
+// within a meter of their origin; vertices that lie on the GPU do not count. 0 without features and pairs.
 float farthest_motion(const Solver::State& solver);
 
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.
