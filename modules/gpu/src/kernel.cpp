@@ -1,7 +1,8 @@
-// Kernel and BindingPool: compute pipelines over storage buffers, and their descriptor sets.
+// Kernel and BindingPool: compute pipelines over buffers, and their descriptor sets.
 #include "voile/gpu/kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -22,13 +23,22 @@ std::string described(uint32_t number, const std::string& name)
     return std::to_string(number) + (name.empty() ? "" : " \"" + name + '"');
 }
 
+VkDescriptorType type_of(const ShaderBinding& binding)
+{
+    return binding.uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+uint32_t count_storage_buffers(const std::vector<ShaderBinding>& bindings)
+{
+    return static_cast<uint32_t>(std::ranges::count(bindings, false, &ShaderBinding::uniform));
+}
+
 VkResult create_layouts(const Context& context, const ShaderInterface& shader, VkDescriptorSetLayout* set_layout,
                         VkPipelineLayout* layout)
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const ShaderBinding& binding : shader.bindings)
-        bindings.push_back(
-            {binding.number, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        bindings.push_back({binding.number, type_of(binding), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<uint32_t>(bindings.size());
@@ -100,14 +110,15 @@ Result<void> check(const VkPhysicalDeviceLimits& limits, const KernelDescription
         return Error{name + "takes " + std::to_string(shader.shared_bytes) +
                      " bytes of shared memory with a workgroup of " + std::to_string(group) + ", the device has " +
                      std::to_string(limits.maxComputeSharedMemorySize)};
-    const auto buffers = static_cast<uint32_t>(shader.bindings.size());
+    const uint32_t buffers = count_storage_buffers(shader.bindings);
     const std::string binds = name + "binds " + std::to_string(buffers) + " storage buffers, the device allows ";
     if (buffers > limits.maxPerStageDescriptorStorageBuffers)
         return Error{binds + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " per stage"};
     if (buffers > limits.maxDescriptorSetStorageBuffers)
         return Error{binds + std::to_string(limits.maxDescriptorSetStorageBuffers) + " per set"};
-    if (buffers > limits.maxPerStageResources)
-        return Error{binds + std::to_string(limits.maxPerStageResources) + " resources per stage"};
+    if (shader.bindings.size() > limits.maxPerStageResources)
+        return Error{name + "binds " + std::to_string(shader.bindings.size()) + " buffers, the device allows " +
+                     std::to_string(limits.maxPerStageResources) + " resources per stage"};
     return {};
 }
 
@@ -210,21 +221,25 @@ BindingPool& BindingPool::operator=(BindingPool&& other) noexcept
     std::swap(pool_, other.pool_);
     std::swap(sets_left_, other.sets_left_);
     std::swap(buffers_left_, other.buffers_left_);
+    std::swap(uniform_buffers_left_, other.uniform_buffers_left_);
     return *this;
 }
 
-Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_sets, uint32_t max_buffers)
+Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_sets, uint32_t max_buffers,
+                                        uint32_t max_uniform_buffers)
 {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers};
+    const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers},
+                                                     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, max_uniform_buffers}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = max_sets;
-    info.poolSizeCount = 1;
-    info.pPoolSizes = &size;
+    info.poolSizeCount = max_uniform_buffers > 0 ? 2 : 1; // no size may be 0
+    info.pPoolSizes = sizes.data();
     BindingPool result;
     result.context_ = context;
     result.sets_left_ = max_sets;
     result.buffers_left_ = max_buffers;
+    result.uniform_buffers_left_ = max_uniform_buffers;
     const VkResult status = context.fn.vkCreateDescriptorPool(context.device(), &info, nullptr, &result.pool_);
     if (status != VK_SUCCESS)
         return Error{"descriptor pool cannot be made: " + to_string(status)};
@@ -254,7 +269,10 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
 {
     if (auto complete = check_buffers(kernel, buffers); !complete)
         return complete.error();
-    if (sets_left_ == 0 || buffers_left_ < buffers.size())
+    const std::vector<ShaderBinding>& bindings = kernel.bindings();
+    const uint32_t storage = count_storage_buffers(bindings);
+    const auto uniform = static_cast<uint32_t>(bindings.size()) - storage;
+    if (sets_left_ == 0 || buffers_left_ < storage || uniform_buffers_left_ < uniform)
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": the pool is used up"};
     const VkDescriptorSetLayout layout = kernel.set_layout();
     VkDescriptorSetAllocateInfo info{};
@@ -268,7 +286,8 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
         return Error{std::string("descriptor set of kernel \"") + kernel.name() + "\": " + to_string(status)};
     set_name(context_, VK_OBJECT_TYPE_DESCRIPTOR_SET, set, kernel.name());
     --sets_left_;
-    buffers_left_ -= static_cast<uint32_t>(buffers.size());
+    buffers_left_ -= storage;
+    uniform_buffers_left_ -= uniform;
 
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(buffers.size());
@@ -281,7 +300,7 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
         write.dstSet = set;
         write.dstBinding = given.number;
         write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.descriptorType = type_of(*std::ranges::find(bindings, given.number, &ShaderBinding::number));
         write.pBufferInfo = &infos.back();
         writes.push_back(write);
     }

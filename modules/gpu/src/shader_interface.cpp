@@ -54,6 +54,7 @@ enum Decoration : uint32_t
 };
 enum StorageClass : uint32_t
 {
+    k_uniform = 2,
     k_workgroup = 4,
     k_push_constant = 9,
     k_storage_buffer = 12,
@@ -225,19 +226,22 @@ Result<void> Reader::add_binding(uint32_t pointer, uint32_t id, uint32_t storage
 {
     Decorations& decorations = decorations_[id];
     const uint32_t number = decorations[k_binding];
-    if (storage != k_storage_buffer || decorations[k_descriptor_set] != 0)
+    const bool uniform = storage == k_uniform;
+    if ((storage != k_storage_buffer && !uniform) || decorations[k_descriptor_set] != 0)
         return Error{"binding " + std::to_string(number) + " of set " + std::to_string(decorations[k_descriptor_set]) +
-                     " is no storage buffer of set 0"};
+                     " is no buffer of set 0"};
     const uint32_t block_id = types_[pointer].operands[1];
     const Type& block = types_[block_id];
-    ShaderBinding binding{number, names_[block_id].empty() ? names_[id] : names_[block_id], false, false, 0};
+    ShaderBinding binding{number, names_[block_id].empty() ? names_[id] : names_[block_id], false, false, 0, uniform};
     for (size_t i = 0; i < block.operands.size(); ++i)
     {
         Decorations member = i < block.members.size() ? block.members[i] : Decorations{};
         binding.read |= member[k_non_readable] == 0 && decorations[k_non_readable] == 0;
-        binding.written |= member[k_non_writable] == 0 && decorations[k_non_writable] == 0;
+        binding.written |= !uniform && member[k_non_writable] == 0 && decorations[k_non_writable] == 0;
     }
-    if (!block.operands.empty() && types_[block.operands.back()].opcode == k_type_runtime_array)
+    if (uniform)
+        binding.stride = static_cast<uint32_t>(end_of(block_id));
+    else if (!block.operands.empty() && types_[block.operands.back()].opcode == k_type_runtime_array)
         binding.stride = decorations_[block.operands.back()][k_array_stride];
     interface_.bindings.push_back(std::move(binding));
     return {};

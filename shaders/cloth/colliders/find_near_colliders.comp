@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Lists the colliders near each patch of cloth until the next such pass, one bit per collider. One workgroup per patch.
 //
-// The patch's box has room for twice the speed of its vertices, and at least for the speed push.sudden. A bit is set if
-// the box of all that the collider sweeps until the end of the step overlaps the patch's box.
+// The patch's box has room for twice the speed of its vertices, and at least for the speed step_input.sudden. A bit is
+// set if the box of all that the collider sweeps until the end of the step overlaps the patch's box.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
@@ -27,6 +27,7 @@ layout(push_constant, std430) uniform Push { NearCollidersPush push; };
 
 #include "shared/box.glsl"
 #include "shared/patch.glsl"
+#include "shared/step_input.glsl"
 #include "colliders/collider_pose.glsl"
 
 // In thicknesses: room for the lists of candidates and for rounding beyond the thickness.
@@ -48,8 +49,8 @@ Box box_of_patch(PatchVertex self)
     if (self.exists)
     {
         const vec3 x = positions[self.index].xyz;
-        const float speed = max(2 * length(velocities[self.index].xyz), push.sudden);
-        boxes[thread] = grown(Box(x, x), speed * push.time + k_near_room * cloths[self.cloth].thickness);
+        const float speed = max(2 * length(velocities[self.index].xyz), step_input.sudden);
+        boxes[thread] = grown(Box(x, x), speed * seconds(push.substeps) + k_near_room * cloths[self.cloth].thickness);
     }
     barrier();
     for (uint half_size = gl_WorkGroupSize.x / 2; half_size > 0; half_size /= 2)

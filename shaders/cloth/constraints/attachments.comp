@@ -24,6 +24,7 @@ layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 resid
 layout(push_constant, std430) uniform Push { AttachmentPush push; };
 
 #include "shared/fine_position.glsl"
+#include "shared/step_input.glsl"
 #include "integration/integrator.glsl"
 
 // Projects a vertex that is `outside` m beyond a bound back along n, and removes the velocity that leads out. False: it
@@ -49,14 +50,14 @@ void main()
     const vec3 from = (anchor.from * vec4(attachment.position, 1)).xyz;
     const vec3 to = (anchor.to * vec4(attachment.position, 1)).xyz;
     const vec3 point = mix(from, to, push.progress);
-    const float h = push.step;
+    const float h = seconds(push.substeps);
     const FinePosition here = FinePosition(position.xyz, unpack_residual(residuals[attachment.vertex]));
     const vec3 to_vertex = (position.xyz - point) + here.residual;
     vec3 shift = vec3(0); // m, of the vertex
     const vec4 velocity = velocities[attachment.vertex];
     vec3 v = velocity.xyz;
 
-    const vec3 point_velocity = (to - from) * push.rate;
+    const vec3 point_velocity = (to - from) * step_input.rate;
     const float stiffness = attachment.stiffness;
     const float w = position.w;
     const vec3 pull = stiffness * (h * v - to_vertex) + attachment.damping * point_velocity;

@@ -28,6 +28,8 @@ layout(VOILE_BINDING(limit_scales)) buffer LimitScales { LimitScale scales[]; };
 
 layout(push_constant, std430) uniform Push { LimitScalePush push; };
 
+#include "shared/step_input.glsl"
+
 const float k_reserve_decay = 0.9; // of the reserve, per step
 // A limit whose displacements are at most this many times the step's own, at the same vertices, undoes the step.
 const float k_undoing = 5;
@@ -95,7 +97,7 @@ LimitScale scale_of(float reserve, Energies e)
     for (int i = 0; i < 8; ++i)
     {
         v = least(e.v_dv + shift * e.dv_dx, e.dv_dv, 1);
-        shift = least(e.v_dx + v * e.dv_dx, e.dx_dx, push.rate);
+        shift = least(e.v_dx + v * e.dv_dx, e.dx_dx, step_input.rate);
     }
     const float kinetic = v * e.v_dv + shift * e.v_dx + v * shift * e.dv_dx + 0.5 * (v * v * e.dv_dv + shift * shift * e.dx_dx);
     const float remaining = reserve - kinetic;

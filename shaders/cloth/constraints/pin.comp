@@ -15,7 +15,7 @@ layout(VOILE_BINDING(positions)) buffer Positions { vec4 positions[]; };
 layout(VOILE_BINDING(velocities)) writeonly buffer Velocities { vec4 velocities[]; };
 layout(VOILE_BINDING(residuals)) writeonly buffer Residuals { uvec2 residuals[]; };
 
-layout(push_constant, std430) uniform Push { AttachmentPush push; };
+layout(push_constant, std430) uniform Push { PinPush push; };
 
 void main()
 {

@@ -65,6 +65,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "shared/vertex_normal.glsl"
+#include "shared/step_input.glsl"
 #include "colliders/collider_pose.glsl"
 #define VOILE_NEAR_LISTS (NEAR_LISTS != 0)
 #include "colliders/near_colliders.glsl"
@@ -75,7 +76,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "pairs/hold.glsl"
 
 // The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
-float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth].flags), push.step, push.kicks); }
+float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth].flags), seconds(push.substeps), push.kicks); }
 
 #include "contact/feature_hold.glsl"
 #include "contact/response.glsl"
@@ -136,7 +137,7 @@ vec3 world_direction(RelativeMotion relative, vec3 direction)
 // would load the springs.
 float lift_of(Contact contact, float thickness)
 {
-    const float lift = min(thickness, contact.start + VOILE_DEPENETRATION_SPEED * push.step) - contact.gap;
+    const float lift = min(thickness, contact.start + VOILE_DEPENETRATION_SPEED * seconds(push.substeps)) - contact.gap;
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
@@ -154,7 +155,7 @@ vec3 carrying_velocity(Motion motion, Depenetration depenetration)
 {
     const uint c = depenetration.solid - 1;
     const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
-    const vec3 velocity = surface_displacement(relative, relative.from, vec3(0)) / push.step;
+    const vec3 velocity = surface_displacement(relative, relative.from, vec3(0)) / seconds(push.substeps);
     return velocity * min(1, VOILE_DEPENETRATION_SPEED / max(length(velocity), 1e-30));
 }
 
@@ -163,7 +164,7 @@ void depenetrate(uint i, inout Motion motion, Depenetration depenetration)
 {
     const vec3 surface = carrying_velocity(motion, depenetration);
     if (push.kicks == 1)
-        leave(motion, depenetration.velocity, surface, push.step);
+        leave(motion, depenetration.velocity, surface, seconds(push.substeps));
     if (push.result == VOILE_CONTACT_KEEPS_START)
         planes[i] = ContactPlane(depenetration.velocity, 0, surface, VOILE_PLANE_OF_EXIT);
 }
@@ -174,7 +175,7 @@ void stop_at_start(inout Motion motion, RelativeMotion relative, Contact contact
     const vec3 surface = surface_displacement(relative, relative.from + contact.deformation, contact.deformation);
     const vec3 n = world_direction(relative, contact.direction);
     motion.displacement = surface;
-    motion.v -= min(dot(motion.v - surface / push.step, n), 0) * n;
+    motion.v -= min(dot(motion.v - surface / seconds(push.substeps), n), 0) * n;
 }
 
 Friction pair_friction(Friction fabric, ColliderRecord collider)
@@ -228,7 +229,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     const vec3 n = world_direction(relative, contact.direction);
     const vec3 surface =
         surface_displacement(relative, relative.to - contact.gap * contact.direction, contact.deformation);
-    const Surface touched = Surface(n, surface, push.step, slop, pair_friction(cloth.friction, collider));
+    const Surface touched = Surface(n, surface, seconds(push.substeps), slop, pair_friction(cloth.friction, collider));
     if (push.result == VOILE_CONTACT_KEEPS_START && contact.start >= 0 && !state.leaves_solid)
     {
         keep_plane(list.vertex, touched, contact.gap - cloth.thickness - slop - dot(motion.displacement, n));
@@ -241,7 +242,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     state.path_is_clear = !state.touches && longest < contact.gap;
     state.touches = true;
     if (contact.start < 0)
-        motion.v -= dot(motion.v - surface / push.step, n) * n; // it leaves the inside without a velocity of its own
+        motion.v -= dot(motion.v - surface / seconds(push.substeps), n) * n; // it leaves the inside without a velocity of its own
     respond(motion, touched, lift_of(contact, cloth.thickness));
 }
 
@@ -292,7 +293,8 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
     motion.v = velocity.xyz;
     motion.cloth = cloth;
     flags = uint(velocity.w);
-    if (push.features != 0 && patches[push.first_patch + gl_WorkGroupID.x].near_features != 0 && corrections[i].substep == push.substep)
+    if (push.features != 0 && patches[push.first_patch + gl_WorkGroupID.x].near_features != 0 &&
+        corrections[i].substep == counted_substep(push.substep))
     {
         motion.displacement += corrections[i].shift;
         motion.v += corrections[i].change;
@@ -358,11 +360,11 @@ bool respond_to_pairs(Hold hold, inout Motion motion)
     {
         const vec3 change = hold.bound.impulse;
         motion.v += change;
-        motion.displacement += push.step * change;
+        motion.displacement += seconds(push.substeps) * change;
     }
     const vec3 along = along_planes(hold, motion.displacement);
-    if (push.step > 0)
-        motion.v += (along - motion.displacement) / push.step;
+    if (push.substeps > 0)
+        motion.v += (along - motion.displacement) / seconds(push.substeps);
     motion.displacement = along;
     return along != before;
 }
@@ -383,7 +385,7 @@ void hold_at_features(uint i, vec3 shifted, inout Motion motion)
         return;
     const FeatureGuard guard = feature_guards[i];
     const float part = safe_part(guard, shifted - corrections[i].shift, motion.displacement);
-    motion.v = mix(guard.carried / push.step, motion.v, part);
+    motion.v = mix(guard.carried / seconds(push.substeps), motion.v, part);
     motion.displacement = mix(guard.carried, motion.displacement, part);
 }
 

@@ -278,7 +278,7 @@ void refresh_candidates(inout Candidates list, uint layers, float path, float ma
         list.radius = list.max_radius; // until the next refresh, which would find as many
     candidate_centers[list.vertex] = vec4(list.center, list.radius);
     candidate_triangles[candidate_word(list, k_head_word)] =
-        push.substep << VOILE_CANDIDATE_COUNT_BITS | list.count;
+        counted_substep(push.substep) << VOILE_CANDIDATE_COUNT_BITS | list.count;
     candidate_triangles[candidate_word(list, k_max_radius_word)] = floatBitsToUint(list.max_radius);
     candidate_triangles[candidate_word(list, k_min_radius_word)] = floatBitsToUint(list.min_radius);
 }
@@ -300,8 +300,8 @@ Candidates load_candidates(uint vertex)
     list.count = head & VOILE_CANDIDATE_COUNT_MASK;
     list.center = ball.xyz;
     list.radius = ball.w;
-    list.made = made < push.first_substep ? -1
-                                          : min(float(made - push.first_substep + 1) * push.progress_per_substep, 1);
+    list.made = made < step_input.first_substep ? -1
+                                          : min(float(made - step_input.first_substep + 1) * push.progress_per_substep, 1);
     return list;
 }
 
@@ -320,8 +320,8 @@ Candidates find_candidates(uint vertex, Motion motion, float thickness, uint lay
     const float usable = push.refresh == 1 ? 0.5 * margin : margin;
     const bool covers = path_distance(list.center, motion) <= usable;
     const MovingMeshes meshes = moving_meshes(list, motion, layers, listed);
-    const float speed = length(motion.v) + meshes.carried / push.step;
-    const float wanted = max(k_candidate_margin * thickness, 2 * speed * push.refresh_time);
+    const float speed = length(motion.v) + meshes.carried / seconds(push.substeps);
+    const float wanted = max(k_candidate_margin * thickness, 2 * speed * seconds(push.refresh_substeps));
     // A list that overflowed when the vertex was fast, or too close, may fit when it rests.
     const bool may_fit = push.refresh == 1 && list.count > VOILE_CANDIDATES;
     if (covers && meshes.covered && !may_fit)

@@ -67,6 +67,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "integration/integrator.glsl"
 #include "colliders/near_colliders.glsl"
 #include "shared/mesh.glsl"
+#include "shared/step_input.glsl"
 #include "contact/feature_fan.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/swept_feature.glsl"
@@ -251,7 +252,7 @@ void find_change()
 void hold_at_features()
 {
     const vec3 proposed = displacement(self.earlier, self.proposed);
-    const vec3 carry = guard.carried / push.step;
+    const vec3 carry = guard.carried / seconds(push.substeps);
     for (uint k = 0; k < 2; ++k)
     {
         const vec4 plane = guard.planes[k];
@@ -278,7 +279,7 @@ void write_correction()
         hold_at_features();
         feature_guards[i] = guard;
     }
-    corrections[i] = FeatureCorrection(response.shift, push.substep, response.change, is_guarded ? 1 : 0);
+    corrections[i] = FeatureCorrection(response.shift, counted_substep(push.substep), response.change, is_guarded ? 1 : 0);
     if (is_verlet(cloths[self.vertex.cloth].flags))
         predicted[i] += vec4(response.change, 0);
 }
@@ -309,8 +310,8 @@ Items load_items()
         items.touched[i] = has ? touched : uvec2(0);
         any |= items.touched[i];
         const uint invalid = cells[cell].invalid;
-        items.valid = items.valid && (!has || (invalid != push.substep && invalid != VOILE_EVERY_SUBSTEP));
-        items.guarded = items.guarded || (has && cells[cell].guarded == push.substep);
+        items.valid = items.valid && (!has || (invalid != counted_substep(push.substep) && invalid != VOILE_EVERY_SUBSTEP));
+        items.guarded = items.guarded || (has && cells[cell].guarded == counted_substep(push.substep));
     }
     items.any = any != uvec2(0);
     return items;

@@ -123,7 +123,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     const bool passed = gap_before > 0 && result.gap < 0;
     result.found = result.gap < self.thickness && (passed || result.gap > -self.thickness);
     // What was too close before is lifted slowly, or one contact's push would make the next one miss.
-    result.wanted = min(self.thickness, gap_before + k_lift_speed * push.step);
+    result.wanted = min(self.thickness, gap_before + k_lift_speed * seconds(push.substeps));
     result.squeezed = result.found && gap_before < k_squeezed * self.thickness;
     result.held = push.kicks > 1 && gap_before <= k_touching * self.thickness;
     result.time = passed ? gap_before / (gap_before - result.gap) : 1;
@@ -168,7 +168,7 @@ Impulse impulse_of(PieceContact touch)
     vec3 n = touch.contact.direction;
     if (collider_moves)
         n = rotate(pose_to.rotation, n);
-    const vec3 relative = touch.velocity - carried_displacement(touch.point, touch.moved) / push.step;
+    const vec3 relative = touch.velocity - carried_displacement(touch.point, touch.moved) / seconds(push.substeps);
     // A piece that swings back within several substeps would be lifted again and again, and gain energy each time.
     const float leaving = dot(relative, n);
     const float approach = touch.contact.held ? -leaving : max(-leaving, 0);
@@ -214,18 +214,18 @@ void add_friction()
         return;
     const vec3 n = response.change / pressed;
     const vec3 surface = surface_displacement(response.motion);
-    const vec3 v_t = tangential(self.velocity - surface / push.step, n);
+    const vec3 v_t = tangential(self.velocity - surface / seconds(push.substeps), n);
     const float speed = length(v_t);
     const float fraction = holding_fraction(pressed, speed);
-    const float most = k_slow * push.step;
+    const float most = k_slow * seconds(push.substeps);
     const float slow = clamp(2 - max(speed, pressed) / most, 0, 1);
-    const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), push.step, push.kicks);
+    const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), seconds(push.substeps), push.kicks);
     vec3 slid = fraction * time * v_t;
     if (fraction == 1) // to the bit
         slid = tangential(displacement(self.earlier, self.proposed) - surface, n);
     // Shifts of other directions that move the vertex along the surface would add up to a creep, too.
     const vec3 shifted = tangential(response.shift, n);
-    const float least = min(1, most * push.step / max(length(shifted), 1e-30));
+    const float least = min(1, most * seconds(push.substeps) / max(length(shifted), 1e-30));
     response.shift += mix(time * response.slowing, -slid - fraction * least * shifted, slow);
     response.change += mix(response.slowing, -fraction * v_t, slow);
 }

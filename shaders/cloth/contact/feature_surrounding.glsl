@@ -49,7 +49,7 @@ Surrounding surrounding(PatchVertex self, uint c, uint flags)
         if (!find_around(self, i, vertex))
             continue;
         vec3 from = from_origin(c, flags, position_of(vertex));
-        vec3 to = from + push.time * velocities[vertex].xyz;
+        vec3 to = from + seconds(push.substeps) * velocities[vertex].xyz;
         if (moves)
         {
             from = to_collider(start, from);

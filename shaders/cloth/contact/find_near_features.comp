@@ -50,6 +50,7 @@ layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 #include "shared/patch.glsl"
 #include "shared/mesh.glsl"
 #include "shared/segments.glsl"
+#include "shared/step_input.glsl"
 #include "colliders/collider_pose.glsl"
 #include "colliders/near_colliders.glsl"
 #include "contact/feature_fan.glsl"
@@ -303,8 +304,9 @@ Box swept_box(NearFeature near)
 Box expect_motion(inout FeatureSearch search, uint c, uvec3 vertices)
 {
     const Space space = space_at(c, push.progress_to);
-    const Triangle end = Triangle(position_in(space, vertices.x, push.time), position_in(space, vertices.y, push.time),
-                                  position_in(space, vertices.z, push.time));
+    const float time = seconds(push.substeps);
+    const Triangle end = Triangle(position_in(space, vertices.x, time), position_in(space, vertices.y, time),
+                                  position_in(space, vertices.z, time));
     const mat3 motions = mat3(end.a - search.shape.a, end.b - search.shape.b, end.c - search.shape.c);
     search.motion = (motions[0] + motions[1] + motions[2]) / 3;
     search.spread = max(max(distance(motions[0], search.motion), distance(motions[1], search.motion)),
@@ -414,7 +416,8 @@ void claim_items()
 void list_patch()
 {
     const uint index = patch_of_group();
-    if (near_vertices != 0 && atomicExchange(patches[index].near_features, push.query) != push.query)
+    const uint query = counted_substep(push.query);
+    if (near_vertices != 0 && atomicExchange(patches[index].near_features, query) != query)
         near_patches[push.first_patch +
                      atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES], 1)] = index;
 }
@@ -489,7 +492,7 @@ void main()
     {
         const vec3 position = positions[search.self.index].xyz;
         const vec3 velocity = velocities[search.self.index].xyz;
-        const float reach = max(2 * length(velocity) * push.time, sudden_reach());
+        const float reach = max(2 * length(velocity) * seconds(push.substeps), sudden_reach());
         walked = grown(Box(position, position), reach);
         search.widest = find_margin(search.self, walked);
         if (lane == 0)

@@ -1,7 +1,7 @@
 // A feature of any collider when near features are listed.
 //
 // The including kernel declares features[], deforming_reach[], push (NearFeaturesPush) and what deforming_feature.glsl
-// needs.
+// needs, and includes step_input.glsl before.
 #ifndef VOILE_NEAR_FEATURE_GLSL
 #define VOILE_NEAR_FEATURE_GLSL
 
@@ -10,7 +10,8 @@
 // m: how far a vertex at rest may get until the next query.
 float sudden_reach()
 {
-    return push.sudden * push.time + uintBitsToFloat(deforming_reach[0]) * (push.progress_to - push.progress_from);
+    const float deformed = uintBitsToFloat(deforming_reach[0]) * (push.progress_to - push.progress_from);
+    return step_input.sudden * seconds(push.substeps) + deformed;
 }
 
 // A feature at the query, and how it moves until the next one, in its collider's space.

@@ -43,6 +43,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "shared/box.glsl"
 #include "shared/patch_vertex.glsl"
 #include "shared/mesh.glsl"
+#include "shared/step_input.glsl"
 #include "colliders/collider_pose.glsl"
 #include "contact/feature_fan.glsl"
 #include "contact/friction.glsl"
@@ -71,7 +72,8 @@ PatchVertex item_vertex(uint cloth, uint index)
 // The same for a collider that deforms: from the straight path in its space that the vertex was expected to take.
 float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition earlier, FinePosition proposed)
 {
-    const float time = (push.progress_next - push.progress_listed) * push.step / (push.progress_to - push.progress_from);
+    const float lasts = (push.progress_next - push.progress_listed) / (push.progress_to - push.progress_from);
+    const float time = lasts * seconds(push.substeps);
     const vec3 from = from_origin(collider_index, collider_flags, center);
     const vec3 to = from + time * vec3(listed.velocity_x, listed.velocity_yz);
     const vec3 start = collider_moves ? to_collider(pose_listed, from) : from;
@@ -123,7 +125,7 @@ void check_guard(float margin)
             valid = valid && drift(vertex) <= room; // not if it is not a number
     }
     if (!valid)
-        cells[self.vertex.index].invalid = push.substep;
+        cells[self.vertex.index].invalid = counted_substep(push.substep);
 }
 
 // The portions of the cell's vertices. Of a mesh the first is that of the vertex.
@@ -186,7 +188,7 @@ void test_piece(uint item, uint kind, uint k, float excess)
     if (!touch.contact.found && !guarded)
         return;
     if (guarded)
-        cells[self.vertex.index].guarded = push.substep;
+        cells[self.vertex.index].guarded = counted_substep(push.substep);
     Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0);
     vec4 in_cell_portions = vec4(0);
     if (touch.contact.found)

@@ -11,6 +11,7 @@
 #include "shared/mesh.glsl"
 #include "integration/stability.glsl"
 #include "forces/wind.glsl"
+#include "shared/step_input.glsl"
 
 struct Gather
 {
@@ -50,7 +51,8 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     if (g.viscosity.is_on)
     {
         // Without branches: among threads that run together some vertex nearly always has a fast spring.
-        const float per_length = push.step / max(rest_length, 1e-9); // huge for a spring without length, whose stiffness is 0
+        // Huge for a spring without length, whose stiffness is 0.
+        const float per_length = seconds(push.substeps) / max(rest_length, 1e-9);
         const float sharpness = g.viscosity.sharpness;
         const float along = clamp(fma(abs(rate), per_length * sharpness, -k_viscous_strain * sharpness), 0, 1);
         const float across = clamp(fma(dot(relative_velocity, relative_velocity), per_length * per_length * sharpness,
@@ -78,7 +80,7 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float fraction)
     const vec3 u = clamp(g.wind - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
     const float u_n = dot(u, n);
     const vec3 u_t = u - u_n * n;
-    const float c = 0.25 * push.air_density * fraction * min(across_length, VOILE_MOST_AIR_AREA);
+    const float c = 0.25 * step_input.air_density * fraction * min(across_length, VOILE_MOST_AIR_AREA);
     const float normal = c * cloths[cloth].drag_normal * abs(u_n);
     const float tangential = c * cloths[cloth].drag_tangential * length(u_t);
     g.air += normal * u_n * n + tangential * u_t;
@@ -296,14 +298,15 @@ Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity vis
 vec3 acceleration(bool verlet, PatchVertex self, FinePosition x, float inverse_mass, vec3 v)
 {
     const uint cloth = self.cloth;
-    const StabilityScales scales = stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, push.step);
+    const float h = seconds(push.substeps);
+    const StabilityScales scales = stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, h);
     Viscosity viscosity = k_no_viscosity;
     if (verlet)
-        viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, push.step);
+        viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, h);
     const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
-    const float air = air_scale(verlet, inverse_mass * g.air_rate, push.step);
-    precise const vec3 gravity = cloths[cloth].gravity_scale * push.gravity; // with a scale of 1 it changes no bit
+    const float air = air_scale(verlet, inverse_mass * g.air_rate, h);
+    precise const vec3 gravity = cloths[cloth].gravity_scale * step_input.gravity; // with a scale of 1 it changes no bit
     return gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
 }
 

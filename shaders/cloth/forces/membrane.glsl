@@ -49,7 +49,7 @@ void add_direction(inout FabricStress sum, Deformation deformation, vec2 d, Spri
     if (viscosity.is_on)
     {
         // As in add_spring, for a rest length of 1. Viscosity along the direction suffices; across it would add spin.
-        const float change = abs(stretch_rate) * stretch * push.step;
+        const float change = abs(stretch_rate) * stretch * seconds(push.substeps);
         const float fraction = clamp((change - k_viscous_strain) * viscosity.sharpness, 0, 1);
         tension += min(1 / squared, 1) * viscosity.scale * fraction * spring.stiffness * stretch_rate;
     }

@@ -2,13 +2,14 @@
 //
 // The gusts are four transverse waves, an octave apart. The field has no divergence (Kraichnan 1970, "Diffusion by a
 // random velocity field"). Amplitudes fall as k^(-1/3): an octave of Kolmogorov's spectrum, k^(-5/3) dk, has the energy
-// k^(-2/3). The host computes the phases at the current time in double precision. The field depends on time and
+// k^(-2/3). The host computes the phases at the step's start in double precision. The field depends on time and
 // position only.
 // The including kernel declares `push` (StagePush).
 #ifndef VOILE_WIND_GLSL
 #define VOILE_WIND_GLSL
 
 #include "shared/constants.glsl"
+#include "shared/step_input.glsl"
 
 // Wave vectors in units of the longest wave's, unit directions of the velocity across them, and amplitudes, whose root
 // mean square is 1.
@@ -42,15 +43,16 @@ float turns(float a, float b, float b_residual)
 
 vec3 wind_at(FinePosition position)
 {
-    vec3 wind = push.wind;
-    if (push.gust_speed == 0)
+    vec3 wind = step_input.wind;
+    if (step_input.gust_speed == 0)
         return wind;
+    const vec4 phases = step_input.gust_phases + seconds(push.time) * step_input.gust_rates;
     for (int i = 0; i < 4; ++i)
     {
-        const vec3 wave = push.gust_frequency * k_gust_waves[i];
+        const vec3 wave = step_input.gust_frequency * k_gust_waves[i];
         const float along = turns(wave.x, position.x.x, position.residual.x) + turns(wave.y, position.x.y, position.residual.y) +
                             turns(wave.z, position.x.z, position.residual.z);
-        wind += push.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along) - push.gust_phases[i]) *
+        wind += step_input.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along - phases[i])) *
                 k_gust_directions[i];
     }
     return wind;

@@ -62,7 +62,7 @@ void main()
     const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
     const vec3 forced = acceleration(false, self, here, inverse_mass, stage_v);
     const vec3 a = inverse_mass > 0 ? forced : vec3(0);
-    const float h = push.step;
+    const float h = seconds(push.substeps);
     if (push.stage == 4)
     {
         const vec3 second = second_velocities[i].xyz;

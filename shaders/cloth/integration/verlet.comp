@@ -36,7 +36,7 @@ layout(push_constant, std430) uniform Push { StagePush push; };
 #include "contact/contact_vertex.glsl"
 #include "integration/integrator.glsl"
 
-float slip_time(Motion motion) { return drift_time(true, push.step, 1); }
+float slip_time(Motion motion) { return drift_time(true, seconds(push.substeps), 1); }
 
 #include "contact/response.glsl"
 
@@ -44,13 +44,14 @@ const float k_plane_slop = 1e-9; // m: rounding of slack and displacement
 
 void stay_above(uint i, ContactPlane plane, inout Motion motion)
 {
-    const vec3 displacement = push.step * plane.velocity;
+    const float h = seconds(push.substeps);
+    const vec3 displacement = h * plane.velocity;
     const float slack = plane.slack + dot(motion.displacement - displacement, plane.normal);
     planes[i].slack = max(slack, 0);
     if (slack > 0)
         return;
     const vec2 friction = unpackHalf2x16(plane.friction);
-    respond(motion, Surface(plane.normal, displacement, push.step, k_plane_slop, Friction(friction.x, friction.y)), -slack);
+    respond(motion, Surface(plane.normal, displacement, h, k_plane_slop, Friction(friction.x, friction.y)), -slack);
 }
 
 // Contact with the surface that the vertex touched in the last contact pass.
@@ -58,7 +59,7 @@ void respond_to_plane(uint i, inout Motion motion)
 {
     const ContactPlane plane = planes[i];
     if (plane.friction == VOILE_PLANE_OF_EXIT)
-        leave(motion, plane.normal, plane.velocity, push.step);
+        leave(motion, plane.normal, plane.velocity, seconds(push.substeps));
     else if (plane.normal != vec3(0))
         stay_above(i, plane, motion);
 }
@@ -79,11 +80,11 @@ void main()
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE);
-    const float kick = touches == 0 ? push.kick : ends ? 0 : push.step;
+    const float kick = touches == 0 ? seconds(push.kick) : ends ? 0 : seconds(push.substeps);
     Motion motion;
     motion.from = x;
     motion.v = before.xyz + kick * a;
-    motion.displacement = push.drift * motion.v;
+    motion.displacement = seconds(push.drift) * motion.v;
     motion.cloth = self.cloth;
     if (push.planes != 0 && stage_x.w > 0)
         respond_to_plane(i, motion);
@@ -92,6 +93,6 @@ void main()
     next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(motion.v, ends ? touches : 0);
     const StabilityScales scales =
-        stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, push.step);
-    next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * push.step * a, 0);
+        stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, seconds(push.substeps));
+    next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * seconds(push.substeps) * a, 0);
 }

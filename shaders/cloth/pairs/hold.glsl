@@ -1,6 +1,6 @@
 // Holds vertices within the guards of their pairs (pair_layout.h).
 //
-// The including kernel declares pair_bounds[].
+// The including kernel declares pair_bounds[] and push (ContactPush).
 #ifndef VOILE_HOLD_GLSL
 #define VOILE_HOLD_GLSL
 
@@ -9,12 +9,21 @@
 #include "pairs/guard.glsl"
 #include "pairs/sweep.glsl"
 #include "shared/segments.glsl"
+#include "shared/step_input.glsl"
 
 // Rounding that guards leave room for, as a part of lengths.
 const float k_guard_rounding = 1e-5;
 
 // New lists are made before a vertex has used this part of its reach.
 const float k_used_reach = 0.8;
+
+// s, from the last pass over pairs to the start of the motion, and to its end.
+float pair_from() { return seconds(push.pair_from); }
+float pair_to()
+{
+    precise const float end = pair_from() + seconds(push.pair_lasts);
+    return end;
+}
 
 // A vertex within its guards, and where they end. The clock of the lists may carry both.
 struct Hold
@@ -48,13 +57,13 @@ Hold hold_of(uint i, FinePosition from)
                           (sweep.fall > 0 ? rounded_off() : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? gravity_of_pairs() : vec3(0);
     const vec3 mean = rate * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL_RATE].entries) * gravity;
-    const float now = clock + rate * mix(push.pair_from, push.pair_to, sweep.fall);
+    const float now = clock + rate * mix(pair_from(), pair_to(), sweep.fall);
     hold.carry = rate * (velocity + now * gravity);
-    hold.carried = (push.pair_to - push.pair_from) * mean;
-    hold.at -= push.pair_from * mean;
+    hold.carried = (pair_to() - pair_from()) * mean;
+    hold.at -= pair_from() * mean;
     hold.swept -= clock * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL].entries) * gravity +
-                  push.pair_from * mean;
-    const float end = clock + rate * push.pair_to + push.pair_ahead * push.step;
+                  pair_from() * mean;
+    const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
     hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);
     return hold;
 }

@@ -41,6 +41,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
+#include "pairs/pair_pass.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
@@ -136,7 +137,7 @@ void bound(uint i, uint cloth, float reach, bool listed)
     sweep.carry = pair_carries[i];
     sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
     if (reach <= 0 && sweep.fall == 0)
-        pair_searches[VOILE_PAIR_STOPPED].entries = push.pass + 1;
+        pair_searches[VOILE_PAIR_STOPPED].entries = pair_pass() + 1;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
@@ -160,9 +161,9 @@ void main()
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
     if (gl_GlobalInvocationID.x == 0)
-        pair_searches[VOILE_PAIR_CLOCKS + (push.pass & 1u)].entries = 0;
+        pair_searches[VOILE_PAIR_CLOCKS + (pair_pass() & 1u)].entries = 0;
     if (gl_GlobalInvocationID.x == 0)
-        pair_searches[VOILE_PAIR_FALLS + (push.pass & 1u)].entries = 0;
+        pair_searches[VOILE_PAIR_FALLS + (pair_pass() & 1u)].entries = 0;
     if (gl_GlobalInvocationID.x == 0)
         keep_rounded_off();
     if (gl_GlobalInvocationID.x == 0)

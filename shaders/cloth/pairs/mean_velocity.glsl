@@ -4,10 +4,13 @@
 #ifndef VOILE_MEAN_VELOCITY_GLSL
 #define VOILE_MEAN_VELOCITY_GLSL
 
+#include "shared/step_input.glsl"
+
 // m/s, at a pass, of a vertex that falls freely.
 vec3 velocity_at_pass(vec3 velocity, uint cloth_flags)
 {
-    return velocity + ((cloth_flags & VOILE_CLOTH_VERLET) != 0 ? push.lag.xyz : vec3(0));
+    precise const vec3 lag = seconds(push.lag) * step_input.gravity;
+    return velocity + ((cloth_flags & VOILE_CLOTH_VERLET) != 0 ? lag : vec3(0));
 }
 
 // m/s: the mean of all vertices that are clear of colliders.

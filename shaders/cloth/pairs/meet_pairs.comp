@@ -72,7 +72,7 @@ void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Ve
 {
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
-    const bool known = memory.pass + 1 == push.pass;
+    const bool known = memory.pass + 1 == pair_pass();
     const vec3 v = velocities[i].xyz;
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
@@ -107,7 +107,7 @@ struct Approach
 vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
 {
     drift = vec3(0);
-    const float missing = approach.missing / push.interval;
+    const float missing = approach.missing / pair_interval();
     const float along = dot(approach.velocity, approach.n);
     const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - along;
     const vec3 sliding = approach.velocity - along * approach.n;
@@ -115,11 +115,11 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     {
         // Packed as halfs: beyond their range it would be infinite, and the slip it adds up to not a number.
         if (approach.missing > -k_near * approach.thickness)
-            drift = clamp(sliding * push.interval, vec3(-k_most_half), vec3(k_most_half));
+            drift = clamp(sliding * pair_interval(), vec3(-k_most_half), vec3(k_most_half));
         return vec3(0);
     }
     const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
-    const vec3 undo = k_undo_slip / push.interval * slip;
+    const vec3 undo = k_undo_slip / pair_interval() * slip;
     const float speed = length(sliding);
     const float spare = friction.x * wanted - speed;
     if (spare >= 0) // it sticks; taking back what has drifted must not make it slide
@@ -136,7 +136,7 @@ vec2 driven_approach(uint sides, Vertices vertices, Separation separation)
     [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         const bool first = k < sides;
-        const float along = push.interval * dot(vertices.v[k], first ? -separation.n : separation.n);
+        const float along = pair_interval() * dot(vertices.v[k], first ? -separation.n : separation.n);
         const float approach = vertices.inverse_masses[k] == 0 ? along - separation.from_plane[k] : 0;
         needed = max(needed, first ? vec2(approach, 0) : vec2(0, approach));
     }
@@ -172,7 +172,7 @@ float spare_gap(float gap, float thickness)
 
 void add_load(uint vertex, float weight)
 {
-    atomicAdd(pair_loads[(push.pass & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
+    atomicAdd(pair_loads[(pair_pass() & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
 }
 
 void main()
@@ -227,7 +227,7 @@ void main()
             add_load(pair.vertices[k], nearest.weights[k]);
     }
     if (rate < 1)
-        atomicMin(pair_searches[VOILE_PAIR_RATES + (push.pass & 1u)].entries, floatBitsToUint(rate));
+        atomicMin(pair_searches[VOILE_PAIR_RATES + (pair_pass() & 1u)].entries, floatBitsToUint(rate));
     response.heights = uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
     pair_responses[entry] = response;
 }

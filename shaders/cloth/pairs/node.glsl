@@ -1,10 +1,11 @@
 // Vertices of primitives as searches see them.
 //
-// The including kernel declares midpoints[], pair_carries[] and push.
+// The including kernel declares midpoints[] and pair_carries[].
 #ifndef VOILE_NODE_GLSL
 #define VOILE_NODE_GLSL
 
 #include "pairs/sweep.glsl"
+#include "shared/step_input.glsl"
 
 // The point from which a search looks at vertices. It is carried, too.
 struct Viewpoint
@@ -25,7 +26,7 @@ struct Node
 };
 
 // m: packing a sweep rounds each axis of its half by at most half a unit.
-float fall_of(uint word) { return falls(word) * (push.fall + 2 * sweep_unit(word)); }
+float fall_of(uint word) { return falls(word) * (step_input.pair_fall + 2 * sweep_unit(word)); }
 
 // m, relative to each other. What falls freely has the same carry.
 float fall_between(float a, float b) { return a > 0 && b > 0 ? 0 : max(a, b); }

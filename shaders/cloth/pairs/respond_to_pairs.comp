@@ -118,7 +118,7 @@ void merge(uint thread, uint lane, inout Gather sum)
 // 1/kg: the inverse mass of the pair, each vertex with the part of its mass that the pair gets.
 float split_mobility(Pair pair, PairResponse response)
 {
-    const uint first = (push.pass & 1u) * push.vertices;
+    const uint first = (pair_pass() & 1u) * push.vertices;
     const vec4 loads = vec4(pair_loads[first + pair.vertices.x], pair_loads[first + pair.vertices.y],
                             pair_loads[first + pair.vertices.z], pair_loads[first + pair.vertices.w]);
     return dot(abs(response.mobilities), loads) / VOILE_PAIR_UNIT_LOAD;
@@ -174,8 +174,8 @@ PairMemory remembered(uint i, uint cloth, Gather sum)
     const PairMemory before = pair_memories[i];
     PairMemory memory;
     memory.velocity = velocities[i].xyz + sum.change;
-    memory.pass = push.pass;
-    const vec3 kept = before.pass + 1 == push.pass ? k_keep_slip * before.slip : vec3(0);
+    memory.pass = pair_pass();
+    const vec3 kept = before.pass + 1 == pair_pass() ? k_keep_slip * before.slip : vec3(0);
     const vec3 slip = kept + sum.drift / max(sum.touching, 1e-30);
     const float longest = k_longest_slip * cloths[cloth].pair_thickness;
     memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
@@ -188,15 +188,15 @@ void keep_clock()
 {
     const float clock = clock_at_pass();
     const float rate = clock_rate();
-    const uint other = 1 - (push.pass & 1u);
+    const uint other = 1 - (pair_pass() & 1u);
     pair_searches[VOILE_PAIR_RATE].entries = floatBitsToUint(rate);
     pair_searches[VOILE_PAIR_CLOCK].entries = floatBitsToUint(clock);
     const float fall = fall_at_pass();
     const float gained = rate * fall_until_next();
     pair_searches[VOILE_PAIR_FALL].entries = floatBitsToUint(fall);
-    pair_searches[VOILE_PAIR_FALL_RATE].entries = floatBitsToUint(gained / push.interval);
+    pair_searches[VOILE_PAIR_FALL_RATE].entries = floatBitsToUint(gained / pair_interval());
     pair_searches[VOILE_PAIR_FALLS + other].entries = floatBitsToUint(fall + gained);
-    pair_searches[VOILE_PAIR_CLOCKS + other].entries = floatBitsToUint(clock + rate * push.interval);
+    pair_searches[VOILE_PAIR_CLOCKS + other].entries = floatBitsToUint(clock + rate * pair_interval());
     pair_searches[VOILE_PAIR_RATES + other].entries = floatBitsToUint(1);
 }
 
@@ -216,7 +216,7 @@ void main()
     merge(thread, lane, sum);
     if (!exists || lane != 0)
         return;
-    pair_loads[(1 - (push.pass & 1u)) * push.vertices + i] = 0;
+    pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
     pair_bounds[i].impulse = sum.change;
     pair_memories[i] = remembered(i, self.y, sum);
     sum.guard.from = positions[i].xyz;

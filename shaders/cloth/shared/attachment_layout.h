@@ -48,14 +48,21 @@ struct TetherRecord
     float lengths[VOILE_TETHERS]; // m
 };
 
-// Push constants of the passes over pins, attachments and tethers.
+// Push constants of the passes over attachments and tethers.
 struct AttachmentPush
 {
     uint first; // of the records
     uint count;
-    float step;     // s, of the substep; for pins, of the whole step, or 0 if their cloths are disabled
+    float substeps; // of level 0, in the substep; 0: no time passes
     float progress; // 0..1, of the step, at the substep's end
-    float rate;     // 1/s, of the progress
+};
+
+// Push constants of the pass over pins.
+struct PinPush
+{
+    uint first; // of the records
+    uint count;
+    float step; // s, of the whole step; 0 if their cloths are disabled
 };
 
 #ifdef __cplusplus

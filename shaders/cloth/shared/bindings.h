@@ -52,6 +52,7 @@ enum Name : uint32_t
 #include "buffers.h"
 
 #define VOILE_BINDING(name) set = 0, binding = k_binding_##name, std430
+#define VOILE_UNIFORM_BINDING(name) set = 0, binding = k_binding_##name, std140
 
 #define VOILE_CONSTANT(number, name) const int k_constant_##name = number;
 VOILE_CONSTANTS

@@ -1,4 +1,4 @@
-// The storage buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
+// The buffers of the solver, declared once. Kernels bind a buffer by its number (bindings.h), the solver
 // allocates and binds it by its name, and docs/buffers.md lists who reads and writes it.
 //
 // VOILE_BUFFER(number, name, entry, count, meaning): a buffer that uploads allocate, and copy over where it has to
@@ -50,6 +50,9 @@ VOILE_BUFFER(5, membrane_corners, MembraneCorner, corners, "the same triangles a
 VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of the area or mass scale that the density multiplies")
 VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start position")
 VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
+
+// The step that is recorded. A uniform buffer: each step writes it at its beginning.
+VOILE_SCRATCH_BUFFER(92, step_input, StepInput, 1, "lengths, forces and numbers that may differ between steps with the same passes")
 
 // The state between steps.
 VOILE_BUFFER(9, positions, vec4, vertices, "position and inverse mass; the host draws from it")

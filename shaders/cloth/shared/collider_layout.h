@@ -64,11 +64,10 @@ struct ColliderMotion
     uint halves; // of a mesh that deforms: bit 0 says which half of its data is of the step's start, bit 1 of its end
 };
 
-// Push constants of the query for near colliders.
+// Push constants of the query for near colliders. Times are in substeps of level 0.
 struct NearCollidersPush
 {
-    float time;   // s, to the next query
-    float sudden; // m/s, the speed that a vertex at rest may gain until then
+    float substeps; // to the next query
     float progress_per_substep;
     uint colliders;
     uint features; // 1: colliders have features that may touch the cloth

@@ -54,18 +54,17 @@ struct ContactPlane
     uint friction; // two halves: the static and the kinetic coefficient; or VOILE_PLANE_OF_EXIT
 };
 
-// Push constants of the contact pass.
+// Push constants of the contact pass. Times are in substeps of level 0.
 struct ContactPush
 {
-    float step; // s, since the last contact pass
+    float substeps; // since the last contact pass
     uint colliders;
-    uint refresh;        // 1: lists of candidates are refreshed in this pass
-    float refresh_time;  // s, from one refresh to the next
+    uint refresh;           // 1: lists of candidates are refreshed in this pass
+    float refresh_substeps; // from one refresh to the next
     float progress_from; // 0..1, of the step, at the last contact pass
     float progress_to;   // 0..1, of the step, at the substep's end
     float progress_per_substep;
-    uint substep;       // counted over all steps
-    uint first_substep; // of the step
+    uint substep;       // of the step
     uint vertices;      // of all cloths
     uint features;      // 1: colliders have features that may have touched cloth
     uint depenetrates;  // 1: there are solids that vertices can be inside of
@@ -76,8 +75,8 @@ struct ContactPush
     uint first_patch;   // of the dispatch
     uint after_pairs;   // 1: the impulses of pairs are new
     float pair_ahead;   // substeps from one pass over pairs to the next
-    float pair_from;    // s, from the last pass over pairs to the start of the motion
-    float pair_to;      // s, to its end
+    float pair_from;    // from the last pass over pairs to the start of the motion
+    float pair_lasts;   // of the motion
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
     uint kicks;         // substeps since the last contact pass
 };
@@ -94,7 +93,7 @@ struct DepenetrationPush
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
 static_assert(sizeof(ContactPlane) == 32);
-static_assert(sizeof(ContactPush) == 92);
+static_assert(sizeof(ContactPush) == 88);
 #endif
 
 VOILE_SHARED_END

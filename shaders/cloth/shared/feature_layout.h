@@ -173,11 +173,10 @@ struct FeatureResponse
     uint vertices; // of the cell that the piece has, one bit each
 };
 
-// Push constants of the query for near features.
+// Push constants of the query for near features. Times are in substeps of level 0.
 struct NearFeaturesPush
 {
-    float time;          // s, to the next query
-    float sudden;        // m/s, the speed that a vertex at rest may gain until then
+    float substeps;      // to the next query
     float progress_from; // 0..1, of the step, at this query
     float progress_to;   // 0..1, of the step, at the next query
     uint colliders;
@@ -187,18 +186,18 @@ struct NearFeaturesPush
     uint lanes;         // threads per vertex
     uint first_item;    // of those that the dispatch may write
     uint items;         // their number
-    uint query;         // the number of this one; differs from the one before
+    uint query;         // the number of this one in the step
     uint retries;       // 1: the items of the query before are more than there is room for
 };
 
-// Push constants of feature contact.
+// Push constants of feature contact. Times are in substeps of level 0.
 struct FeaturePush
 {
-    float step;          // s, since the last contact pass
+    float substeps;      // since the last contact pass
     float progress_from; // 0..1, of the step, at the last contact pass
     float progress_to;   // 0..1, of the step, at the substep's end
     uint colliders;
-    uint substep; // counted over all steps
+    uint substep; // of the step
     uint near_stride;
     uint first_patch;      // of the entries in the list of patches near features
     float progress_listed; // 0..1, of the step, when near features were listed

@@ -152,19 +152,18 @@ struct PairResponse
 
 struct PairPush
 {
-    float interval; // s, from this pass to the next
+    float substeps; // of level 0, from this pass to the next
     uint first_patch;
     uint places;   // in the order of vertices
     uint leaves;   // of the hierarchy
-    uint pass;     // counted over all steps
+    uint pass;     // of the step
     uint vertices; // of the solver, the capacity of its buffers
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
     uint capacity; // of a list, at most VOILE_PAIRS
     uint colliders;
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
-    float fall;  // m: how far gravity alone may carry a vertex until the lists are made again
-    vec4 lag;    // m/s: what gravity has not yet added to velocities of Verlet, which are half a substep behind
+    float lag;   // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
 };
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Push constants of the integrators, and edits of a cloth between steps.
+// The input of a step, push constants of the integrators, and edits of a cloth between steps.
 #ifndef VOILE_STEP_LAYOUT_H
 #define VOILE_STEP_LAYOUT_H
 
@@ -21,21 +21,36 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// Push constants of the integration passes.
-struct StagePush
+// What may differ between two steps with the same passes. Passes read it from a uniform buffer, so that their commands
+// can be used again (StepCommands). Push constants count time in substeps of level 0.
+struct StepInput
 {
     vec3 gravity;         // m/s^2
-    float step;           // s, of the whole substep
+    float substep;        // s, of level 0
     vec3 wind;            // m/s
     float air_density;    // kg/m^3
-    vec4 gust_phases;     // rad, of the four waves of the gusts at the current time
+    vec4 gust_phases;     // turns, of the four waves of the gusts at the step's start
+    vec4 gust_rates;      // turns/s, of these phases
     float gust_speed;     // m/s, root mean square of the sum of all waves
     float gust_frequency; // 1/m, of the longest wave
-    float kick;           // Verlet: s, the time for which the acceleration acts on the velocity
-    float drift;          // Verlet: s, the time for which the position moves; 0 at the end of a step
-    uint stage;           // RK4: 1 to 4
-    uint first_patch;     // of the dispatch
-    uint planes;          // Verlet: 1: vertices stay above the planes of the last contact pass
+    float rate;           // 1/s, of the step's progress
+    float sudden;         // m/s, the speed that a vertex at rest may gain until the next query
+    uint first_substep;   // counted over all steps
+    uint first_pair_pass; // counted over all steps
+    float pair_fall;      // m: how far gravity alone may carry a vertex until lists of pairs are made again
+    uint unused;          // std140 has multiples of 16 bytes
+};
+
+// Push constants of the integration passes. Times are in substeps of level 0.
+struct StagePush
+{
+    float substeps;   // of the whole substep
+    float time;       // since the step's start
+    float kick;       // Verlet: the time for which the acceleration acts on the velocity
+    float drift;      // Verlet: the time for which the position moves; 0 at the end of a step
+    uint stage;       // RK4: 1 to 4
+    uint first_patch; // of the dispatch
+    uint planes;      // Verlet: 1: vertices stay above the planes of the last contact pass
 };
 
 // Push constants of an edit of one cloth.
@@ -48,8 +63,8 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StagePush) == 76);
-static_assert(offsetof(StagePush, gust_phases) == 32);
+static_assert(sizeof(StepInput) == 96);
+static_assert(offsetof(StepInput, gust_phases) == 32 && offsetof(StepInput, gust_speed) == 64);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif
 

@@ -66,7 +66,6 @@ struct LimitScale
 struct LimitScalePush
 {
     uint patches;
-    float rate;       // 1/s, the largest shift_rate
     uint measurement; // 0: of all displacements; 1 .. VOILE_LIMIT_MEASUREMENTS: of those that are kept
 };
 

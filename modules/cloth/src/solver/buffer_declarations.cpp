@@ -9,6 +9,7 @@
 #include "shared/padded_layout.h"
 #include "shared/pair_layout.h"
 #include "shared/statistics_layout.h"
+#include "shared/step_layout.h"
 #include "shared/strain_layout.h"
 
 #include <algorithm>

@@ -98,11 +98,12 @@ Result<gpu::BindingPool> write_sets(DescriptorSets& sets, const gpu::Context& co
                                     const BufferHandles& buffers)
 {
     const std::vector<SetDescription> descriptions = describe_sets(sets, kernels);
-    size_t bindings = 0;
+    uint32_t storage = 0;
+    uint32_t uniform = 0;
     for (const SetDescription& description : descriptions)
-        bindings += description.kernel->bindings().size();
-    auto pool =
-        gpu::BindingPool::create(context, static_cast<uint32_t>(descriptions.size()), static_cast<uint32_t>(bindings));
+        for (const gpu::ShaderBinding& binding : description.kernel->bindings())
+            ++(binding.uniform ? uniform : storage);
+    auto pool = gpu::BindingPool::create(context, static_cast<uint32_t>(descriptions.size()), storage, uniform);
     if (!pool)
         return pool.error();
     for (const SetDescription& description : descriptions)

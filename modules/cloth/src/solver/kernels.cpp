@@ -128,7 +128,7 @@ uint32_t most_storage_buffers()
     size_t most = 0;
     for (const Request& request : requests_of(none, {.intersections = true}))
         if (const auto shader = gpu::reflect(request.description))
-            most = std::max(most, shader.value().bindings.size());
+            most = std::max<size_t>(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
 }
 

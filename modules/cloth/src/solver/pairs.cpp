@@ -60,11 +60,16 @@ uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32
     return std::max(1u, period);
 }
 
+float fall_of_pairs(const Vec3& gravity)
+{
+    return VOILE_PAIR_MOST_FALL * VOILE_PAIR_SWEEP_TIME * VOILE_PAIR_SWEEP_TIME * glm::length(gravity);
+}
+
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
-                           const Step& step, const SubstepPlan& plan, uint32_t first_pass)
+                           const Step& step, const SubstepPlan& plan)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
       leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(plan.substeps),
-      h_(step.duration / static_cast<float>(plan.substeps)), period_(plan.pair_period), first_pass_(first_pass),
+      period_(plan.pair_period),
       gravity_(step.gravity)
 {
 }
@@ -78,18 +83,17 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
     shared::PairPush push{};
-    push.interval = h_ * static_cast<float>(std::min(period_, substeps_ - substep));
+    push.substeps = static_cast<float>(std::min(period_, substeps_ - substep));
     push.places = solver_.device->pair_places;
     push.leaves = leaves_;
-    push.pass = first_pass_ + substep / period_;
+    push.pass = substep / period_;
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning);
     push.capacity = solver_.options.tuning.pair_capacity;
     push.colliders = solver_.passes.colliders;
     push.sifted = most_sifted(solver_.options.tuning, push.places);
-    push.fall = VOILE_PAIR_MOST_FALL * VOILE_PAIR_SWEEP_TIME * VOILE_PAIR_SWEEP_TIME * glm::length(gravity_);
-    push.lag = Vec4(substep > 0 ? 0.5f * h_ * gravity_ : Vec3(0), 0);
+    push.lag = substep > 0 ? 0.5f : 0;
     find(push, from);
     publish_dispatch(recorder_);
     const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();

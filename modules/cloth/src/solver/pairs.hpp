@@ -12,13 +12,15 @@ namespace voile
 // colliders and anchors move in the step. Vertices that they push may not reach where lists end before the next pass.
 uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32_t substeps, float farthest);
 
+// m: how far gravity alone may carry a vertex until the lists are made again.
+float fall_of_pairs(const Vec3& gravity);
+
 // Records the passes at the beginning of those substeps that have one.
 class PairRecorder
 {
 public:
-    // `first_pass`: counted over all steps.
     PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, const Step& step,
-                 const SubstepPlan& plan, uint32_t first_pass);
+                 const SubstepPlan& plan);
 
     // Whether a substep begins with a pass. The first one of a step does.
     [[nodiscard]] bool begins(uint32_t substep) const { return substep % period_ == 0; }
@@ -35,9 +37,7 @@ private:
     uint32_t threads_; // for all patches
     uint32_t leaves_;  // of the hierarchy
     uint32_t substeps_;
-    float h_;         // s
     uint32_t period_; // substeps from one pass to the next
-    uint32_t first_pass_;
     Vec3 gravity_; // m/s^2
 };
 

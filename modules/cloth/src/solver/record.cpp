@@ -2,6 +2,7 @@
 #include "model/stability.hpp"
 #include "solver/pairs.hpp"
 #include "solver/solver_state.hpp"
+#include "solver/step_input.hpp"
 #include "solver/substeps.hpp"
 
 #include <bit>
@@ -71,7 +72,8 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
                    const Step& step, const SubstepPlan& plan, const Passes& with_limits)
 {
     const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
-    const StepContext context{recorder, solver, lists, history, step, plan, with_limits, first_substep};
+    record_step_input(recorder, *solver.device, make_step_input(solver, history, step, plan.substeps, first_substep));
+    const StepContext context{recorder, solver, lists, history, step, plan, with_limits};
     StepRecorder passes(context);
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
@@ -99,7 +101,8 @@ void begin_scope(gpu::Recorder& recorder, const SolverOptions& options)
     const Scope before = host_scopes(options).before;
     recorder.barrier(before.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR | k_compute,
                      before.accesses | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
-                     k_compute, k_storage);
+                     k_compute | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR,
+                     k_storage | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
 }
 
 // Previous positions are written by copies.

@@ -53,8 +53,7 @@ void StepRecorder::record()
     if (context_.passes.strain_spacing > 0)
         keep_state(k_step_start);
     keep_contact_start();
-    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan,
-                       context_.history.next_pair_pass);
+    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
         const bool after_pairs = context_.passes.pairs && pairs.begins(substep);
@@ -105,9 +104,8 @@ void StepRecorder::record_limit_guard()
     {
         if (measurement > 0) // of what remains of the limit's changes
             for_each_batch([&](BatchRecorder& batch) { batch.record_limit_work(device_.sets.limit_work[3]); });
-        recorder_.dispatch(
-            kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
-            shared::LimitScalePush{context_.lists.patch_count(), 1 / context_.step.duration, measurement});
+        recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
+                           shared::LimitScalePush{context_.lists.patch_count(), measurement});
         recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads_, group_,
                            std::span<const std::byte>{});
     }

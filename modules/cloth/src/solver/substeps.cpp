@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace voile
 {
@@ -17,26 +15,6 @@ namespace
 // Of the labels around substeps.
 constexpr std::array<const char*, VOILE_SUBSTEP_LEVELS> k_group_names = {
     "substep", "level 1, substep", "level 2, substep", "level 3, substep", "level 4, substep"};
-
-// The phases of the gusts' waves at a time. The field drifts with the wind (Taylor 1938, "The spectrum of turbulence")
-// and changes as it goes, a short wave faster than a long one.
-glm::vec4 gust_phases(const Step& step, double time)
-{
-    using glm::vec3;
-    constexpr vec3 k_waves[4] = {VOILE_GUST_WAVES};
-    constexpr double k_change = 0.3; // of the wave's own speed to the wind's
-    const double two_pi = 2 * std::numbers::pi;
-    const double wavenumber = two_pi / static_cast<double>(step.gust_length);
-    const auto speed = static_cast<double>(glm::length(step.wind));
-    glm::vec4 phases;
-    for (int i = 0; i < 4; ++i)
-    {
-        const glm::dvec3 wave(k_waves[i]);
-        const double rate = wavenumber * (glm::dot(wave, glm::dvec3(step.wind)) + k_change * glm::length(wave) * speed);
-        phases[i] = static_cast<float>(std::fmod(rate * time, two_pi));
-    }
-    return phases;
-}
 
 // Near queries read the state in its own buffers, not in stage B, so the number is even.
 uint32_t substeps_per_list(float substep, uint32_t contact_period)
@@ -82,10 +60,10 @@ void BatchRecorder::record_substep(uint32_t substep, bool after_pairs)
     if (solver_.passes.features && substep % list_period_ == 0)
         record_near_features(substep);
     if (verlet_)
-        record_verlet(make_push(substep), substep);
+        record_verlet(make_push(static_cast<float>(substep)), substep);
     else
         record_rk4(substep);
-    record_attachments(substep, h_);
+    record_attachments(substep, 1);
     if (!contact_is_due(substep))
         return;
     if (solver_.passes.features)
@@ -116,29 +94,22 @@ size_t BatchRecorder::proposal(uint32_t substep) const
     return (keeps_contact_start(substep) ? 2u : 0u) + (has_contact_ && in_stage_b(substep) ? 1u : 0u);
 }
 
-shared::StagePush BatchRecorder::make_push(double substeps) const
+shared::StagePush BatchRecorder::make_push(float substeps) const
 {
     shared::StagePush push{};
-    push.gravity = context_.step.gravity;
-    push.step = h_;
-    push.wind = context_.step.wind;
-    push.air_density = context_.step.air_density;
-    push.gust_speed = context_.step.gust * glm::length(context_.step.wind);
-    if (push.gust_speed > 0)
-    {
-        push.gust_phases = gust_phases(context_.step, context_.step.time + static_cast<double>(h_) * substeps);
-        push.gust_frequency = 1 / context_.step.gust_length;
-    }
+    push.substeps = of_level_0(1);
+    if (context_.step.gust > 0)
+        push.time = of_level_0(substeps);
     return push;
 }
 
 void BatchRecorder::record_rk4(uint32_t substep)
 {
-    constexpr double k_stage_times[] = {0, 0.5, 0.5, 1}; // of the substep
+    constexpr float k_stage_times[] = {0, 0.5f, 0.5f, 1}; // of the substep
     const auto& sets = device_.sets.stages[has_contact_ && in_stage_b(substep) ? 1 : 0];
     for (uint32_t stage = 1; stage <= 4; ++stage)
     {
-        shared::StagePush push = make_push(substep + k_stage_times[stage - 1]);
+        shared::StagePush push = make_push(static_cast<float>(substep) + k_stage_times[stage - 1]);
         push.stage = stage;
         dispatch(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
                  lists_.patches, push);
@@ -148,8 +119,8 @@ void BatchRecorder::record_rk4(uint32_t substep)
 void BatchRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 {
     push.planes = contact_period_ > 1 && substep > 0 ? 1 : 0;
-    push.kick = substep == 0 ? 0.5f * h_ : h_;
-    push.drift = h_;
+    push.kick = of_level_0(substep == 0 ? 0.5f : 1);
+    push.drift = of_level_0(1);
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
         set = device_.sets.verlet_first;
@@ -160,17 +131,17 @@ void BatchRecorder::finish()
 {
     if (!verlet_)
         return;
-    shared::StagePush push = make_push(substeps_);
-    push.kick = 0.5f * h_;
+    shared::StagePush push = make_push(static_cast<float>(substeps_));
+    push.kick = of_level_0(0.5f);
     dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
              lists_.patches, push);
 }
 
-void BatchRecorder::record_attachments(uint32_t substep, float duration)
+void BatchRecorder::record_attachments(uint32_t substep, uint32_t lasts)
 {
     const size_t from = in_stage_b(substep) ? 1 : 0;
-    shared::AttachmentPush push{lists_.attachments.first, lists_.attachments.count, duration, progress(substep + 1),
-                                1 / context_.step.duration};
+    shared::AttachmentPush push{lists_.attachments.first, lists_.attachments.count, of_level_0(lasts),
+                                progress(substep + 1)};
     recorder_.dispatch(kernels_.attachments, device_.sets.proposed_attachments[from], push.count, group_, push);
     push.first = lists_.tethers.first;
     push.count = lists_.tethers.count;
@@ -183,22 +154,13 @@ float BatchRecorder::progress(uint32_t substeps_done) const
     return substeps_done >= substeps_ ? 1 : static_cast<float>(substeps_done) / static_cast<float>(substeps_);
 }
 
-// An upper bound for the speed of a vertex that something hits or drags.
-float BatchRecorder::sudden_speed() const
-{
-    constexpr float k_sudden = 10; // m/s
-    const float farthest = solver_.passes.features ? solver_.farthest_motion : 0;
-    return std::max(k_sudden, farthest / context_.step.duration);
-}
-
 void BatchRecorder::record_near_colliders(uint32_t substep)
 {
     if (device_.near_stride == 0)
         return;
     const uint32_t next = std::min(substep + list_period_, substeps_);
     shared::NearCollidersPush push{};
-    push.time = h_ * static_cast<float>(next - substep);
-    push.sudden = sudden_speed();
+    push.substeps = of_level_0(next - substep);
     push.progress_per_substep = 1 / static_cast<float>(substeps_);
     push.colliders = solver_.passes.colliders;
     push.features = solver_.passes.features ? 1 : 0;
@@ -228,8 +190,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
     const uint32_t next = std::min(substep + list_period_, substeps_);
     const ItemRange items = feature_items();
     shared::NearFeaturesPush push{};
-    push.time = h_ * static_cast<float>(next - substep);
-    push.sudden = sudden_speed();
+    push.substeps = of_level_0(next - substep);
     push.progress_from = progress(substep);
     push.progress_to = progress(next);
     push.colliders = solver_.passes.colliders;
@@ -239,7 +200,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
     push.lanes = lanes;
     push.first_item = items.first;
     push.items = items.count;
-    push.query = context_.first_substep + substep + 1;
+    push.query = substep + 1;
     feature_passes_ = 0;
     const gpu::Kernel& kernel = solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features;
     recorder_.dispatch(kernel, device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
@@ -255,11 +216,11 @@ void BatchRecorder::record_features(uint32_t substep)
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
     const ItemRange items = feature_items();
-    const shared::FeaturePush push{h_ * static_cast<float>(interval.count),
+    const shared::FeaturePush push{of_level_0(interval.count),
                                    progress(interval.first),
                                    progress(substep + 1),
                                    solver_.passes.colliders,
-                                   context_.first_substep + substep,
+                                   substep,
                                    device_.near_stride,
                                    lists_.patches.first,
                                    progress(substep - substep % list_period_),
@@ -285,16 +246,15 @@ void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
 {
     shared::ContactPush push{};
     const ContactInterval interval = contact_interval(substep);
-    push.step = h_ * static_cast<float>(interval.count);
+    push.substeps = of_level_0(interval.count);
     push.kicks = interval.count;
     push.colliders = solver_.passes.colliders;
     push.refresh = substep % list_period_ == 0 ? 1 : 0;
-    push.refresh_time = h_ * static_cast<float>(list_period_);
+    push.refresh_substeps = of_level_0(list_period_);
     push.progress_from = progress(interval.first);
     push.progress_to = progress(substep + 1);
     push.progress_per_substep = 1 / static_cast<float>(substeps_);
-    push.substep = context_.first_substep + substep;
-    push.first_substep = context_.first_substep;
+    push.substep = substep;
     push.vertices = static_cast<uint32_t>(device_.capacities.vertices);
     push.features = solver_.passes.features ? 1 : 0;
     push.depenetrates = solver_.passes.depenetration ? 1 : 0;
@@ -305,8 +265,8 @@ void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
     const uint32_t period = context_.plan.pair_period;
     push.pair_ahead = static_cast<float>(period);
     // After the last substep no time passes.
-    push.pair_from = h_ * static_cast<float>(substep < substeps_ ? substep % period : (substeps_ - 1) % period + 1);
-    push.pair_to = push.pair_from + (substep < substeps_ ? h_ : 0);
+    push.pair_from = of_level_0(substep < substeps_ ? substep % period : (substeps_ - 1) % period + 1);
+    push.pair_lasts = of_level_0(substep < substeps_ ? 1u : 0u);
     push.limited_only = substep == substeps_ ? 1 : 0;
     if (keeps_contact_start(substep))
         push.result = VOILE_CONTACT_KEEPS_START;
@@ -338,8 +298,7 @@ void BatchRecorder::record_bounds()
 void BatchRecorder::record_limit_work(VkDescriptorSet set)
 {
     shared::StagePush push{};
-    push.gravity = context_.step.gravity;
-    push.step = h_;
+    push.substeps = of_level_0(1);
     dispatch(kernels_.limit_work, set, lists_.patches, push);
 }
 

@@ -15,8 +15,7 @@ struct StepContext
     const StepHistory& history;
     const Step& step;
     SubstepPlan plan;
-    const Passes& passes;       // the solver's, with the strain limits of the step
-    uint32_t first_substep = 0; // counted over all steps
+    const Passes& passes; // the solver's, with the strain limits of the step
 };
 
 // The passes of a batch: of the cloths of one level of substeps that use one integrator.
@@ -45,15 +44,20 @@ public:
     void record_limit_work(VkDescriptorSet set);
 
 private:
-    [[nodiscard]] shared::StagePush make_push(double substeps) const; // after so many of them
+    // In substeps of level 0, as push constants have it.
+    template <typename Number>
+    [[nodiscard]] float of_level_0(Number substeps) const
+    {
+        return static_cast<float>(substeps) * static_cast<float>(1u << level_);
+    }
+    [[nodiscard]] shared::StagePush make_push(float substeps) const; // after so many of them
     void record_rk4(uint32_t substep);
     void record_verlet(shared::StagePush push, uint32_t substep);
-    // At the substep's end, over `duration` s. With 0, springs add nothing and only bounds hold.
-    void record_attachments(uint32_t substep, float duration);
+    // At the substep's end. With `lasts` 0 no time passes: springs add nothing and only bounds hold.
+    void record_attachments(uint32_t substep, uint32_t lasts);
     [[nodiscard]] float progress(uint32_t substeps_done) const; // of the step, 0..1
     // Lists the features near pieces of cloth and the patches near features, until the next query.
     void record_near_features(uint32_t substep);
-    [[nodiscard]] float sudden_speed() const; // m/s
     void record_features(uint32_t substep);
     // Of the level, in the buffer of items.
     struct ItemRange

@@ -1,4 +1,4 @@
-// Kernel: a compute pipeline over storage buffers. Its bindings, push constants and specialization constants are those
+// Kernel: a compute pipeline over storage and uniform buffers. Its bindings, push constants and specialization constants are those
 // that its SPIR-V declares.
 #pragma once
 
@@ -15,13 +15,13 @@ namespace voile::gpu
 struct KernelDescription
 {
     const char* name = nullptr;      // label, pipeline name and timestamp name; a literal
-    std::span<const uint32_t> spirv; // one compute entry point "main"; its descriptors are storage buffers of set 0
+    std::span<const uint32_t> spirv; // one compute entry point "main"; its descriptors are buffers of set 0
     // A value for each specialization constant of the shader, and for no other. Id 0 is the workgroup size in x by
     // convention.
     std::vector<SpecializationConstant> specialization;
 };
 
-// What the shader declares. Errors: a descriptor that is no storage buffer of set 0, a specialization constant that is
+// What the shader declares. Errors: a descriptor that is no buffer of set 0, a specialization constant that is
 // given no value or that the shader does not have; each names the kernel.
 VOILE_GPU_API Result<ShaderInterface> reflect(const KernelDescription& description);
 
@@ -64,7 +64,7 @@ struct BufferBinding
 {
     uint32_t number = 0;
     VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0; // bytes; a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize offset = 0; // bytes; a multiple of minStorageBufferOffsetAlignment, or of minUniformBufferOffsetAlignment
     VkDeviceSize bytes = VK_WHOLE_SIZE;
 };
 
@@ -77,7 +77,9 @@ public:
     BindingPool(BindingPool&& other) noexcept;
     BindingPool& operator=(BindingPool&& other) noexcept;
 
-    static Result<BindingPool> create(const Context& context, uint32_t max_sets, uint32_t max_buffers);
+    // `max_buffers`: storage buffers of all sets.
+    static Result<BindingPool> create(const Context& context, uint32_t max_sets, uint32_t max_buffers,
+                                      uint32_t max_uniform_buffers = 0);
 
     // A set for `kernel`, with one buffer for each of its bindings, in any order. The set lives as long as the pool.
     // Errors, which name the kernel and the binding: a binding without a buffer or with two, a number that the kernel
@@ -93,6 +95,7 @@ private:
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     uint32_t sets_left_ = 0;
     uint32_t buffers_left_ = 0;
+    uint32_t uniform_buffers_left_ = 0;
 };
 
 } // namespace voile::gpu

@@ -12,14 +12,15 @@
 namespace voile::gpu
 {
 
-// A storage buffer of descriptor set 0.
+// A storage buffer or a uniform buffer of descriptor set 0.
 struct ShaderBinding
 {
     uint32_t number = 0;
     std::string name;     // of its block; empty where names were stripped
     bool read = false;    // as declared: a "writeonly" buffer is not read,
     bool written = false; // and a "readonly" one is not written
-    uint32_t stride = 0;  // bytes per entry of the array that it ends with; 0: it ends with none
+    uint32_t stride = 0;  // bytes per entry of the array that it ends with; 0: it ends with none. Of a uniform buffer all
+    bool uniform = false;
 };
 
 struct ShaderConstant
@@ -45,7 +46,7 @@ struct ShaderInterface
 };
 
 // `spirv` must be valid. `specialization` decides the sizes of shared arrays. Names serve messages alone: everything
-// else survives their removal. Errors: a descriptor that is no storage buffer of set 0.
+// else survives their removal. Errors: a descriptor that is no buffer of set 0.
 VOILE_GPU_API Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
                                               std::span<const SpecializationConstant> specialization);
 
