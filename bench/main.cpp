@@ -31,6 +31,7 @@ struct Options
     std::string meshes;
     uint32_t repetitions = 0; // 0: by device
     uint32_t workgroup = voile::Tuning().workgroup_size;
+    bool reuse = false;
     bool passes = false;
     std::vector<std::string> compared; // two files of results
     std::string plot;
@@ -58,6 +59,7 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--repeat", options.repetitions, "Repetitions of each measurement; default: 100, on CPU devices 20")
         ->type_name("N")
         ->check(CLI::Range(1u, k_most));
+    app.add_flag("--reuse", options.reuse, "Steps use commands again (SolverOptions::command_reuse)");
     app.add_option("--workgroup", options.workgroup, "Threads per workgroup, a power of two; default: the solver's")
         ->type_name("N");
     app.add_flag("--passes", options.passes, "Print the time of each pass before the row of a case of the solver");
@@ -193,7 +195,7 @@ void run(const Options& options)
     const bench::DeviceProbe probe = bench::probe_device(queue);
     const uint32_t repetitions = options.repetitions > 0 ? options.repetitions : device.is_cpu() ? 20 : 100;
     bench::print_device(device.info(), probe);
-    const bench::Settings settings{options.workgroup, options.passes};
+    const bench::Settings settings{options.workgroup, options.passes, options.reuse};
     const Chosen chosen = choose(options.names, reals, device.is_cpu());
     if (!chosen.cases.empty())
         bench::print_header();

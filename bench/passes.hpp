@@ -16,6 +16,7 @@ struct Settings
 {
     uint32_t workgroup_size = 0; // threads
     bool passes = false;         // print_passes when the measurement begins
+    bool reuse = false;          // SolverOptions::command_reuse
 };
 
 // The time of each pass of a step. Timestamps keep passes from overlapping, so the sum exceeds the time of a step.

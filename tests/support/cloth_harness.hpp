@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -63,11 +64,20 @@ inline std::vector<glm::vec4> checked(std::vector<glm::vec4> values)
     return values;
 }
 
+// All tests can run with commands that are used again: VOILE_TEST_REUSE=1. The harness waits for each step.
+inline voile::SolverOptions with_reuse(voile::SolverOptions options)
+{
+    static const bool reuses = std::getenv("VOILE_TEST_REUSE") != nullptr;
+    if (reuses && !options.command_reuse)
+        options.command_reuse = {.queue_family = device().queue_family(), .steps_in_flight = 1};
+    return options;
+}
+
 class ClothHarness : public GpuFixture
 {
 public:
     explicit ClothHarness(const voile::SolverOptions& options = {})
-        : solver(voile::engine::take(voile::Solver::create(test_handles(), options)))
+        : solver(voile::engine::take(voile::Solver::create(test_handles(), with_reuse(options))))
     {
     }
 

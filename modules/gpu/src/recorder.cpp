@@ -1,6 +1,8 @@
 // Recorder and LabelScope: labels, timestamps, dispatches and their barriers.
 #include "voile/gpu/recorder.hpp"
 
+#include "voile/gpu/command_list.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -63,10 +65,16 @@ void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const s
 {
     const bool same_kernel = bound_.pipeline == kernel.pipeline();
     if (!same_kernel)
+    {
         context_.fn.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+        ++commands_;
+    }
     if (!same_kernel || bound_.set != set)
+    {
         context_.fn.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
                                             nullptr);
+        ++commands_;
+    }
     bound_.pipeline = kernel.pipeline();
     bound_.set = set;
     const bool kept = push.size() <= bound_.push.size();
@@ -74,6 +82,7 @@ void Recorder::bind(const Kernel& kernel, VkDescriptorSet set, std::span<const s
         return;
     context_.fn.vkCmdPushConstants(cmd_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    static_cast<uint32_t>(push.size()), push.data());
+    ++commands_;
     if (kept)
         std::memcpy(bound_.push.data(), push.data(), push.size());
 }
@@ -106,11 +115,14 @@ void Recorder::dispatch_grid(const Kernel& kernel, VkDescriptorSet set, uint32_t
     if (columns == 0 || rows == 0)
         return;
     require_push(kernel, push);
-    if (!is_dry())
+    if (list_ != nullptr)
+        list_->add_dispatch(kernel, set, columns, rows, push, ordering == Ordering::ordered);
+    else if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
         context_.fn.vkCmdDispatch(cmd_, columns, rows, 1);
+        ++commands_;
         if (ordering == Ordering::ordered)
             compute_barrier();
     }
@@ -121,11 +133,14 @@ void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBu
                                  std::span<const std::byte> push)
 {
     require_push(kernel, push);
-    if (!is_dry())
+    if (list_ != nullptr)
+        list_->add_indirect(kernel, set, sizes, offset, push);
+    else if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
         context_.fn.vkCmdDispatchIndirect(cmd_, sizes, offset);
+        ++commands_;
         compute_barrier();
     }
     finish_dispatch();
@@ -135,6 +150,11 @@ void Recorder::begin_group(const char* name, uint32_t number, uint32_t count)
 {
     if (!groups())
         return;
+    if (list_ != nullptr)
+    {
+        list_->add_group(name, number, count);
+        return;
+    }
     std::array<char, 64> text{};
     size_t used = 0;
     const auto add = [&](std::string_view part)
@@ -159,36 +179,61 @@ void Recorder::begin_group(const char* name, uint32_t number, uint32_t count)
 
 void Recorder::end_group()
 {
-    if (groups())
+    if (!groups())
+        return;
+    if (list_ != nullptr)
+        list_->add_end_group();
+    else
         end_label(context_, cmd_);
 }
 
 void Recorder::update(VkBuffer buffer, VkDeviceSize offset, std::span<const std::byte> bytes)
 {
     constexpr size_t k_most = 65536; // of vkCmdUpdateBuffer
+    if (list_ != nullptr)
+    {
+        list_->add_update(buffer, offset, bytes);
+        return;
+    }
     for (; !is_dry() && !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), k_most)))
     {
         const size_t piece = std::min(bytes.size(), k_most);
         context_.fn.vkCmdUpdateBuffer(cmd_, buffer, offset, piece, bytes.data());
+        ++commands_;
         offset += piece;
     }
 }
 
 void Recorder::fill(VkBuffer buffer, uint32_t word)
 {
-    if (!is_dry())
+    if (list_ != nullptr)
+        list_->add_fill(buffer, word);
+    else if (!is_dry())
+    {
         context_.fn.vkCmdFillBuffer(cmd_, buffer, 0, VK_WHOLE_SIZE, word);
+        ++commands_;
+    }
 }
 
 void Recorder::copy(VkBuffer source, VkBuffer destination, const VkBufferCopy& region)
 {
-    if (!is_dry())
+    if (list_ != nullptr)
+        list_->add_copy(source, destination, region);
+    else if (!is_dry())
+    {
         context_.fn.vkCmdCopyBuffer(cmd_, source, destination, 1, &region);
+        ++commands_;
+    }
 }
 
 void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR source_access,
                        VkPipelineStageFlags2KHR destination_stage, VkAccessFlags2KHR destination_access)
 {
+    if (list_ != nullptr)
+    {
+        list_->add_barrier(source_stage, source_access, destination_stage, destination_access);
+        return;
+    }
     if (is_dry())
         return;
     const VkMemoryBarrier2KHR memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2_KHR,
@@ -202,6 +247,14 @@ void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR 
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &memory;
     context_.fn.vkCmdPipelineBarrier2KHR(cmd_, &dependency);
+    ++commands_;
+}
+
+void Recorder::execute(VkCommandBuffer secondary)
+{
+    context_.fn.vkCmdExecuteCommands(cmd_, 1, &secondary);
+    ++commands_;
+    forget_bindings();
 }
 
 } // namespace voile::gpu

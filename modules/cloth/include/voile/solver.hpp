@@ -116,6 +116,25 @@ struct ShaderReplacement
     std::span<const uint32_t> spirv; // read during Solver::create
 };
 
+// Steps with the same passes use the same commands again, so that recording takes the host a few microseconds. The
+// solver keeps them in secondary command buffers. Substeps, cloths, colliders, levels and materials that add or remove
+// passes change them; duration, gravity, wind, gusts, time and motions do not, as long as the number of substeps is the
+// same. After a change, commands are used again from the third step of each command buffer on. Results are equal to the
+// bit. record then
+// - takes primary command buffers of the queue family, with no query and no conditional rendering active;
+// - allocates when passes change.
+// Steps with timestamps, or recorded through a Recorder with a split, are recorded one by one.
+struct CommandReuse
+{
+    uint32_t queue_family = 0; // of the command buffers that record takes
+
+    // How many calls of record may be in flight, 1..16: with two frames in flight, two for one call per frame, four for
+    // two calls. When record is called, command buffers of earlier calls beyond the last so many have completed, or are
+    // never submitted. With lifetime_checks, record returns an error if the GPU executes one of them; validation layers
+    // also report those that wait in a queue.
+    uint32_t steps_in_flight = 2;
+};
+
 struct SolverOptions
 {
     uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
@@ -142,6 +161,7 @@ struct SolverOptions
     // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
     // None: on if the module was compiled without NDEBUG.
     std::optional<bool> lifetime_checks{};
+    std::optional<CommandReuse> command_reuse{}; // none: each step is recorded anew
     Tuning tuning{};
     Jobs jobs{}; // the host's job system, for add_cloth, add_collider and record_upload (voile/jobs.hpp)
     std::span<const ShaderReplacement> shaders{}; // read during Solver::create
@@ -193,6 +213,13 @@ private:
     struct Contents;
     explicit Snapshot(std::unique_ptr<Contents> contents);
     std::unique_ptr<Contents> contents_;
+};
+
+// The last call of Solver::record.
+struct RecordReport
+{
+    uint32_t commands = 0; // of Vulkan that it recorded, labels and timestamps left out
+    bool reused = false;   // it executed the commands of an earlier step (SolverOptions::command_reuse)
 };
 
 class VOILE_API Solver
@@ -336,14 +363,18 @@ public:
     // Errors: out of device memory, larger than the device's buffers; the solver then stays as it was.
     Result<Upload> record_upload(VkCommandBuffer cmd);
 
-    // Records the passes of one step, outside of a render pass. Never allocates, submits, waits or reads a clock.
+    // Records the passes of one step, outside of a render pass. Never submits, waits or reads a clock. Allocates only
+    // with command_reuse.
     // - Begins with a barrier: waits for earlier reads of the streams by vertex input, for transfers and uploads.
     // - Ends with a barrier: writes are visible to vertex input, compute and transfer reads that follow.
     // - Records nothing before the first record_upload, and only changes and motions while no cloth is enabled.
     // - While an upload is due, everything that is uploaded is simulated, with its motions and changes.
-    // Errors: a member of the step out of its range. Then nothing is recorded, and changes wait for the next step.
+    // Errors: a member of the step out of its range; see CommandReuse. Then nothing is recorded, and changes wait for
+    // the next step.
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
+
+    [[nodiscard]] RecordReport record_report() const;
 
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
     // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of

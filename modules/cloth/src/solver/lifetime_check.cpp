@@ -11,7 +11,7 @@ LifetimeCheck::~LifetimeCheck()
 {
     if (event_ == VK_NULL_HANDLE)
         return;
-    if (context_.fn.vkGetEventStatus(context_.device(), event_) == VK_EVENT_SET)
+    if (is_executing())
     {
         std::fprintf(stderr, "voile: a %s is destroyed while the GPU executes its commands\n", object_);
         std::abort();
@@ -43,6 +43,12 @@ Result<LifetimeCheck> LifetimeCheck::create(const gpu::Context& context, const c
     if (status != VK_SUCCESS)
         return Error{std::string("event of the lifetime check: ") + gpu::to_string(status)};
     return check;
+}
+
+bool LifetimeCheck::is_executing() const
+{
+    return event_ != VK_NULL_HANDLE &&
+           context_.fn.vkGetEventStatus(context_.device(), event_) == VK_EVENT_SET;
 }
 
 void LifetimeCheck::begin(VkCommandBuffer cmd) const

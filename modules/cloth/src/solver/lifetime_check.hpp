@@ -19,6 +19,9 @@ public:
     // `object`: the name of the object for the message; a literal.
     static Result<LifetimeCheck> create(const gpu::Context& context, const char* object);
 
+    // Whether the GPU executes commands that use the object.
+    [[nodiscard]] bool is_executing() const;
+
     // Around all commands that use the object.
     void begin(VkCommandBuffer cmd) const;
     void end(VkCommandBuffer cmd) const;

@@ -67,6 +67,13 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
     publish_dispatch(recorder);
 }
 
+// Null: the passes are recorded one by one.
+StepCommands* reusable_commands(const gpu::Recorder& recorder, const Solver::State& solver)
+{
+    const bool lists = !recorder.is_dry() && !recorder.is_split() && recorder.timestamps() == nullptr;
+    return lists ? solver.commands.get() : nullptr;
+}
+
 // Everything of a step but edits. Changes only `history`, so a dry recorder can count the dispatches of the next step.
 void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, StepHistory& history,
                    const Step& step, const SubstepPlan& plan, const Passes& with_limits)
@@ -77,11 +84,16 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     StepRecorder passes(context);
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
+    StepCommands* const commands = reusable_commands(recorder, solver);
+    if (commands != nullptr)
+        commands->begin(recorder);
     passes.record();
+    record_normals(recorder, solver);
+    if (commands != nullptr)
+        commands->end(recorder);
     history.pairs_met = solver.passes.pairs;
     if (solver.passes.pairs)
         history.next_pair_pass += (plan.substeps + plan.pair_period - 1) / plan.pair_period;
-    record_normals(recorder, solver);
 }
 
 } // namespace
@@ -169,8 +181,14 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
 {
     if (auto valid = validate(step); !valid)
         return valid;
+    state_->report = {};
     if (!state_->device)
         return {};
+    StepCommands* const commands = reusable_commands(recorder, *state_);
+    if (commands != nullptr)
+        if (auto free = commands->next_is_free(); !free)
+            return free;
+    const uint32_t commands_before = recorder.commands();
     state_->lifetime.begin(recorder.cmd());
     record_previous_positions(recorder, *state_);
     begin_scope(recorder, state_->options);
@@ -184,6 +202,12 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     record_jumps(recorder, *state_);
     end_scope(recorder, state_->options);
     state_->lifetime.end(recorder.cmd());
+    state_->report.commands = recorder.commands() - commands_before;
+    if (commands != nullptr)
+    {
+        state_->report.commands += commands->commands();
+        state_->report.reused = commands->reused();
+    }
     return {};
 }
 

@@ -138,6 +138,13 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     if (!statistics)
         return statistics.error();
     state->statistics = std::move(statistics.value());
+    if (options.command_reuse)
+    {
+        auto commands = StepCommands::create(state->context, *options.command_reuse, checks_lifetime(options));
+        if (!commands)
+            return commands.error();
+        state->commands = std::make_unique<StepCommands>(std::move(commands.value()));
+    }
     if (checks_lifetime(options))
     {
         auto check = LifetimeCheck::create(state->context, "voile::Solver");
@@ -284,6 +291,11 @@ MeshReport Solver::mesh_report(ClothId cloth) const
 {
     const ClothModel* model = state_->find(cloth);
     return model != nullptr && model->mesh ? model->mesh->report : MeshReport{};
+}
+
+RecordReport Solver::record_report() const
+{
+    return state_->report;
 }
 
 const gpu::Context& Solver::context() const

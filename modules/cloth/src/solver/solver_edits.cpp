@@ -147,7 +147,7 @@ Result<void> Solver::State::reserve_attachments()
     if (!growth)
         return growth.error();
     if (growth.value().any)
-        replaced.buffers.push_back(replace_grown(*device, std::move(growth.value())));
+        replace_buffers(std::move(growth.value()));
     return {};
 }
 

@@ -10,6 +10,7 @@
 #include "solver/device_state.hpp"
 #include "solver/lifetime_check.hpp"
 #include "solver/outputs.hpp"
+#include "solver/step_commands.hpp"
 
 #include "shared/step_layout.h"
 
@@ -106,6 +107,8 @@ struct Solver::State
     Edits edits;
     Passes passes;
     std::optional<DeviceState> device; // none before the first upload
+    std::unique_ptr<StepCommands> commands; // with SolverOptions::command_reuse
+    RecordReport report;
     bool dirty = false;
     uint64_t number = next_number(); // tells the snapshots of this solver from those of others
     LifetimeCheck lifetime;          // the last member, so that it checks before anything is destroyed
@@ -130,6 +133,8 @@ struct Solver::State
 
     // Whether the next record has edits to record.
     [[nodiscard]] bool changes_due() const;
+    // Keeps the former buffers for pending command buffers.
+    void replace_buffers(Growth growth);
     // The sets of outputs after growth, in their order.
     void replace_outputs(std::vector<OutputSet> sets);
     // After a cloth was uploaded, removed, enabled or disabled.

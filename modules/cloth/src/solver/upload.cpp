@@ -328,7 +328,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const std::vector<GrowthCopy> copies = std::move(growth.value().copies);
     if (!s.device)
         s.device.emplace();
-    s.replaced.buffers.push_back(replace_grown(*s.device, std::move(growth.value())));
+    s.replace_buffers(std::move(growth.value()));
     s.replace_outputs(std::move(outputs.value()));
     upload.contents_->replaced = std::exchange(s.replaced, {});
     upload.contents_->staging = std::move(staged.value());
@@ -338,6 +338,13 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     upload.contents_->lifetime.end(cmd);
     s.lifetime.end(cmd);
     return upload;
+}
+
+void Solver::State::replace_buffers(Growth growth)
+{
+    if (commands && growth.any)
+        commands->forget();
+    replaced.buffers.push_back(replace_grown(*device, std::move(growth)));
 }
 
 void Solver::State::finish_upload(gpu::Recorder& recorder)

@@ -10,12 +10,15 @@ namespace voile::gpu
 
 // The functions of buffers, kernels, command buffers and timestamps. Every device has them.
 #define VOILE_COMPUTE_FUNCTIONS(use)                                                                                   \
+    use(vkAllocateCommandBuffers);                                                                                     \
     use(vkAllocateDescriptorSets);                                                                                     \
+    use(vkBeginCommandBuffer);                                                                                         \
     use(vkCmdBindDescriptorSets);                                                                                      \
     use(vkCmdBindPipeline);                                                                                            \
     use(vkCmdCopyBuffer);                                                                                              \
     use(vkCmdDispatch);                                                                                                \
     use(vkCmdDispatchIndirect);                                                                                        \
+    use(vkCmdExecuteCommands);                                                                                         \
     use(vkCmdFillBuffer);                                                                                              \
     use(vkCmdPipelineBarrier2KHR);                                                                                     \
     use(vkCmdPushConstants);                                                                                           \
@@ -24,6 +27,7 @@ namespace voile::gpu
     use(vkCmdSetEvent);                                                                                                \
     use(vkCmdUpdateBuffer);                                                                                            \
     use(vkCmdWriteTimestamp2KHR);                                                                                      \
+    use(vkCreateCommandPool);                                                                                          \
     use(vkCreateComputePipelines);                                                                                     \
     use(vkCreateDescriptorPool);                                                                                       \
     use(vkCreateDescriptorSetLayout);                                                                                  \
@@ -31,6 +35,7 @@ namespace voile::gpu
     use(vkCreatePipelineLayout);                                                                                       \
     use(vkCreateQueryPool);                                                                                            \
     use(vkCreateShaderModule);                                                                                         \
+    use(vkDestroyCommandPool);                                                                                         \
     use(vkDestroyDescriptorPool);                                                                                      \
     use(vkDestroyDescriptorSetLayout);                                                                                 \
     use(vkDestroyEvent);                                                                                               \
@@ -38,6 +43,7 @@ namespace voile::gpu
     use(vkDestroyPipelineLayout);                                                                                      \
     use(vkDestroyQueryPool);                                                                                           \
     use(vkDestroyShaderModule);                                                                                        \
+    use(vkEndCommandBuffer);                                                                                           \
     use(vkGetBufferDeviceAddress);                                                                                     \
     use(vkGetEventStatus);                                                                                             \
     use(vkGetQueryPoolResults);                                                                                        \
@@ -46,8 +52,6 @@ namespace voile::gpu
 // The functions of the engine's submissions, pictures and windows.
 #define VOILE_ENGINE_FUNCTIONS(use)                                                                                    \
     use(vkAcquireNextImageKHR);                                                                                        \
-    use(vkAllocateCommandBuffers);                                                                                     \
-    use(vkBeginCommandBuffer);                                                                                         \
     use(vkCmdBeginRenderingKHR);                                                                                       \
     use(vkCmdBindIndexBuffer);                                                                                         \
     use(vkCmdBindVertexBuffers);                                                                                       \
@@ -60,7 +64,6 @@ namespace voile::gpu
     use(vkCmdSetScissor);                                                                                              \
     use(vkCmdSetViewport);                                                                                             \
     use(vkCmdWaitEvents);                                                                                              \
-    use(vkCreateCommandPool);                                                                                          \
     use(vkCreateFence);                                                                                                \
     use(vkCreateGraphicsPipelines);                                                                                    \
     use(vkCreateImageView);                                                                                            \
@@ -68,7 +71,6 @@ namespace voile::gpu
     use(vkCreateSampler);                                                                                              \
     use(vkCreateSemaphore);                                                                                            \
     use(vkCreateSwapchainKHR);                                                                                         \
-    use(vkDestroyCommandPool);                                                                                         \
     use(vkDestroyFence);                                                                                               \
     use(vkDestroyImageView);                                                                                           \
     use(vkDestroyPipelineCache);                                                                                       \
@@ -76,7 +78,6 @@ namespace voile::gpu
     use(vkDestroySemaphore);                                                                                           \
     use(vkDestroySwapchainKHR);                                                                                        \
     use(vkDeviceWaitIdle);                                                                                             \
-    use(vkEndCommandBuffer);                                                                                           \
     use(vkGetDeviceQueue);                                                                                             \
     use(vkGetSwapchainImagesKHR);                                                                                      \
     use(vkQueuePresentKHR);                                                                                            \

@@ -10,6 +10,8 @@
 namespace voile::gpu
 {
 
+class CommandList;
+
 // A scope that RenderDoc and validation show as `name`, and that is timed when `timestamps` is given.
 class VOILE_GPU_API LabelScope
 {
@@ -94,6 +96,13 @@ public:
         dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
     }
 
+    // From here on all calls go into the list instead of the command buffer; null: into the command buffer again.
+    // Dispatches are counted as always. Not with a split or with timestamps, which lists do not have.
+    void keep_in(CommandList* list) { list_ = list; }
+
+    // A secondary command buffer. Nothing is bound after it.
+    void execute(VkCommandBuffer secondary);
+
     // The next dispatch binds everything.
     void forget_bindings() { bound_ = {}; }
 
@@ -116,7 +125,10 @@ public:
     [[nodiscard]] VkCommandBuffer cmd() const { return cmd_; } // null if dry
     [[nodiscard]] Timestamps* timestamps() const { return timestamps_; }
     [[nodiscard]] const Context& context() const { return context_; }
+    [[nodiscard]] bool is_split() const { return split_ != nullptr; }
     [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
+    // Recorded into the command buffer, without labels and timestamps.
+    [[nodiscard]] uint32_t commands() const { return commands_; }
 
 private:
     void bind(const Kernel& kernel, VkDescriptorSet set, std::span<const std::byte> push);
@@ -140,7 +152,9 @@ private:
     Bound bound_{};
     Split split_ = nullptr;
     void* split_user_ = nullptr;
+    CommandList* list_ = nullptr;
     uint32_t dispatches_ = 0;
+    uint32_t commands_ = 0;
 };
 
 // A group of a recorder, as a scope.
