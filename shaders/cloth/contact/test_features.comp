@@ -72,15 +72,14 @@ PatchVertex item_vertex(uint cloth, uint index)
 // The same for a collider that deforms: from the straight path in its space that the vertex was expected to take.
 float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition earlier, FinePosition proposed)
 {
-    const float lasts = (push.progress_next - push.progress_listed) / (push.progress_to - push.progress_from);
-    const float time = lasts * seconds(push.substeps);
+    const float duration = push.progress_next - push.progress_listed;
+    const float time = duration * seconds(push.substeps) / (push.progress_to - push.progress_from);
     const vec3 from = from_origin(collider_index, collider_flags, center);
     const vec3 to = from + time * vec3(listed.velocity_x, listed.velocity_yz);
     const vec3 start = collider_moves ? to_collider(pose_listed, from) : from;
     vec3 end = to;
     if (collider_moves)
         end = to_collider(pose_at(collider_index, push.progress_next), to);
-    const float duration = push.progress_next - push.progress_listed;
     const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1);
     return max(distance(mix(start, end, (push.progress_from - push.progress_listed) / duration), path.from),
                distance(mix(start, end, (push.progress_to - push.progress_listed) / duration), path.to));
