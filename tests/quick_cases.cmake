@@ -36,6 +36,7 @@ quick(test_attachments
     "vertices are attached to a collider's surface")
 quick(test_bench)
 quick(test_bvh)
+quick(test_command_reuse)
 quick(test_contact
     "a substep with planes and spheres equals their formulas"
     "a vertex that passes around an edge of a mesh is neither pulled in nor stopped"

@@ -65,6 +65,7 @@ void CommandList::begin()
 {
     at_ = 0;
     same_ = !words_.empty();
+    dispatches_ = 0;
 }
 
 bool CommandList::end()
@@ -109,12 +110,14 @@ void CommandList::add(Kind kind, std::initializer_list<uint64_t> numbers, std::s
 void CommandList::add_dispatch(const Kernel& kernel, VkDescriptorSet set, uint32_t columns, uint32_t rows,
                                std::span<const std::byte> push, bool ordered)
 {
+    ++dispatches_;
     add(Kind::dispatch, {number_of(&kernel), number_of(set), pair_of(columns, rows), ordered ? 1u : 0u}, push);
 }
 
 void CommandList::add_indirect(const Kernel& kernel, VkDescriptorSet set, VkBuffer sizes, VkDeviceSize offset,
                                std::span<const std::byte> push)
 {
+    ++dispatches_;
     add(Kind::indirect, {number_of(&kernel), number_of(set), number_of(sizes), offset}, push);
 }
 

@@ -116,8 +116,11 @@ void Recorder::dispatch_grid(const Kernel& kernel, VkDescriptorSet set, uint32_t
         return;
     require_push(kernel, push);
     if (list_ != nullptr)
+    {
         list_->add_dispatch(kernel, set, columns, rows, push, ordering == Ordering::ordered);
-    else if (!is_dry())
+        return;
+    }
+    if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
@@ -134,8 +137,11 @@ void Recorder::dispatch_indirect(const Kernel& kernel, VkDescriptorSet set, VkBu
 {
     require_push(kernel, push);
     if (list_ != nullptr)
+    {
         list_->add_indirect(kernel, set, sizes, offset, push);
-    else if (!is_dry())
+        return;
+    }
+    if (!is_dry())
     {
         const LabelScope scope(context_, cmd_, kernel.name(), timestamps_);
         bind(kernel, set, push);
@@ -250,10 +256,11 @@ void Recorder::barrier(VkPipelineStageFlags2KHR source_stage, VkAccessFlags2KHR 
     ++commands_;
 }
 
-void Recorder::execute(VkCommandBuffer secondary)
+void Recorder::execute(VkCommandBuffer secondary, uint32_t dispatches)
 {
     context_.fn.vkCmdExecuteCommands(cmd_, 1, &secondary);
     ++commands_;
+    dispatches_ += dispatches;
     forget_bindings();
 }
 

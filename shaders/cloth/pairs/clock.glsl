@@ -40,7 +40,7 @@ float fall_until_next()
 vec3 carry_until_next(uint word)
 {
     return 2 * pair_interval() / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word) +
-           falls(word) * (fall_until_next() * gravity_of_pairs() + pair_interval() * rounded_off());
+           falls(word) * (fall_until_next() * step_input.gravity + pair_interval() * rounded_off());
 }
 
 // Relative to another vertex. What is carried equally has exactly 0, whatever a compiler does with sums.

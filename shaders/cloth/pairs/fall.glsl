@@ -4,10 +4,12 @@
 #ifndef VOILE_PAIR_FALL_GLSL
 #define VOILE_PAIR_FALL_GLSL
 
-vec3 numbers_of(PairDispatch record) { return uintBitsToFloat(uvec3(record.groups, record.one, record.entries)); }
+#include "shared/step_input.glsl"
 
-vec3 gravity_of_pairs() { return numbers_of(pair_searches[VOILE_PAIR_GRAVITY]); } // m/s^2
-
-vec3 rounded_off() { return numbers_of(pair_searches[VOILE_PAIR_ROUNDED_OFF]); } // m/s
+vec3 rounded_off() // m/s
+{
+    const PairDispatch record = pair_searches[VOILE_PAIR_ROUNDED_OFF];
+    return uintBitsToFloat(uvec3(record.groups, record.one, record.entries));
+}
 
 #endif

@@ -55,7 +55,7 @@ Hold hold_of(uint i, FinePosition from)
     const float clock = uintBitsToFloat(pair_searches[VOILE_PAIR_CLOCK].entries);
     const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
                           (sweep.fall > 0 ? rounded_off() : vec3(0));
-    const vec3 gravity = sweep.fall > 0 ? gravity_of_pairs() : vec3(0);
+    const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
     const vec3 mean = rate * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL_RATE].entries) * gravity;
     const float now = clock + rate * mix(pair_from(), pair_to(), sweep.fall);
     hold.carry = rate * (velocity + now * gravity);

@@ -34,12 +34,11 @@
 #define VOILE_PAIR_STOPPED 7
 #define VOILE_PAIR_STOPPED_PASSES 16
 // What gravity adds to the way of what falls freely: the square of the clock, about half, s^2. For even and for odd
-// passes, then of the last pass, and what it gains per second until the next one. Then three numbers each (fall.glsl).
+// passes, then of the last pass, and what it gains per second until the next one. Then three numbers (fall.glsl).
 #define VOILE_PAIR_FALLS 8
 #define VOILE_PAIR_FALL 10
 #define VOILE_PAIR_FALL_RATE 11
-#define VOILE_PAIR_GRAVITY 12
-#define VOILE_PAIR_ROUNDED_OFF 13
+#define VOILE_PAIR_ROUNDED_OFF 12
 // The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 #define VOILE_PAIR_FAR_BIT (1u << 31)

@@ -117,11 +117,16 @@ struct ShaderReplacement
 };
 
 // Steps with the same passes use the same commands again, so that recording takes the host a few microseconds. The
-// solver keeps them in secondary command buffers. Substeps, cloths, colliders, levels and materials that add or remove
-// passes change them; duration, gravity, wind, gusts, time and motions do not, as long as the number of substeps is the
-// same. After a change, commands are used again from the third step of each command buffer on. Results are equal to the
-// bit. record then
-// - takes primary command buffers of the queue family, with no query and no conditional rendering active;
+// solver keeps them in secondary command buffers. Results are equal to the bit.
+//
+// Changes of gravity, wind, time, motions and vertices of deforming meshes keep the passes. Cloths and colliders that
+// come, go or move for the first time, numbers of substeps, gusts that begin or end, and growing buffers change them. So
+// do materials and durations that lead to other substeps or other intervals between queries. After a change, commands
+// are used again from the third step of each command buffer on.
+//
+// record then
+// - takes primary command buffers of the queue family, with no query and no conditional rendering active. Each is
+//   submitted at most once: later calls make those of earlier ones invalid;
 // - allocates when passes change.
 // Steps with timestamps, or recorded through a Recorder with a split, are recorded one by one.
 struct CommandReuse
@@ -129,9 +134,9 @@ struct CommandReuse
     uint32_t queue_family = 0; // of the command buffers that record takes
 
     // How many calls of record may be in flight, 1..16: with two frames in flight, two for one call per frame, four for
-    // two calls. When record is called, command buffers of earlier calls beyond the last so many have completed, or are
-    // never submitted. With lifetime_checks, record returns an error if the GPU executes one of them; validation layers
-    // also report those that wait in a queue.
+    // two calls. The call that is made counts: when record is called for the step n, the command buffer of the step
+    // n - steps_in_flight has completed, or is never submitted. With lifetime_checks, record returns an error if the GPU
+    // executes it; validation layers also report one that waits in a queue.
     uint32_t steps_in_flight = 2;
 };
 
@@ -218,7 +223,7 @@ private:
 // The last call of Solver::record.
 struct RecordReport
 {
-    uint32_t commands = 0; // of Vulkan that it recorded, labels and timestamps left out
+    uint32_t commands = 0; // of Vulkan that it recorded, without labels, timestamps and lifetime checks
     bool reused = false;   // it executed the commands of an earlier step (SolverOptions::command_reuse)
 };
 
@@ -374,6 +379,7 @@ public:
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
+    // Zeros before the first call and after one that returned an error.
     [[nodiscard]] RecordReport record_report() const;
 
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after

@@ -52,10 +52,12 @@ void update_softened(gpu::Recorder& recorder, Solver::State& solver)
     {
         if (!std::exchange(cloth.limit_due, false) || !cloth.uploaded)
             continue;
-        recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
-                        std::as_bytes(std::span(&cloth.record, 1)));
-        recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
-                        std::as_bytes(std::span(&k_first_scale, 1)));
+        if (!solver.edits.records.contains(index)) // else it is written already
+            recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
+                            std::as_bytes(std::span(&cloth.record, 1)));
+        if (!solver.edits.limits.contains(index))
+            recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
+                            std::as_bytes(std::span(&k_first_scale, 1)));
     }
 }
 

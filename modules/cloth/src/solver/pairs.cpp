@@ -69,8 +69,7 @@ PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver,
                            const Step& step, const SubstepPlan& plan)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
       leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(plan.substeps),
-      period_(plan.pair_period),
-      gravity_(step.gravity)
+      period_(plan.pair_period)
 {
 }
 
@@ -118,8 +117,6 @@ void PairRecorder::write_sizes()
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     for (const uint32_t parity : {0u, 1u})
         sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
-    sizes[VOILE_PAIR_GRAVITY] = {std::bit_cast<uint32_t>(gravity_.x), 1, std::bit_cast<uint32_t>(gravity_.y),
-                                 std::bit_cast<uint32_t>(gravity_.z)};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
     const shared::PairDispatch no_velocities{};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),

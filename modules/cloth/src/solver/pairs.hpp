@@ -38,7 +38,6 @@ private:
     uint32_t leaves_;  // of the hierarchy
     uint32_t substeps_;
     uint32_t period_; // substeps from one pass to the next
-    Vec3 gravity_; // m/s^2
 };
 
 } // namespace voile

@@ -179,9 +179,9 @@ Result<void> Solver::record(VkCommandBuffer cmd, const Step& step, gpu::Timestam
 
 Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
 {
+    state_->report = {};
     if (auto valid = validate(step); !valid)
         return valid;
-    state_->report = {};
     if (!state_->device)
         return {};
     StepCommands* const commands = reusable_commands(recorder, *state_);

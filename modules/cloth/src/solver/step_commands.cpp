@@ -135,7 +135,7 @@ void StepCommands::end(gpu::Recorder& recorder)
         return;
     }
     entry.check.begin(recorder.cmd());
-    recorder.execute(entry.cmd);
+    recorder.execute(entry.cmd, entry.list.dispatches());
     entry.check.end(recorder.cmd());
 }
 
@@ -150,8 +150,10 @@ bool StepCommands::record(Entry& entry)
         return false;
     gpu::Recorder recorder(context_, entry.cmd);
     entry.list.record(recorder);
+    if (context_.fn.vkEndCommandBuffer(entry.cmd) != VK_SUCCESS)
+        return false;
     commands_ = recorder.commands();
-    return context_.fn.vkEndCommandBuffer(entry.cmd) == VK_SUCCESS;
+    return true;
 }
 
 } // namespace voile

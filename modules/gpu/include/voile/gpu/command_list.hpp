@@ -23,6 +23,8 @@ public:
     [[nodiscard]] bool end();
     void clear();
 
+    [[nodiscard]] uint32_t dispatches() const { return dispatches_; } // since begin
+
     // Makes the calls.
     void record(Recorder& recorder) const;
 
@@ -51,6 +53,7 @@ private:
     std::vector<uint64_t> words_;
     size_t at_ = 0; // the next call
     bool same_ = false;
+    uint32_t dispatches_ = 0;
 };
 
 } // namespace voile::gpu

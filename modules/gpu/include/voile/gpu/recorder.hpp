@@ -96,12 +96,12 @@ public:
         dispatch_indirect(kernel, set, sizes, offset, std::as_bytes(std::span(&push, 1)));
     }
 
-    // From here on all calls go into the list instead of the command buffer; null: into the command buffer again.
-    // Dispatches are counted as always. Not with a split or with timestamps, which lists do not have.
+    // From here on all calls go into the list instead of the command buffer; null: into the command buffer again. Not
+    // with a split or with timestamps, which lists do not have.
     void keep_in(CommandList* list) { list_ = list; }
 
-    // A secondary command buffer. Nothing is bound after it.
-    void execute(VkCommandBuffer secondary);
+    // A secondary command buffer, with so many dispatches. Nothing is bound after it.
+    void execute(VkCommandBuffer secondary, uint32_t dispatches);
 
     // The next dispatch binds everything.
     void forget_bindings() { bound_ = {}; }
@@ -126,6 +126,7 @@ public:
     [[nodiscard]] Timestamps* timestamps() const { return timestamps_; }
     [[nodiscard]] const Context& context() const { return context_; }
     [[nodiscard]] bool is_split() const { return split_ != nullptr; }
+    // Recorded or executed, or if dry, counted; not those that are in a list alone.
     [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
     // Recorded into the command buffer, without labels and timestamps.
     [[nodiscard]] uint32_t commands() const { return commands_; }

@@ -1,0 +1,64 @@
+// Commands that the GPU has begun and cannot finish until the host lets it.
+#pragma once
+
+#include "voile/engine/gpu/device.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace tests
+{
+
+class Gate
+{
+public:
+    explicit Gate(const voile::engine::Device& device) : context_(device.context()), reached_(make()), opened_(make())
+    {
+        const auto get = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+            context_.handles.get_instance_proc_addr(context_.handles.instance, "vkGetDeviceProcAddr"));
+        set_event_ = reinterpret_cast<PFN_vkSetEvent>(get(context_.device(), "vkSetEvent"));
+    }
+    ~Gate()
+    {
+        open();
+        context_.fn.vkDeviceWaitIdle(context_.device());
+        context_.fn.vkDestroyEvent(context_.device(), reached_, nullptr);
+        context_.fn.vkDestroyEvent(context_.device(), opened_, nullptr);
+    }
+    Gate(const Gate&) = delete;
+    Gate& operator=(const Gate&) = delete;
+
+    // The commands that follow wait for `open`.
+    void record(VkCommandBuffer cmd)
+    {
+        context_.fn.vkCmdSetEvent(cmd, reached_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT);
+        context_.fn.vkCmdWaitEvents(cmd, 1, &opened_, VK_PIPELINE_STAGE_HOST_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0,
+                                    nullptr, 0, nullptr, 0, nullptr);
+    }
+
+    // The GPU has begun to wait.
+    void wait_until_reached()
+    {
+        while (context_.fn.vkGetEventStatus(context_.device(), reached_) != VK_EVENT_SET)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+
+    void open() { set_event_(context_.device(), opened_); }
+
+private:
+    VkEvent make()
+    {
+        VkEventCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_EVENT_CREATE_INFO;
+        VkEvent event = VK_NULL_HANDLE;
+        voile::engine::check(context_.fn.vkCreateEvent(context_.device(), &info, nullptr, &event), "event");
+        return event;
+    }
+
+    const voile::gpu::Context& context_;
+    VkEvent reached_;
+    VkEvent opened_;
+    PFN_vkSetEvent set_event_ = nullptr;
+};
+
+} // namespace tests
