@@ -13,7 +13,7 @@ int main()
                                        .physical_device = host.physical_device,
                                        .device = host.device,
                                        .get_instance_proc_addr = &vkGetInstanceProcAddr},
-                                      {});
+                                      {.command_reuse = voile::CommandReuse{host.queue_family, 1}});
     if (!made)
         return std::fprintf(stderr, "%s\n", made.error().message.c_str()), 1;
     voile::Solver& solver = made.value();

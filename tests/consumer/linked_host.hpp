@@ -18,6 +18,7 @@ public:
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
+    uint32_t queue_family = 0;
 
 private:
     VkQueue queue_ = VK_NULL_HANDLE;

@@ -45,7 +45,7 @@ HostDevice::HostDevice()
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-    queue_info.queueFamilyIndex = compute_family(physical_device);
+    queue_info.queueFamilyIndex = queue_family = compute_family(physical_device);
     queue_info.queueCount = 1;
     queue_info.pQueuePriorities = &priority;
     VkPhysicalDeviceVulkan13Features features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};

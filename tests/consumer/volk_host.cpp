@@ -10,5 +10,7 @@ int main()
     foreign::Engine engine({.get_instance_proc_addr = vkGetInstanceProcAddr});
     volkLoadInstance(engine.instance());
     volkLoadDevice(engine.device());
-    return let_a_sheet_fall(engine, handles_of(engine));
+    const voile::CommandReuse reuse{.queue_family = engine.queue_family(foreign::Lane::main),
+                                    .steps_in_flight = foreign::Engine::k_slots};
+    return let_a_sheet_fall(engine, handles_of(engine), {.command_reuse = reuse});
 }

@@ -46,11 +46,13 @@ TEST_CASE("frames after the first few allocate nothing on the heap")
     app.finish();
 }
 
-TEST_CASE("recording previous positions and outputs allocates nothing on the heap")
+namespace
 {
-    const voile::engine::Device device(voile::engine::DeviceOptions{}); // without validation, as above
-    voile::Solver solver =
-        voile::engine::take(voile::Solver::create(device.context().handles, {.output = {.previous_positions = true}}));
+
+// Allocations of a step and outputs whose passes are those of earlier steps.
+uint64_t allocations_of_a_step(const voile::SolverOptions& options, const voile::engine::Device& device)
+{
+    voile::Solver solver = voile::engine::take(voile::Solver::create(device.context().handles, options));
     const voile::ClothId sheet = voile::engine::take(solver.add_cloth(voile::GridCloth{.columns = 8, .rows = 8}));
     constexpr VkDeviceSize k_bytes = 64 * 24;
     const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
@@ -59,20 +61,31 @@ TEST_CASE("recording previous positions and outputs allocates nothing on the hea
         sheet, {.buffer = vertices.handle(), .size = k_bytes, .stride = 24, .position = 0, .previous_position = 12}));
     voile::engine::FrameRing frames(device, 1);
     voile::Upload upload;
-    uint64_t before = 0;
-    for (int i = 0; i < 6; ++i)
+    uint64_t result = 0;
+    for (int i = 0; i < 8; ++i)
     {
         voile::engine::take(solver.teleport(sheet, glm::mat4(1)));
         const voile::engine::FrameRing::Frame frame = frames.begin();
         if (solver.needs_upload())
             upload = voile::engine::take(solver.record_upload(frame.cmd));
-        if (i == 3)
-            before = bench::allocations();
+        const uint64_t before = bench::allocations();
         voile::engine::take(solver.record(frame.cmd, {}));
         voile::engine::take(solver.record_outputs(frame.cmd, {output}));
-        if (i == 3)
-            CHECK(bench::allocations() - before == 0);
+        result = bench::allocations() - before;
         frames.submit(frame);
     }
+    CHECK(solver.record_report().reused == options.command_reuse.has_value());
     frames.wait_all();
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("recording previous positions and outputs allocates nothing on the heap")
+{
+    const voile::engine::Device device(voile::engine::DeviceOptions{}); // without validation, as above
+    voile::SolverOptions options{.output = {.previous_positions = true}};
+    CHECK(allocations_of_a_step(options, device) == 0);
+    options.command_reuse = {.queue_family = device.queue_family(), .steps_in_flight = 1};
+    CHECK(allocations_of_a_step(options, device) == 0);
 }

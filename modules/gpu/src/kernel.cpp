@@ -228,8 +228,8 @@ BindingPool& BindingPool::operator=(BindingPool&& other) noexcept
 Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_sets, uint32_t max_buffers,
                                         uint32_t max_uniform_buffers)
 {
-    const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers},
-                                                     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, max_uniform_buffers}}};
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, max_uniform_buffers}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = max_sets;

@@ -120,9 +120,9 @@ struct ShaderReplacement
 // solver keeps them in secondary command buffers. Results are equal to the bit.
 //
 // Changes of gravity, wind, time, motions and vertices of deforming meshes keep the passes. Cloths and colliders that
-// come, go or move for the first time, numbers of substeps, gusts that begin or end, and growing buffers change them. So
-// do materials and durations that lead to other substeps or other intervals between queries. After a change, commands
-// are used again from the third step of each command buffer on.
+// come, go or move for the first time, numbers of substeps, gusts that begin or end, and growing buffers change them.
+// So do materials and durations that lead to other substeps or other intervals between queries. After a change,
+// commands are used again from the third step of each command buffer on.
 //
 // record then
 // - takes primary command buffers of the queue family, with no query and no conditional rendering active. Each is
@@ -135,8 +135,8 @@ struct CommandReuse
 
     // How many calls of record may be in flight, 1..16: with two frames in flight, two for one call per frame, four for
     // two calls. The call that is made counts: when record is called for the step n, the command buffer of the step
-    // n - steps_in_flight has completed, or is never submitted. With lifetime_checks, record returns an error if the GPU
-    // executes it; validation layers also report one that waits in a queue.
+    // n - steps_in_flight has completed, or is never submitted. With lifetime_checks, record returns an error if the
+    // GPU executes it; validation layers also report one that waits in a queue.
     uint32_t steps_in_flight = 2;
 };
 

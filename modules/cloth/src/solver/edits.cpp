@@ -193,8 +193,7 @@ void record_pins(gpu::Recorder& recorder, const Solver::State& solver, EntryRang
 {
     if (pins.count > 0)
         recorder.dispatch(solver.kernels.pins, solver.device->sets.pins, pins.count,
-                          solver.options.tuning.workgroup_size,
-                          shared::PinPush{pins.first, pins.count, duration});
+                          solver.options.tuning.workgroup_size, shared::PinPush{pins.first, pins.count, duration});
 }
 
 } // namespace

@@ -128,7 +128,8 @@ uint32_t most_storage_buffers()
     size_t most = 0;
     for (const Request& request : requests_of(none, {.intersections = true}))
         if (const auto shader = gpu::reflect(request.description))
-            most = std::max<size_t>(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
+            most = std::max<size_t>(most,
+                                    std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
 }
 

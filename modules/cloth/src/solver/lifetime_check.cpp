@@ -47,8 +47,7 @@ Result<LifetimeCheck> LifetimeCheck::create(const gpu::Context& context, const c
 
 bool LifetimeCheck::is_executing() const
 {
-    return event_ != VK_NULL_HANDLE &&
-           context_.fn.vkGetEventStatus(context_.device(), event_) == VK_EVENT_SET;
+    return event_ != VK_NULL_HANDLE && context_.fn.vkGetEventStatus(context_.device(), event_) == VK_EVENT_SET;
 }
 
 void LifetimeCheck::begin(VkCommandBuffer cmd) const

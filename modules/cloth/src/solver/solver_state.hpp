@@ -106,7 +106,7 @@ struct Solver::State
     Replaced replaced;
     Edits edits;
     Passes passes;
-    std::optional<DeviceState> device; // none before the first upload
+    std::optional<DeviceState> device;      // none before the first upload
     std::unique_ptr<StepCommands> commands; // with SolverOptions::command_reuse
     RecordReport report;
     bool dirty = false;

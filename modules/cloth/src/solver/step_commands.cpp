@@ -25,7 +25,8 @@ Result<void> check_options(const gpu::Context& context, const CommandReuse& opti
         return Error{"CommandReuse: queue_family is " + std::to_string(options.queue_family) + ", the device has " +
                      std::to_string(count) + (count == 1 ? " family" : " families")};
     if ((families[options.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
-        return Error{"CommandReuse: queue family " + std::to_string(options.queue_family) + " does not support compute"};
+        return Error{"CommandReuse: queue family " + std::to_string(options.queue_family) +
+                     " does not support compute"};
     return {};
 }
 

@@ -26,9 +26,8 @@ void set_gusts(shared::StepInput& input, const Step& step)
     for (int i = 0; i < 4; ++i)
     {
         const glm::dvec3 wave(k_waves[i]);
-        const double turns_per_second =
-            (glm::dot(wave, glm::dvec3(step.wind)) + k_change * glm::length(wave) * speed) /
-            static_cast<double>(step.gust_length);
+        const double turns_per_second = (glm::dot(wave, glm::dvec3(step.wind)) + k_change * glm::length(wave) * speed) /
+                                        static_cast<double>(step.gust_length);
         input.gust_rates[i] = static_cast<float>(turns_per_second);
         input.gust_phases[i] = static_cast<float>(std::fmod(turns_per_second * step.time, 1.0));
     }

@@ -1,5 +1,5 @@
-// CommandList: the calls of a Recorder, kept on the host, so that they can be compared with those of the time before and
-// recorded once.
+// CommandList: the calls of a Recorder, kept on the host, so that they can be compared with those of the time before
+// and recorded once.
 #pragma once
 
 #include "voile/gpu/kernel.hpp"

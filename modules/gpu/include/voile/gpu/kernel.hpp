@@ -1,5 +1,5 @@
-// Kernel: a compute pipeline over storage and uniform buffers. Its bindings, push constants and specialization constants are those
-// that its SPIR-V declares.
+// Kernel: a compute pipeline over storage and uniform buffers. Its bindings, push constants and specialization
+// constants are those that its SPIR-V declares.
 #pragma once
 
 #include "voile/gpu/buffer.hpp"
@@ -64,7 +64,8 @@ struct BufferBinding
 {
     uint32_t number = 0;
     VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0; // bytes; a multiple of minStorageBufferOffsetAlignment, or of minUniformBufferOffsetAlignment
+    VkDeviceSize offset =
+        0; // bytes; a multiple of minStorageBufferOffsetAlignment, or of minUniformBufferOffsetAlignment
     VkDeviceSize bytes = VK_WHOLE_SIZE;
 };
 

@@ -19,7 +19,8 @@ struct ShaderBinding
     std::string name;     // of its block; empty where names were stripped
     bool read = false;    // as declared: a "writeonly" buffer is not read,
     bool written = false; // and a "readonly" one is not written
-    uint32_t stride = 0;  // bytes per entry of the array that it ends with; 0: it ends with none. Of a uniform buffer all
+    uint32_t stride =
+        0; // bytes per entry of the array that it ends with; 0: it ends with none. Of a uniform buffer all
     bool uniform = false;
 };
 
