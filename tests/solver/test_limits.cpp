@@ -104,7 +104,7 @@ TEST_CASE("each limit of a device has an error message")
     CHECK(refused([](auto& limits) { limits.maxDescriptorSetStorageBuffers = 8; })
               .ends_with("storage buffers, the device allows 8 per set"));
     CHECK(refused([](auto& limits) { limits.maxPerStageResources = 9; })
-              .ends_with("storage buffers, the device allows 9 resources per stage"));
+              .ends_with("buffers, the device allows 9 resources per stage"));
     CHECK(refused([](auto& limits) { limits.maxPushConstantsSize = 16; })
               .ends_with("bytes of push constants, the device has 16"));
     CHECK(refused([](auto&) {}, {.tuning = {.workgroup_size = 256}})
