@@ -5,6 +5,7 @@
 #include "support/gate.hpp"
 #include "support/recorded_dispatches.hpp"
 
+#include "solver/step_commands.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/fabrics.hpp"
 
@@ -50,13 +51,12 @@ public:
         step.time = static_cast<double>(frame) / 60;
         step.wind = {1, 0.1f * static_cast<float>(frame % 7), 2};
         step.gravity.x = 0.05f * static_cast<float>(frame % 5);
-        step.gust = 0.3f;
         return step;
     }
 
     ClothHarness harness;
     std::vector<voile::ClothId> cloths;
-    voile::Step next{.substeps = 6};
+    voile::Step next{.substeps = 6, .gust = 0.3f};
 
 protected:
     void add(const voile::GridCloth& grid) { cloths.push_back(take(harness.solver.add_cloth(grid))); }
@@ -69,7 +69,7 @@ class MovingColliders : public Scene
 public:
     explicit MovingColliders(const voile::SolverOptions& options) : Scene(options)
     {
-        next = {.max_substeps = 12};
+        next = {.max_substeps = 12, .gust = 0.3f};
         add(sheet(0.25f, voile::Integrator::verlet));
         voile::GridCloth stiff = sheet(0.26f, voile::Integrator::rk4);
         stiff.transform = moved({0.6f, 0.26f, 0});
@@ -128,7 +128,7 @@ class Pairs : public Scene
 public:
     explicit Pairs(const voile::SolverOptions& options) : Scene(options)
     {
-        next = {.max_substeps = 10};
+        next = {.max_substeps = 10, .gust = 0.3f};
         voile::GridCloth lower = sheet(0.006f, voile::Integrator::verlet);
         lower.self_collision = true;
         add(lower);
@@ -166,8 +166,7 @@ public:
 
     void change(uint32_t frame) override
     {
-        if (frame == 6)
-            next.substeps = 5; // odd: contact ends in another buffer
+        next.gust = frame < 6 ? 0 : 0.3f; // changes push constants alone
         if (frame == 12)
             grow();
         if (frame == 18)
@@ -185,6 +184,7 @@ public:
 private:
     void grow()
     {
+        next.substeps = 5; // odd: contact ends in another buffer
         add(sheet(0.22f, voile::Integrator::rk4));
         const voile::engine::Mesh box = voile::engine::make_box({-0.1f, 0.1f, -0.1f}, {0.1f, 0.17f, 0.1f});
         (void)take(solver().add_collider(tests::collider(box)));
@@ -313,6 +313,31 @@ TEST_CASE(
     CHECK_FALSE(harness.solver.record_report().reused);
     harness.step(step);
     CHECK(harness.solver.record_report().reused);
+}
+
+TEST_CASE("forgotten commands are not used again")
+{
+    tests::GpuFixture fixture;
+    const voile::gpu::Context& context = tests::solver_context();
+    auto commands = take(voile::StepCommands::create(
+        context, {.queue_family = tests::device().queue_family(), .steps_in_flight = 1}, false));
+    for (uint32_t i = 0; i < 10; ++i)
+    {
+        CAPTURE(i);
+        if (i == 6) // buffers were replaced
+            commands.forget();
+        fixture.run(
+            [&](VkCommandBuffer cmd)
+            {
+                voile::gpu::Recorder recorder(context, cmd);
+                commands.begin(recorder);
+                recorder.barrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, 0,
+                                 VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, 0);
+                commands.end(recorder);
+                CHECK(recorder.commands() == 1);
+            });
+        CHECK(commands.reused() == (i == 4 || i == 5));
+    }
 }
 
 TEST_CASE("options of command reuse that do not fit the device are refused by name")
