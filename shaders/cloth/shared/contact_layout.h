@@ -61,8 +61,8 @@ struct ContactPush
     uint colliders;
     uint refresh;           // 1: lists of candidates are refreshed in this pass
     float refresh_substeps; // from one refresh to the next
-    float progress_from; // 0..1, of the step, at the last contact pass
-    float progress_to;   // 0..1, of the step, at the substep's end
+    float progress_from;    // 0..1, of the step, at the last contact pass
+    float progress_to;      // 0..1, of the step, at the substep's end
     float progress_per_substep;
     uint substep;       // of the step
     uint vertices;      // of all cloths
