@@ -133,7 +133,7 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
     REQUIRE(stripped.size() < description.spirv.size());
     description.spirv = stripped;
     const auto nameless = voile::engine::take(voile::gpu::reflect(description));
-    CHECK(named.push_bytes == 92);
+    CHECK(named.push_bytes == 88);
     CHECK(nameless.push_bytes == named.push_bytes);
     CHECK(nameless.shared_bytes == named.shared_bytes);
     REQUIRE(nameless.bindings.size() == named.bindings.size());

@@ -52,7 +52,7 @@ VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start positio
 VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
 
 // The step that is recorded. A uniform buffer: each step writes it at its beginning.
-VOILE_SCRATCH_BUFFER(92, step_input, StepInput, 1, "lengths, forces and numbers that may differ between steps with the same passes")
+VOILE_SCRATCH_BUFFER(92, step_inputs, StepInput, 1, "lengths, forces and numbers that may differ between steps with the same passes")
 
 // The state between steps.
 VOILE_BUFFER(9, positions, vec4, vertices, "position and inverse mass; the host draws from it")

@@ -4,7 +4,7 @@
 
 #include "shared/step_layout.h"
 
-layout(VOILE_UNIFORM_BINDING(step_input)) uniform StepInputs { StepInput step_input; };
+layout(VOILE_UNIFORM_BINDING(step_inputs)) uniform StepInputs { StepInput step_input; };
 
 // s, of so many substeps of level 0. Precise, so that a sum does not round otherwise than with the rounded product.
 float seconds(float substeps)

@@ -93,7 +93,7 @@ VkBufferUsageFlags usage_of(uint32_t number, VkBufferUsageFlags stream_usage)
     case buffer::previous_positions:
     case buffer::intersections:
         return stream_usage;
-    case buffer::step_input:
+    case buffer::step_inputs:
         return VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
     default:
         return 0;

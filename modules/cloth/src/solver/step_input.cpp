@@ -56,7 +56,7 @@ shared::StepInput make_step_input(const Solver::State& solver, const StepHistory
 
 void record_step_input(gpu::Recorder& recorder, const DeviceState& device, const shared::StepInput& input)
 {
-    recorder.update(device[buffer::step_input].handle(), 0, std::as_bytes(std::span(&input, 1)));
+    recorder.update(device[buffer::step_inputs].handle(), 0, std::as_bytes(std::span(&input, 1)));
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, VK_ACCESS_2_UNIFORM_READ_BIT_KHR);
 }
