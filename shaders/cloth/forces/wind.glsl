@@ -44,7 +44,7 @@ float turns(float a, float b, float b_residual)
 vec3 wind_at(FinePosition position)
 {
     vec3 wind = step_input.wind;
-    if (step_input.gust_speed == 0)
+    if (push.gusts == 0)
         return wind;
     const vec4 phases = step_input.gust_phases + seconds(push.time) * step_input.gust_rates;
     for (int i = 0; i < 4; ++i)

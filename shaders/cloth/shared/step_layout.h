@@ -51,6 +51,7 @@ struct StagePush
     uint stage;       // RK4: 1 to 4
     uint first_patch; // of the dispatch
     uint planes;      // Verlet: 1: vertices stay above the planes of the last contact pass
+    uint gusts;       // 1: the step has gusts. Known before StepInput has arrived, so the gather need not wait for it
 };
 
 // Push constants of an edit of one cloth.

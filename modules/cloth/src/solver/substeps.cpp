@@ -99,7 +99,10 @@ shared::StagePush BatchRecorder::make_push(float substeps) const
     shared::StagePush push{};
     push.substeps = of_level_0(1);
     if (context_.step.gust > 0)
+    {
+        push.gusts = 1;
         push.time = of_level_0(substeps);
+    }
     return push;
 }
 
