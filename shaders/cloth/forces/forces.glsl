@@ -22,7 +22,7 @@ struct Gather
     vec3 bending; // N, of the isometric model
     float bending_scale; // stability scale: bending acts on bending_scale * x + bending_damping * v
     float bending_damping; // s
-    vec3 wind;      // m/s, at x
+    vec3 gust;      // m/s, at x
     vec3 air;       // N
     float air_rate; // N s/m, force over relative velocity
     Viscosity viscosity;
@@ -67,6 +67,9 @@ void add_spring(inout Gather g, float stiffness, float damping, float rest_lengt
     g.energy += 0.25 * stiffness * stretch * stretch;
 }
 
+// m/s, at the vertex. Without gusts it takes no registers while springs are gathered.
+vec3 wind(Gather g) { return step_input.wind + (push.gusts == 0 ? vec3(0) : g.gust); }
+
 // Drag of the air on a `fraction` of the triangle that the edges to two neighbors span, with the vertex's velocity:
 // 1/2 rho A C |u| u along the normal and across it. The parts along and across the wind are drag and lift.
 void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float fraction)
@@ -77,7 +80,7 @@ void add_air(inout Gather g, uint cloth, vec3 to_b, vec3 to_c, float fraction)
         return;
     const vec3 n = across / across_length;
     // Beyond these bounds of speed and area the force in the densest air would overflow.
-    const vec3 u = clamp(g.wind - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
+    const vec3 u = clamp(wind(g) - g.v, vec3(-VOILE_MOST_AIR_SPEED), vec3(VOILE_MOST_AIR_SPEED));
     const float u_n = dot(u, n);
     const vec3 u_t = u - u_n * n;
     const float c = 0.25 * step_input.air_density * fraction * min(across_length, VOILE_MOST_AIR_AREA);
@@ -190,17 +193,17 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
     add_neighbor(g, self, ivec2(-1, -1), row.next.y && column.next.y, springs[2], -twist);
     add_neighbor(g, self, ivec2(1, -1), row.next.x && column.next.y, springs[3], -twist);
     add_neighbor(g, self, ivec2(-1, 1), row.next.y && column.next.x, springs[3], -twist);
-    if (c.x != 0 || has_springs(springs[4]))
+    if (c.x != 0 || has_springs(cloths[cloth].springs[4]))
     {
         add_neighbor(g, self, ivec2(2, 0), row.far.x, springs[4], row_bending.far);
         add_neighbor(g, self, ivec2(-2, 0), row.far.y, springs[4], row_bending.far);
     }
-    if (c.y != 0 || has_springs(springs[5]))
+    if (c.y != 0 || has_springs(cloths[cloth].springs[5]))
     {
         add_neighbor(g, self, ivec2(0, 2), column.far.x, springs[5], column_bending.far);
         add_neighbor(g, self, ivec2(0, -2), column.far.y, springs[5], column_bending.far);
     }
-    if (has_springs(springs[6]))
+    if (has_springs(cloths[cloth].springs[6]))
     {
         add_neighbor(g, self, ivec2(2, 2), row.far.x && column.far.x, springs[6], 0);
         add_neighbor(g, self, ivec2(-2, -2), row.far.y && column.far.y, springs[6], 0);
@@ -276,14 +279,14 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
 }
 
 // All forces on a vertex except gravity and linear drag.
-Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 wind, Viscosity viscosity, StabilityScales scales)
+Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 gust, Viscosity viscosity, StabilityScales scales)
 {
     Gather g;
     g.x = x;
     g.v = v;
     g.force = g.bending = g.air = vec3(0);
     g.energy = g.air_rate = 0;
-    g.wind = wind;
+    g.gust = gust;
     g.viscosity = viscosity;
     g.bending_scale = scales.stiffness;
     g.bending_damping = scales.damping * cloths[self.cloth].bending_time;
@@ -303,11 +306,11 @@ vec3 acceleration(bool verlet, PatchVertex self, FinePosition x, float inverse_m
     Viscosity viscosity = k_no_viscosity;
     if (verlet)
         viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, h);
-    const Gather g = gather(self, x, v, wind_at(x), viscosity, scales);
+    const Gather g = gather(self, x, v, gust_at(x), viscosity, scales);
     const float drag = scales.damping * cloths[cloth].linear_drag; // N s/m
     const float air = air_scale(verlet, inverse_mass * g.air_rate, h);
     precise const vec3 gravity = cloths[cloth].gravity_scale * step_input.gravity; // with a scale of 1 it changes no bit
-    return gravity + inverse_mass * (g.force + g.bending + drag * (g.wind - v) + air * g.air);
+    return gravity + inverse_mass * (g.force + g.bending + drag * (wind(g) - v) + air * g.air);
 }
 
 #endif

@@ -41,21 +41,22 @@ float turns(float a, float b, float b_residual)
     return fract(product) + (rest + a * b_residual);
 }
 
-vec3 wind_at(FinePosition position)
+// m/s, beyond the mean wind.
+vec3 gust_at(FinePosition position)
 {
-    vec3 wind = step_input.wind;
+    vec3 gust = vec3(0);
     if (push.gusts == 0)
-        return wind;
+        return gust;
     const vec4 phases = step_input.gust_phases + seconds(push.time) * step_input.gust_rates;
     for (int i = 0; i < 4; ++i)
     {
         const vec3 wave = step_input.gust_frequency * k_gust_waves[i];
         const float along = turns(wave.x, position.x.x, position.residual.x) + turns(wave.y, position.x.y, position.residual.y) +
                             turns(wave.z, position.x.z, position.residual.z);
-        wind += step_input.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along - phases[i])) *
+        gust += step_input.gust_speed * k_gust_amplitudes[i] * sin(k_two_pi * fract(along - phases[i])) *
                 k_gust_directions[i];
     }
-    return wind;
+    return gust;
 }
 
 #endif

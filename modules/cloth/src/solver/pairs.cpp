@@ -66,7 +66,7 @@ float fall_of_pairs(const Vec3& gravity)
 }
 
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
-                           const Step& step, const SubstepPlan& plan)
+                           const SubstepPlan& plan)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
       leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(plan.substeps),
       period_(plan.pair_period)

@@ -19,7 +19,7 @@ float fall_of_pairs(const Vec3& gravity);
 class PairRecorder
 {
 public:
-    PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists, const Step& step,
+    PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
                  const SubstepPlan& plan);
 
     // Whether a substep begins with a pass. The first one of a step does.

@@ -53,7 +53,7 @@ void StepRecorder::record()
     if (context_.passes.strain_spacing > 0)
         keep_state(k_step_start);
     keep_contact_start();
-    PairRecorder pairs(recorder_, solver_, context_.lists, context_.step, context_.plan);
+    PairRecorder pairs(recorder_, solver_, context_.lists, context_.plan);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
         const bool after_pairs = context_.passes.pairs && pairs.begins(substep);
