@@ -45,6 +45,7 @@ quick(test_contact
     "a vertex pressed between two sheets closer than the thickness passes through neither"
     "no path crosses an analytic solid, however fast, flat or thin, and no path that misses it is stopped"
     "lists of near triangles change no bit of contact"
+    "a sharp edge keeps all parts that are longer than the spacing, and else a vertex within it"
     "a round mesh has no features, a box of triangles has 12 edges and 8 corners")
 quick(test_depenetration
     "a small cloth leaves the inside of a ball of 20,736 triangles"

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace
@@ -290,6 +291,16 @@ TEST_CASE("cloth moves equally in every run where there is no room for all featu
         for (int run = 0; run < 2; ++run)
             CHECK(tests::same_bits(first, fall(items)));
     }
+}
+
+// Those with items merge contacts in another order than those that traverse. With 8 per vertex some traverse here.
+TEST_CASE("few vertices of coarse cloth on a dense mesh have room for all features near them")
+{
+    const auto fall_with = [](std::optional<uint32_t> items)
+    { return fall_on(brush(), false, {.tuning = {.feature_threads = 8, .feature_items = items}}); };
+    const std::vector<glm::vec4> usual = fall_with({});
+    CHECK(tests::same_bits(usual, fall_with(VOILE_MOST_FEATURE_ITEMS)));
+    CHECK_FALSE(tests::same_bits(usual, fall_with(VOILE_FEATURE_ITEMS)));
 }
 
 TEST_CASE("tuning outside of its range and invalid enumerators are refused")
