@@ -188,4 +188,11 @@ foreach(subject IN ITEMS @subjects@)
 endforeach()
 ]])
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/late_pipelines.cmake)
+    # The hosts of the module, too. "foreign_engine: a sheet falls on a ball" makes all pipelines in advance.
+    set_property(TEST "consumer: find_package" "consumer: add_subdirectory" APPEND PROPERTY ENVIRONMENT
+        VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
+    if(XVFB_RUN)
+        set_property(TEST "window: frames on a virtual display" APPEND PROPERTY ENVIRONMENT
+            VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
+    endif()
 endif()
