@@ -60,6 +60,8 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
     PairBound pair_bounds[];
 };
 
+layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
+
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
 #define VOILE_NORMAL_POSITIONS proposed_positions
@@ -74,6 +76,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
 #include "pairs/hold.glsl"
+#include "pairs/untangle.glsl"
 
 // The flags are read here and not kept through the queries, which are slower with one more register (bench/NOTES.md).
 float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth].flags), seconds(push.substeps), push.kicks); }
@@ -434,6 +437,7 @@ void main()
         {
             hold = hold_of(i, motion.from);
             changed = respond_to_pairs(hold, motion) || changed;
+            changed = untangle(i, motion) || changed;
         }
         ClothContact contact;
         contact.thickness = cloths[cloth].thickness;

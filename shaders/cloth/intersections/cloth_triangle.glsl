@@ -1,16 +1,10 @@
-// Triangles of cloths, counting of intersecting pairs, and marks of their vertices.
+// Triangles of cloths.
 //
-// The including kernel declares cloth_leaves[], positions[] and intersections[].
+// The including kernel declares cloth_leaves[] and positions[].
 #ifndef VOILE_CLOTH_TRIANGLE_GLSL
 #define VOILE_CLOTH_TRIANGLE_GLSL
 
 #include "intersections/edge_triangle.glsl"
-
-struct Tally
-{
-    uint pairs;
-    uint uncertain;
-};
 
 // A triangle of a cloth, in the world.
 struct ClothTriangle
@@ -41,22 +35,6 @@ ClothTriangle cloth_triangle(uint slot, uint first_vertex)
 }
 
 Box box_of(ClothTriangle t) { return triangle_box(t.corners[0], t.corners[1], t.corners[2]); }
-
-void mark(uvec3 vertices, uint bit)
-{
-    for (uint i = 0; i < 3; ++i)
-        atomicOr(intersections[vertices[i]], bit);
-}
-
-// Counts a pair and returns whether it may intersect.
-bool count(inout Tally tally, int result)
-{
-    if (result == k_apart)
-        return false;
-    ++tally.pairs;
-    tally.uncertain += result == k_uncertain ? 1 : 0;
-    return true;
-}
 
 // The slot of a thread in a tree of 2^levels slots. Slots under one box are far apart in memory; neighboring threads
 // take neighboring triangles.

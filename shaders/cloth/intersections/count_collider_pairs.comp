@@ -32,6 +32,7 @@ layout(push_constant, std430) uniform Push { IntersectionPush push; };
 
 #include "colliders/collider_pose.glsl"
 #include "intersections/cloth_triangle.glsl"
+#include "intersections/tally.glsl"
 #include "intersections/solid_triangle.glsl"
 
 // Of a position that is transformed between the world and the space of a collider, relative to the largest coordinate

@@ -23,6 +23,7 @@ layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carr
 layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint candidates[]; };
 layout(VOILE_BINDING(pair_masks)) readonly buffer PairMasks { uint searching_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 layout(VOILE_BINDING(pairs)) writeonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_distances)) buffer PairDistances { float pair_distances[]; };
 layout(VOILE_BINDING(pair_lists)) buffer PairLists { PairList pair_lists[]; };
@@ -51,9 +52,16 @@ bool touch_at_start(Fan fan, uvec4 vertices, bool edges)
     return length(nearest_points(edges, x).apart) <= k_touch * size;
 }
 
+// Cloth that is tangled passes through itself on its way out (find_tangles.comp).
+bool is_tangled(uvec4 vertices)
+{
+    return (tangles[vertices.x].pairs | tangles[vertices.y].pairs | tangles[vertices.z].pairs |
+            tangles[vertices.w].pairs) != 0;
+}
+
 void insert(inout Search search, uvec4 vertices, bool edges, float at)
 {
-    if (touch_at_start(search.fan, vertices, edges))
+    if (is_tangled(vertices) || touch_at_start(search.fan, vertices, edges))
         return;
     const uint part = VOILE_PAIRS / search.lanes;
     const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;

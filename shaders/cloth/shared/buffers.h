@@ -149,13 +149,16 @@ VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the w
 VOILE_SCRATCH_BUFFER(69, paired_vertices, uvec4, pair_vertices, "the vertices in pairs: vertex, cloth, first reference, number of references; in no order")
 VOILE_SCRATCH_BUFFER(70, pair_masks, uint, pair_vertices == 0 ? 0 : 4 * pair_vertices + 2 * corners, "the pairs that each vertex is in, in the lists of the owners around it; during a search the vertices that search")
 
-// Intersections: hierarchies of cloths and what they count, only with SolverOptions::intersections.
+VOILE_SCRATCH_BUFFER(93, tangles, Tangle, pair_vertices, "the pairs around a vertex that intersect at the step's start, and the way out")
+
+// Intersections: hierarchies of cloths, with SolverOptions::intersections of all, else of those that collide with
+// themselves; and with it what is counted.
 VOILE_BUFFER(71, cloth_trees, TreeRecord, cloth_trees, "the hierarchies of the active cloths, ordered by depth")
 VOILE_BUFFER(72, cloth_leaves, PaddedLeaf, cloth_leaves, "triangles of cloths; instances of a mesh, and grids of one size, share them")
 VOILE_SCRATCH_BUFFER(73, cloth_boxes, PaddedBox, cloth_boxes, "boxes of the hierarchies of cloths, level by level")
 VOILE_BUFFER(74, bvh_edges, uint, bvh_edges, "the edges that a triangle of a rigid mesh owns, one bit each")
 VOILE_SCRATCH_BUFFER(75, intersections, uint, intersecting_vertices, "per vertex what the triangles and edges around it intersect: cloths, colliders (VOILE_INTERSECTS_*); the host draws from it")
-VOILE_SCRATCH_BUFFER(76, intersection_counts, IntersectionCounters, cloth_trees == 0 ? 0 : 1, "the numbers of intersecting pairs")
+VOILE_SCRATCH_BUFFER(76, intersection_counts, IntersectionCounters, intersecting_vertices == 0 ? 0 : 1, "the numbers of intersecting pairs")
 
 // Integration: the state before the substep, the state that forces are evaluated at, and the state that is written.
 VOILE_ROLE(128, base_positions, vec4, "RK4: the positions before the substep, and inverse masses")

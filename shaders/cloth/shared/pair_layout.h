@@ -39,6 +39,10 @@
 #define VOILE_PAIR_FALL 10
 #define VOILE_PAIR_FALL_RATE 11
 #define VOILE_PAIR_ROUNDED_OFF 12
+// The dispatch whose `entries` count the pairs of an edge and a triangle that intersect at the step's start.
+#define VOILE_PAIR_TANGLED 13
+// Directions out of tangles are summed up in this unit.
+#define VOILE_TANGLE_UNIT (1.0f / 4096)
 // The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 #define VOILE_PAIR_FAR_BIT (1u << 31)
@@ -137,6 +141,13 @@ struct PairMemory
     uint friction; // static and kinetic coefficients of the cloth, as halfs
 };
 
+// What the cloth around a vertex intersects at the step's start.
+struct Tangle
+{
+    int direction[3]; // that shortens the lines of intersection, summed over the pairs, in VOILE_TANGLE_UNIT
+    uint pairs;      // of an edge of a triangle and another triangle; 0: the vertex collides as usual
+};
+
 // What a listed pair does in a pass, as the owner of one side sees it. Both sides compute the same bits.
 struct PairResponse
 {
@@ -170,6 +181,7 @@ static_assert(sizeof(PairSweep) == 48);
 static_assert(sizeof(PairGuard) == 64);
 static_assert(2 * sizeof(PairBound) == VOILE_PAIR_SEARCHES * sizeof(PairDispatch));
 static_assert(sizeof(PairMemory) == 32);
+static_assert(sizeof(Tangle) == 16);
 static_assert(sizeof(PairResponse) == 48);
 #endif
 

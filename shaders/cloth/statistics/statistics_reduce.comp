@@ -31,6 +31,9 @@ void main()
         return;
     result[push.slot].cloths = merged;
     if (push.pairs_met != 0)
+    {
         result[push.slot].cloths.forced_pairs = pair_searches[VOILE_PAIR_FORCED].entries;
+        result[push.slot].cloths.tangled_pairs = pair_searches[VOILE_PAIR_TANGLED].entries;
+    }
     result[push.slot].intersections = IntersectionCounters(0, 0, 0, 0);
 }

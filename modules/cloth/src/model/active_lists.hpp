@@ -49,7 +49,7 @@ struct ActiveLists
     EntryRange resting_pins; // the last ones, of cloths that are disabled
     std::vector<shared::TetherRecord> tethers;
 
-    std::vector<shared::TreeRecord> trees; // ordered by depth; none without SolverOptions::intersections
+    std::vector<shared::TreeRecord> trees; // of cloths that have one, ordered by depth
     TreeCounts tree_counts{};
 
     [[nodiscard]] uint32_t patch_count() const { return static_cast<uint32_t>(patches.size()); }

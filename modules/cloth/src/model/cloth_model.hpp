@@ -67,7 +67,7 @@ struct ClothModel
     Extent extent;                     // m, of the positions at the start
     float longest_edge = 0;            // m, at the start; of a grid the diagonal of a cell
     uint64_t first_triangle = 0;       // in the index buffer, if there is one
-    std::shared_ptr<const PaddedTree> tree; // none without SolverOptions::intersections; instances share it
+    std::shared_ptr<const PaddedTree> tree; // with SolverOptions::intersections or self_collision; instances share it
     uint64_t first_boxes = 0;               // the range of its boxes, with the room for their alignment
 };
 

@@ -64,7 +64,7 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
         return invalid("cloth", cloth.name, "more than 2 147 483 647 vertices in one solver");
     shared::ClothRecord& record = cloth.record;
     record.vertices = static_cast<uint32_t>(world_positions.size());
-    if (has_trees)
+    if (has_trees || (untangles && cloth.self_collision))
         if (auto added = trees.add(cloth, world_positions, limits); !added)
             return added.error();
     record.first_vertex = static_cast<uint32_t>(vertices.allocate(world_positions.size()));

@@ -43,7 +43,8 @@ struct Model
     RangeAllocator triangles; // of cloths, in the index buffer
     bool indices = false;     // there is one: OutputOptions::indices
     ClothTrees trees;
-    bool has_trees = false;  // SolverOptions::intersections
+    bool has_trees = false;  // of all cloths: SolverOptions::intersections
+    bool untangles = true;   // cloths that collide with themselves have trees: SolverOptions::untangling
     uint64_t patches = 0;    // workgroups over all cloths, of workgroup_size vertices
     bool interleaved = true; // lists of meshes: SolverOptions::mesh_layout
     DeviceLimits limits;

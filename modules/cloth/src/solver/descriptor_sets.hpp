@@ -54,6 +54,7 @@ struct DescriptorSets
     std::array<VkDescriptorSet, 2> depenetrate{}; // each writes one of the sizes
     VkDescriptorSet deform{};
     VkDescriptorSet face_features{};
+    VkDescriptorSet find_tangles{};
     std::array<VkDescriptorSet, 2> pair_clear{};  // of the state, of stage B
     std::array<VkDescriptorSet, 2> pair_sweeps{}; // of the state, of stage B
     VkDescriptorSet pair_boxes{};

@@ -31,6 +31,7 @@ struct Kernels
     gpu::Kernel contact_pairs_convex;
     gpu::Kernel contact_pairs_moving;
     gpu::Kernel contact_pairs_many;
+    gpu::Kernel find_tangles;
     gpu::Kernel pair_clear;
     gpu::Kernel pair_sweeps;
     gpu::Kernel pair_boxes;

@@ -76,9 +76,12 @@ PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver,
 void PairRecorder::record(uint32_t substep, bool in_stage_b)
 {
     if (substep == 0)
+    {
         write_sizes();
-    else
-        publish_dispatch(recorder_);
+        if (solver_.options.untangling)
+            find_tangles();
+    }
+    publish_dispatch(recorder_);
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
     shared::PairPush push{};
@@ -117,10 +120,19 @@ void PairRecorder::write_sizes()
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     for (const uint32_t parity : {0u, 1u})
         sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)));
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)),
+                     (*solver_.device)[buffer::tangles].handle());
     const shared::PairDispatch no_velocities{};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),
                      std::as_bytes(std::span(&no_velocities, 1)));
+}
+
+// Where the host, pins or colliders have put cloth into cloth.
+void PairRecorder::find_tangles()
+{
+    const DeviceState& device = *solver_.device;
+    record_refit(recorder_, solver_.kernels.refit, device.sets.refit_cloths, device.tree_counts);
+    record_over_trees(recorder_, solver_, solver_.kernels.find_tangles, device.sets.find_tangles);
 }
 
 void PairRecorder::find(const shared::PairPush& push, size_t from)

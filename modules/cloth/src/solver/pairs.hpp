@@ -30,6 +30,7 @@ public:
 
 private:
     void write_sizes();
+    void find_tangles();
     void find(const shared::PairPush& push, size_t from);
 
     gpu::Recorder& recorder_;

@@ -17,24 +17,14 @@ constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER
 constexpr VkAccessFlags2KHR k_storage =
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
-// One dispatch per depth of the trees, whose threads take one triangle each.
-void record_pairs(gpu::Recorder& recorder, const Solver::State& solver, const gpu::Kernel& kernel, VkDescriptorSet set)
-{
-    const uint32_t group = solver.options.tuning.workgroup_size;
-    const TreeCounts& trees = solver.device->tree_counts;
-    shared::IntersectionPush push{std::accumulate(trees.begin(), trees.end(), 0u), 0, 0, solver.passes.colliders};
-    for (; push.levels < trees.size(); push.first_tree += trees[push.levels++])
-        recorder.dispatch_grid(kernel, set, std::max((1u << push.levels) / group, 1u), trees[push.levels], push);
-}
-
 void record_intersections(gpu::Recorder& recorder, const Solver::State& solver)
 {
     const DeviceState& device = *solver.device;
     clear_intersections(recorder, device);
     record_refit(recorder, solver.kernels.refit, device.sets.refit_cloths, device.tree_counts);
-    record_pairs(recorder, solver, solver.kernels.count_cloth_pairs, device.sets.count_cloth_pairs);
+    record_over_trees(recorder, solver, solver.kernels.count_cloth_pairs, device.sets.count_cloth_pairs);
     if (solver.passes.colliders > 0)
-        record_pairs(recorder, solver, solver.kernels.count_collider_pairs, device.sets.count_collider_pairs);
+        record_over_trees(recorder, solver, solver.kernels.count_collider_pairs, device.sets.count_collider_pairs);
 }
 
 // Into the result, after the reduction.
@@ -49,6 +39,16 @@ void copy_counts(gpu::Recorder& recorder, const Solver::State& solver, uint32_t 
 }
 
 } // namespace
+
+void record_over_trees(gpu::Recorder& recorder, const Solver::State& solver, const gpu::Kernel& kernel,
+                       VkDescriptorSet set)
+{
+    const uint32_t group = solver.options.tuning.workgroup_size;
+    const TreeCounts& trees = solver.device->tree_counts;
+    shared::IntersectionPush push{std::accumulate(trees.begin(), trees.end(), 0u), 0, 0, solver.passes.colliders};
+    for (; push.levels < trees.size(); push.first_tree += trees[push.levels++])
+        recorder.dispatch_grid(kernel, set, std::max((1u << push.levels) / group, 1u), trees[push.levels], push);
+}
 
 void clear_intersections(gpu::Recorder& recorder, const DeviceState& device)
 {

@@ -132,6 +132,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;
     state->model.indices = options.output.indices;
     state->model.has_trees = options.intersections;
+    state->model.untangles = options.untangling;
     state->collider_models.limits = state->model.limits;
     state->kernels = std::move(kernels.value());
     auto statistics = create_statistics(state->context, options.statistics_slots);
@@ -222,6 +223,7 @@ Statistics Solver::statistics(uint32_t slot) const
     result.candidates = record.candidates;
     result.overflowing_vertices = record.overflowing_vertices;
     result.forced_pairs = record.forced_pairs;
+    result.tangled_pairs = record.tangled_pairs;
     if (const shared::IntersectionCounters& pairs = read.intersections; pairs.counted != 0)
         result.intersections = {pairs.cloth_pairs, pairs.collider_pairs, pairs.uncertain_pairs};
     return result;

@@ -185,6 +185,9 @@ void record_at_rest(gpu::Recorder& recorder, const Solver::State& solver, const 
 // Writes sizes of indirect dispatches, and clears another buffer, if any. Between barriers of its own.
 void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
                       VkBuffer counts = VK_NULL_HANDLE);
+// A kernel over the hierarchies of cloths: one dispatch per depth of trees, whose threads take one triangle each.
+void record_over_trees(gpu::Recorder& recorder, const Solver::State& solver, const gpu::Kernel& kernel,
+                       VkDescriptorSet set);
 // Clears the marks and numbers of intersections. Between barriers of its own.
 void clear_intersections(gpu::Recorder& recorder, const DeviceState& device);
 

@@ -231,7 +231,7 @@ BufferCounts count_entries(const Solver::State& solver)
             .previous_vertices = solver.options.output.previous_positions ? model.vertices.end() : 0,
             .cloth_triangles = model.triangles.end(),
             .pair_vertices = count_pair_places(model) > 0 ? model.vertices.end() : 0,
-            .cloth_trees = intersections ? model.cloths.size() : 0,
+            .cloth_trees = model.trees.leaves() > 0 ? model.cloths.size() : 0,
             .cloth_leaves = model.trees.leaves(),
             .cloth_boxes = model.trees.boxes(),
             .bvh_edges = intersections ? models.hierarchies.end(k_hierarchy_triangles) : 0,

@@ -1,0 +1,149 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Finds where cloths that collide with themselves intersect when a step starts, and directions out of it.
+//
+// The lines of intersection are to become shorter (Volino and Magnenat-Thalmann 2006, "Resolving surface collisions
+// through intersection contour minimization"). Where an edge of triangle A crosses triangle T, the line of intersection
+// of A and T begins. Its direction R leads from the edge into A. If the edge moves by d relative to T, its point in the
+// plane of T, which has the normal n, moves by d - e (d n) / (e n) with the edge's direction e, and the line becomes
+// shorter by the part of that along R. The gradient is R - (e R) / (e n) n.
+//
+// A thread takes the edges of a triangle through the hierarchies of all such cloths. An edge between two triangles is
+// taken twice, each time with the line in one of them. Sums are of integers, so their order does not matter.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/padded_layout.h"
+#include "shared/pair_layout.h"
+#include "shared/statistics_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
+layout(VOILE_BINDING(cloth_trees)) readonly buffer ClothTrees { TreeRecord cloth_trees[]; };
+layout(VOILE_BINDING(cloth_leaves)) readonly buffer ClothLeaves { PaddedLeaf cloth_leaves[]; };
+layout(VOILE_BINDING(cloth_boxes)) readonly buffer ClothBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(tangles)) buffer Tangles { Tangle tangles[]; };
+
+layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
+{
+    PairDispatch pair_searches[VOILE_PAIR_SEARCHES];
+    PairBound pair_bounds[];
+};
+
+layout(push_constant, std430) uniform Push { IntersectionPush push; };
+
+#include "intersections/cloth_triangle.glsl"
+#include "pairs/pair_tree.glsl"
+#include "shared/separation.glsl"
+
+#define VOILE_TAKEN_EDGES(t) 7u
+
+// The sine of the angle between an edge and a triangle below which the gradient grows no more.
+const float k_least_sine = 0.2;
+// Of the size of a pair: parts nearer than this touch.
+const float k_touch = 1e-6;
+
+uint cloth_of_tree; // of the traversal
+uint own_cloth;
+uint found = 0; // pairs of an edge that the triangle owns
+
+// m: the distance of the edge and the triangle at the start.
+float distance_at_start(uvec2 edge, uvec3 triangle, out float size)
+{
+    const vec3 p = start[edge.x].xyz;
+    const vec3 q = start[edge.y].xyz - p;
+    vec3 t[3];
+    for (uint i = 0; i < 3; ++i)
+        t[i] = start[triangle[i]].xyz - p;
+    float least = min(length(nearest_points(false, vec3[](vec3(0), t[0], t[1], t[2])).apart),
+                      length(nearest_points(false, vec3[](q, t[0], t[1], t[2])).apart));
+    size = length(q);
+    for (uint i = 0; i < 3; ++i)
+    {
+        const uint j = (i + 1) % 3;
+        least = min(least, length(nearest_points(true, vec3[](vec3(0), q, t[i], t[j])).apart));
+        size = max(size, length(t[i]));
+    }
+    return least;
+}
+
+// Parts of a mesh that touch where it starts, as along a seam that is not merged, are no pair (find_pairs.comp).
+bool touch_at_start(uvec2 edge, uvec3 triangle)
+{
+    if (cloths[own_cloth].columns > 0 || cloth_of_tree != own_cloth)
+        return false;
+    float size;
+    return distance_at_start(edge, triangle, size) <= k_touch * size;
+}
+
+// The direction in which the edge (p, q) of a triangle with the third corner c shortens the line of intersection with a
+// triangle whose unit normal is n. 0: the triangles are parallel, or have no area.
+vec3 shortening_direction(vec3 p, vec3 q, vec3 c, vec3 n)
+{
+    const vec3 edge = q - p;
+    const vec3 own = cross(edge, c - p);
+    const vec3 line = cross(own, n);
+    if (length(line) <= 1e-4 * length(own))
+        return vec3(0);
+    const vec3 e = edge / length(edge);
+    const vec3 inward = (c - p) - dot(c - p, e) * e;
+    const vec3 along = normalize(line) * (dot(line, inward) < 0 ? -1 : 1);
+    const float sine = dot(e, n);
+    return along - dot(e, along) / (sine < 0 ? min(sine, -k_least_sine) : max(sine, k_least_sine)) * n;
+}
+
+void add(uint vertex, vec3 direction)
+{
+    const ivec3 words = ivec3(roundEven(direction / VOILE_TANGLE_UNIT));
+    for (uint k = 0; k < 3; ++k)
+        atomicAdd(tangles[vertex].direction[k], words[k]);
+    atomicAdd(tangles[vertex].pairs, 1);
+}
+
+// The edge's ends move one way, the corners of the other triangle the opposite way, each by its weight in the point
+// that both share.
+void take_pair(ClothTriangle own, uint i, ClothTriangle other)
+{
+    const uint j = (i + 1) % 3;
+    const vec3 p = own.corners[i];
+    const vec3 q = own.corners[j];
+    const EdgeTriangle pair = EdgeTriangle(vec3[](other.corners[0], other.corners[1], other.corners[2], p, q));
+    const uvec2 ends = uvec2(own.vertices[i], own.vertices[j]);
+    if (intersect(pair) == k_apart || touch_at_start(ends, other.vertices))
+        return;
+    found += own.edges >> i & 1u;
+    const vec3 a = other.corners[0];
+    const vec3 area = cross(other.corners[1] - a, other.corners[2] - a);
+    const vec3 n = area / max(length(area), 1e-30);
+    const vec3 direction = shortening_direction(p, q, own.corners[(i + 2) % 3], n);
+    const vec2 heights = vec2(dot(p - a, n), dot(q - a, n));
+    const float at = clamp(heights.x / (heights.x == heights.y ? 1 : heights.x - heights.y), 0, 1);
+    const vec3 point = mix(p, q, at);
+    const vec3 weights = nearest_weights(a - point, other.corners[1] - point, other.corners[2] - point);
+    add(ends.x, (1 - at) * direction);
+    add(ends.y, at * direction);
+    for (uint k = 0; k < 3; ++k)
+        add(other.vertices[k], -weights[k] * direction);
+}
+
+#include "intersections/cloth_edges.glsl"
+
+void main()
+{
+    TreeRecord tree;
+    ClothTriangle triangle;
+    if (!own_triangle(tree, triangle) || !collides_with_itself(tree.cloth))
+        return;
+    own_cloth = tree.cloth;
+    EdgesQuery query = query_of(triangle);
+    for (uint i = 0; i < push.trees; ++i)
+    {
+        cloth_of_tree = cloth_trees[i].cloth;
+        if (meets(own_cloth, cloth_of_tree))
+            traverse_tree(query, cloth_trees[i]);
+    }
+    if (found > 0)
+        atomicAdd(pair_searches[VOILE_PAIR_TANGLED].entries, found);
+}
