@@ -45,7 +45,8 @@ Json measurements_json(const Measurements& values)
             {"contacts", count(values.contacts)},
             {"candidates", count(values.candidates)},
             {"contact_overflows", count(values.contact_overflows)},
-            {"forced_pairs", count(values.forced_pairs)}};
+            {"forced_pairs", count(values.forced_pairs)},
+            {"tangled_pairs", count(values.tangled_pairs)}};
 }
 
 Json summary_json(const StatisticsSummary& summary)
@@ -128,7 +129,8 @@ Measurements larger_of(const Measurements& a, const Measurements& b)
             std::max(a.contacts, b.contacts),
             std::max(a.candidates, b.candidates),
             std::max(a.contact_overflows, b.contact_overflows),
-            std::max(a.forced_pairs, b.forced_pairs)};
+            std::max(a.forced_pairs, b.forced_pairs),
+            std::max(a.tangled_pairs, b.tangled_pairs)};
 }
 
 Percentiles percentiles(std::span<const double> values)

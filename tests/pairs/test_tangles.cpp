@@ -85,7 +85,7 @@ TEST_CASE("sheets that start in each other are pulled apart, and gain little spe
         PairHarness harness;
         add_two(harness, pose);
         const Pulled pulled = pull_apart(harness, 35);
-        CHECK(pulled.before > 20);
+        CHECK(pulled.before >= 20);
         CHECK(pulled.frames > 0);
         CHECK(pulled.frames <= 30);
         CHECK(pulled.fastest < 1.2f);
@@ -100,7 +100,7 @@ TEST_CASE("without untangling, sheets that start in each other stay so, and noth
     PairHarness harness(options);
     add_two(harness, k_half);
     const Pulled pulled = pull_apart(harness, 10);
-    CHECK(pulled.before > 20);
+    CHECK(pulled.before >= 20);
     CHECK(pulled.frames == -1);
     CHECK(harness.statistics().tangled_pairs == 0);
 }

@@ -73,7 +73,8 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                             "contacts",
                             "candidates",
                             "contact_overflows",
-                            "forced_pairs"};
+                            "forced_pairs",
+                            "tangled_pairs"};
     CHECK(keys(json["summary"]["maxima"]) == measurements);
     Keys last = measurements;
     last.insert(last.end(), {"self_intersections", "verified"});
@@ -88,7 +89,7 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                                              "penetrating_vertices", "deepest_penetration", "intersecting_cloth_pairs",
                                              "intersecting_collider_pairs", "uncertain_pairs", "nan_vertices",
                                              "contacts", "candidates", "contact_overflows", "forced_pairs",
-                                             "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
+                                             "tangled_pairs", "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
 }
 
 TEST_CASE("values survive a round trip, and unmeasured ones are null")

@@ -3,8 +3,9 @@
 // The including kernel declares cloths[], positions[], cloth_trees[], cloth_leaves[], padded_boxes[] and `push`
 // (IntersectionPush), includes cloth_triangle.glsl before, and defines
 //   VOILE_TAKEN_EDGES(t): the edges of a ClothTriangle that it takes, one bit each;
-//   void take_pair(ClothTriangle own, uint i, ClothTriangle other): edge i of one triangle and another triangle, whose
-//   boxes overlap and which have no vertex in common.
+//   VOILE_FOUND, a struct with what is found;
+//   void take_pair(inout VOILE_FOUND found, ClothTriangle own, uint i, ClothTriangle other): edge i of one triangle and
+//   another triangle, whose boxes overlap and which have no vertex in common.
 #ifndef VOILE_CLOTH_EDGES_GLSL
 #define VOILE_CLOTH_EDGES_GLSL
 
@@ -13,6 +14,7 @@ struct EdgesQuery
     ClothTriangle edges;
     Box box;           // around the edges that are taken
     uint first_vertex; // of the cloth whose triangles they are tested against
+    VOILE_FOUND found;
 };
 
 bool enters_node(EdgesQuery query, Box node) { return overlap(query.box, node); }
@@ -31,7 +33,7 @@ void visit_leaf(inout EdgesQuery query, uint slot, uint count)
             any(equal(uvec3(own.vertices[i]), other.vertices)) || any(equal(uvec3(own.vertices[j]), other.vertices));
         if ((VOILE_TAKEN_EDGES(own) & 1u << i) != 0 && !connected &&
             overlap(box_around(own.corners[i], own.corners[j]), box_of(other)))
-            take_pair(own, i, other);
+            take_pair(query.found, own, i, other);
     }
 }
 
@@ -58,11 +60,12 @@ bool own_triangle(out TreeRecord tree, out ClothTriangle triangle)
     return VOILE_TAKEN_EDGES(triangle) != 0 && is_finite(triangle);
 }
 
-EdgesQuery query_of(ClothTriangle triangle)
+EdgesQuery query_of(ClothTriangle triangle, VOILE_FOUND nothing)
 {
     EdgesQuery query;
     query.edges = triangle;
     query.box = grown(edges_box(triangle), k_unit); // the hierarchy is of coordinates before they are snapped
+    query.found = nothing;
     return query;
 }
 

@@ -24,10 +24,9 @@ layout(push_constant, std430) uniform Push { IntersectionPush push; };
 #include "intersections/tally.glsl"
 
 #define VOILE_TAKEN_EDGES(t) ((t).edges)
+#define VOILE_FOUND Tally
 
-Tally tally = Tally(0, 0);
-
-void take_pair(ClothTriangle own, uint i, ClothTriangle other)
+void take_pair(inout Tally tally, ClothTriangle own, uint i, ClothTriangle other)
 {
     const uint j = (i + 1) % 3;
     const EdgeTriangle pair = EdgeTriangle(
@@ -46,13 +45,13 @@ void main()
     ClothTriangle triangle;
     if (!own_triangle(tree, triangle))
         return;
-    EdgesQuery query = query_of(triangle);
+    EdgesQuery query = query_of(triangle, Tally(0, 0));
     const uint layers = cloths[tree.cloth].layers;
     for (uint i = 0; i < push.trees; ++i)
         if (cloth_trees[i].cloth == tree.cloth || (cloths[cloth_trees[i].cloth].layers & layers) != 0)
             traverse_tree(query, cloth_trees[i]);
-    if (tally.pairs == 0)
+    if (query.found.pairs == 0)
         return;
-    atomicAdd(intersection_counts[0].cloth_pairs, tally.pairs);
-    atomicAdd(intersection_counts[0].uncertain_pairs, tally.uncertain);
+    atomicAdd(intersection_counts[0].cloth_pairs, query.found.pairs);
+    atomicAdd(intersection_counts[0].uncertain_pairs, query.found.uncertain);
 }

@@ -39,15 +39,19 @@ layout(push_constant, std430) uniform Push { IntersectionPush push; };
 #include "shared/separation.glsl"
 
 #define VOILE_TAKEN_EDGES(t) 7u
+#define VOILE_FOUND Found
 
 // The sine of the angle between an edge and a triangle below which the gradient grows no more.
 const float k_least_sine = 0.2;
 // Of the size of a pair: parts nearer than this touch.
 const float k_touch = 1e-6;
 
-uint cloth_of_tree; // of the traversal
-uint own_cloth;
-uint found = 0; // pairs of an edge that the triangle owns
+struct Found
+{
+    uint cloth; // of the triangle
+    uint other; // the cloth of the traversal
+    uint pairs; // of an edge that the triangle owns
+};
 
 // m: the distance of the edge and the triangle at the start.
 float distance_at_start(uvec2 edge, uvec3 triangle, out float size)
@@ -70,9 +74,9 @@ float distance_at_start(uvec2 edge, uvec3 triangle, out float size)
 }
 
 // Parts of a mesh that touch where it starts, as along a seam that is not merged, are no pair (find_pairs.comp).
-bool touch_at_start(uvec2 edge, uvec3 triangle)
+bool touch_at_start(Found found, uvec2 edge, uvec3 triangle)
 {
-    if (cloths[own_cloth].columns > 0 || cloth_of_tree != own_cloth)
+    if (cloths[found.cloth].columns > 0 || found.other != found.cloth)
         return false;
     float size;
     return distance_at_start(edge, triangle, size) <= k_touch * size;
@@ -104,16 +108,16 @@ void add(uint vertex, vec3 direction)
 
 // The edge's ends move one way, the corners of the other triangle the opposite way, each by its weight in the point
 // that both share.
-void take_pair(ClothTriangle own, uint i, ClothTriangle other)
+void take_pair(inout Found found, ClothTriangle own, uint i, ClothTriangle other)
 {
     const uint j = (i + 1) % 3;
     const vec3 p = own.corners[i];
     const vec3 q = own.corners[j];
     const EdgeTriangle pair = EdgeTriangle(vec3[](other.corners[0], other.corners[1], other.corners[2], p, q));
     const uvec2 ends = uvec2(own.vertices[i], own.vertices[j]);
-    if (intersect(pair) == k_apart || touch_at_start(ends, other.vertices))
+    if (intersect(pair) == k_apart || touch_at_start(found, ends, other.vertices))
         return;
-    found += own.edges >> i & 1u;
+    found.pairs += own.edges >> i & 1u;
     const vec3 a = other.corners[0];
     const vec3 area = cross(other.corners[1] - a, other.corners[2] - a);
     const vec3 n = area / max(length(area), 1e-30);
@@ -136,14 +140,13 @@ void main()
     ClothTriangle triangle;
     if (!own_triangle(tree, triangle) || !collides_with_itself(tree.cloth))
         return;
-    own_cloth = tree.cloth;
-    EdgesQuery query = query_of(triangle);
+    EdgesQuery query = query_of(triangle, Found(tree.cloth, 0, 0));
     for (uint i = 0; i < push.trees; ++i)
     {
-        cloth_of_tree = cloth_trees[i].cloth;
-        if (meets(own_cloth, cloth_of_tree))
+        query.found.other = cloth_trees[i].cloth;
+        if (meets(tree.cloth, query.found.other))
             traverse_tree(query, cloth_trees[i]);
     }
-    if (found > 0)
-        atomicAdd(pair_searches[VOILE_PAIR_TANGLED].entries, found);
+    if (query.found.pairs > 0)
+        atomicAdd(pair_searches[VOILE_PAIR_TANGLED].entries, query.found.pairs);
 }

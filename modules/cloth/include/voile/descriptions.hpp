@@ -69,7 +69,12 @@ struct GridCloth
     // the strain limit do. A collider that presses layers together gets into them instead
     // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: if pins are driven into cloth faster
     // than it can give way, it may intersect (Statistics::forced_pairs). So may cloth that the host puts somewhere:
-    // reset, teleport, a snapshot, a pin with a position elsewhere. Cloth that intersects is not pulled apart.
+    // reset, teleport, a snapshot, a pin with a position elsewhere.
+    //
+    // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
+    // Vertices around an intersection do not collide with cloth in that step, and are accelerated by 300 m/s^2 up to
+    // 0.5 m/s along directions that shorten the line of intersection. Sheets of 14 x 14 vertices that start half way
+    // through each other are free within half a second. What pins or colliders hold in cloth stays there.
     //
     // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer, relative to
     // the mean velocity of all such cloth that is clear of colliders; beside colliders relative to the world. What it
