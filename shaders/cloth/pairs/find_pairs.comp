@@ -52,16 +52,17 @@ bool touch_at_start(Fan fan, uvec4 vertices, bool edges)
     return length(nearest_points(edges, x).apart) <= k_touch * size;
 }
 
-// Cloth that is tangled passes through itself on its way out (find_tangles.comp).
-bool is_tangled(uvec4 vertices)
+// Cloth that is tangled passes through what is tangled on its way out (find_tangles.comp). All other cloth holds it.
+bool are_tangled(uvec4 vertices, bool edges)
 {
-    return (tangles[vertices.x].pairs | tangles[vertices.y].pairs | tangles[vertices.z].pairs |
-            tangles[vertices.w].pairs) != 0;
+    const bvec4 tangled = bvec4(tangles[vertices.x].pairs != 0, tangles[vertices.y].pairs != 0,
+                                tangles[vertices.z].pairs != 0, tangles[vertices.w].pairs != 0);
+    return (tangled.x || (edges && tangled.y)) && ((!edges && tangled.y) || tangled.z || tangled.w);
 }
 
 void insert(inout Search search, uvec4 vertices, bool edges, float at)
 {
-    if (is_tangled(vertices) || touch_at_start(search.fan, vertices, edges))
+    if (are_tangled(vertices, edges) || touch_at_start(search.fan, vertices, edges))
         return;
     const uint part = VOILE_PAIRS / search.lanes;
     const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;

@@ -45,6 +45,8 @@ layout(push_constant, std430) uniform Push { IntersectionPush push; };
 const float k_least_sine = 0.2;
 // Of the size of a pair: parts nearer than this touch.
 const float k_touch = 1e-6;
+// Parts farther apart than this do not, whatever rounding does.
+const float k_near = 1e-3;
 
 struct Found
 {
@@ -53,24 +55,44 @@ struct Found
     uint pairs; // of an edge that the triangle owns
 };
 
-// m: the distance of the edge and the triangle at the start.
-float distance_at_start(uvec2 edge, uvec3 triangle, out float size)
+// An edge and a triangle, relative to the edge's first end.
+struct Near
 {
-    const vec3 p = start[edge.x].xyz;
-    const vec3 q = start[edge.y].xyz - p;
+    vec3 q; // m, the edge's second end
     vec3 t[3];
-    for (uint i = 0; i < 3; ++i)
-        t[i] = start[triangle[i]].xyz - p;
+    float size; // m
+};
+
+Near near_of(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c)
+{
+    Near near;
+    near.q = q - p;
+    near.t = vec3[](a - p, b - p, c - p);
+    near.size = max(length(near.q), max(length(near.t[0]), max(length(near.t[1]), length(near.t[2]))));
+    return near;
+}
+
+// m: between an end of the edge and the triangle, or the edge and a side.
+float border_distance(Near near)
+{
+    const vec3 t[3] = near.t;
     float least = min(length(nearest_points(false, vec3[](vec3(0), t[0], t[1], t[2])).apart),
-                      length(nearest_points(false, vec3[](q, t[0], t[1], t[2])).apart));
-    size = length(q);
+                      length(nearest_points(false, vec3[](near.q, t[0], t[1], t[2])).apart));
     for (uint i = 0; i < 3; ++i)
-    {
-        const uint j = (i + 1) % 3;
-        least = min(least, length(nearest_points(true, vec3[](vec3(0), q, t[i], t[j])).apart));
-        size = max(size, length(t[i]));
-    }
+        least = min(least, length(nearest_points(true, vec3[](vec3(0), near.q, t[i], t[(i + 1) % 3])).apart));
     return least;
+}
+
+// Whether the exact predicate is to decide. It takes long for points of one plane, as in flat cloth.
+bool may_intersect(Near near)
+{
+    const vec3 area = cross(near.t[1] - near.t[0], near.t[2] - near.t[0]);
+    const vec2 heights = vec2(dot(-near.t[0], area), dot(near.q - near.t[0], area));
+    const float least = k_near * near.size * length(area);
+    if (min(heights.x, heights.y) > least || max(heights.x, heights.y) < -least)
+        return false;
+    return (min(heights.x, heights.y) < -least && max(heights.x, heights.y) > least) ||
+           border_distance(near) <= k_near * near.size;
 }
 
 // Parts of a mesh that touch where it starts, as along a seam that is not merged, are no pair (find_pairs.comp).
@@ -78,8 +100,9 @@ bool touch_at_start(Found found, uvec2 edge, uvec3 triangle)
 {
     if (cloths[found.cloth].columns > 0 || found.other != found.cloth)
         return false;
-    float size;
-    return distance_at_start(edge, triangle, size) <= k_touch * size;
+    const Near near = near_of(start[edge.x].xyz, start[edge.y].xyz, start[triangle.x].xyz, start[triangle.y].xyz,
+                              start[triangle.z].xyz);
+    return border_distance(near) <= k_touch * near.size;
 }
 
 // The direction in which the edge (p, q) of a triangle with the third corner c shortens the line of intersection with a
@@ -113,6 +136,8 @@ void take_pair(inout Found found, ClothTriangle own, uint i, ClothTriangle other
     const uint j = (i + 1) % 3;
     const vec3 p = own.corners[i];
     const vec3 q = own.corners[j];
+    if (!may_intersect(near_of(p, q, other.corners[0], other.corners[1], other.corners[2])))
+        return;
     const EdgeTriangle pair = EdgeTriangle(vec3[](other.corners[0], other.corners[1], other.corners[2], p, q));
     const uvec2 ends = uvec2(own.vertices[i], own.vertices[j]);
     if (intersect(pair) == k_apart || touch_at_start(found, ends, other.vertices))
