@@ -37,9 +37,11 @@ ShadowPoint shadow_point(vec3 world, vec3 normal_to_sun)
     return result;
 }
 
-// The mean depth below the surface of what is between it and the sun (x), and its fraction of the taps (y).
-vec2 find_blockers(ShadowPoint p)
+// The mean distance along the map from the surface to what is between it and the sun; -1 if nothing is, and 0 if all of
+// it is at the point itself. The taps miss cloth that lies on a round body: away from the point, the plane is above both.
+float find_blockers(ShadowPoint p)
 {
+    const bool shaded = textureLod(shadow_map, vec3(p.at, p.depth), 0) < 1;
     vec2 sum = vec2(0);
     vec2 direction = p.direction;
     for (int i = 0; i < k_blocker_taps; ++i)
@@ -50,7 +52,7 @@ vec2 find_blockers(ShadowPoint p)
         const float above = p.depth + dot(p.slope, offset) - textureLod(shadow_depth, p.at + offset, 0).r;
         sum += above > 2e-4 ? vec2(above, 1) : vec2(0);
     }
-    return vec2(sum.x / max(sum.y, 1), sum.y / k_blocker_taps);
+    return shaded || sum.y > 0 ? sum.x / max(sum.y, 1) : -1;
 }
 
 struct SunVisibility
@@ -66,11 +68,11 @@ SunVisibility sample_sun(vec3 world, vec3 normal_to_sun)
     const ShadowPoint p = shadow_point(world, normal_to_sun);
     if (any(greaterThan(abs(p.at - 0.5), vec2(0.5))) || p.depth >= 1)
         return SunVisibility(1, 0);
-    const vec2 blockers = find_blockers(p);
-    if (blockers.y == 0)
+    const float above = find_blockers(p);
+    if (above < 0)
         return SunVisibility(1, 0);
     // Texels: a map of 2 radii shows a depth of 6.
-    const float penumbra = k_sun_tangent * blockers.x * k_map_depth / (2 * frame.shadow_step);
+    const float penumbra = k_sun_tangent * above * k_map_depth / (2 * frame.shadow_step);
     const float widest = clamp(penumbra, k_narrowest_shadow, k_widest_shadow) * frame.shadow_step;
     float lit = 0;
     vec2 direction = p.direction;

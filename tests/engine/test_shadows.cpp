@@ -1,6 +1,8 @@
 // Light and shadows in pictures: the sun's shadow, its penumbra, and the sky that bodies hide.
 #include "support/stage.hpp"
 
+#include <algorithm>
+#include <climits>
 #include <cstdlib>
 
 namespace
@@ -74,6 +76,40 @@ TEST_CASE("a shadow is harder near what casts it")
     const voile::engine::Picture high = picture_of(1.5f);
     CHECK(half_lit(low) <= 4); // measured: 3 and 7
     CHECK(half_lit(high) > half_lit(low) + 1);
+}
+
+TEST_CASE("the shadow of a cap that lies close on a ball has no gaps")
+{
+    constexpr glm::vec3 k_center(0, 0.5f, 0);
+    Stage stage;
+    add_ground(stage);
+    stage.scene.sun.direction = {0, -1, -0.6f};
+    stage.scene.focus = {0, 0.5f, 0};
+    stage.scene.focus_radius = 1;
+    stage.scene.camera = {.position = {0, 0.5f, 0.6f}, .target = k_center, .fov = 12};
+    voile::engine::Mesh cap = voile::engine::make_sphere(k_center, 0.086f);
+    std::erase_if(cap.triangles,
+                  [&](const glm::uvec3& t) {
+                      return std::min({cap.positions[t.x].y, cap.positions[t.y].y, cap.positions[t.z].y}) < 0.499f;
+                  });
+    stage.scene.add("ball").add<voile::engine::StaticMesh>(stage.uploads, voile::engine::make_sphere(k_center, 0.08f),
+                                                           voile::engine::Surface{});
+    stage.scene.add("cap").add<voile::engine::StaticMesh>(stage.uploads, cap, voile::engine::Surface{});
+    const voile::engine::Picture picture = stage.draw();
+    // Along rows of its shadow.
+    for (uint32_t y = 90; y < 102; ++y)
+    {
+        int low = INT_MAX;
+        int high = 0;
+        for (uint32_t x = 148; x < 174; ++x)
+        {
+            low = std::min(low, brightness(pixel(picture, x, y)));
+            high = std::max(high, brightness(pixel(picture, x, y)));
+        }
+        CAPTURE(y);
+        CHECK(high < 530);      // measured: 474; lit 550 to 580
+        CHECK(high - low < 60); // measured: 24
+    }
 }
 
 TEST_CASE("the samples of a wide penumbra make no pattern")
