@@ -18,7 +18,7 @@ voile_add_test(test_viewer_parts
 voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_feature_spacing.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES viewer/test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::cloth voile::engine)
 voile_add_test(test_viewer
-               SOURCES viewer/test_viewer.cpp viewer/test_viewer_solids.cpp viewer/test_viewer_frames.cpp viewer/test_viewer_inputs.cpp
+               SOURCES viewer/test_viewer.cpp viewer/test_viewer_solids.cpp viewer/test_viewer_frames.cpp viewer/test_viewer_inputs.cpp viewer/test_viewer_ribbons.cpp
                        viewer/test_signals.cpp viewer/test_viewer_exports.cpp viewer/test_softening_notes.cpp ../samples/viewer/softening_notes.cpp
                LIBRARIES voile_viewer_parts voile_scene_meshes voile::cloth_component)
 add_dependencies(test_viewer viewer scene_meshes)

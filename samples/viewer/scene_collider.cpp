@@ -12,7 +12,7 @@ namespace
 
 const Range k_position = within(voile::k_most_coordinate);
 const Range k_radius = between(voile::k_least_collider_size, voile::k_most_collider_size);
-const Range k_ramp = between(0, 1000); // s
+const Range k_duration = between(0, 1000); // s
 const Range k_friction = between(0, voile::k_most_friction);
 const Range k_scale{0, static_cast<double>(voile::k_most_coordinate), true}; // of a mesh of 1 m
 
@@ -151,7 +151,8 @@ MotionEntry read_motion(SceneReader& reader, const Field& field)
     reader.read(SceneReader::child(field, "velocity"), within(voile::k_most_speed), motion.velocity);
     reader.read(SceneReader::child(field, "spin"), k_any, motion.spin);
     reader.read(SceneReader::child(field, "pivot"), k_position, motion.pivot);
-    reader.read(SceneReader::child(field, "ramp"), k_ramp, motion.ramp);
+    reader.read(SceneReader::child(field, "ramp"), k_duration, motion.ramp);
+    reader.read(SceneReader::child(field, "reverse_at"), k_duration, motion.reverse_at);
     if (const Field sway = SceneReader::child(field, "sway"); reader.object(sway, {"amplitude", "period"}))
     {
         motion.sway.emplace();
@@ -176,7 +177,7 @@ TransformEntry parse_transform(SceneReader& reader, const Field& field)
 
 MotionEntry parse_motion(SceneReader& reader, const Field& field)
 {
-    if (!reader.object(field, {"velocity", "spin", "pivot", "sway", "ramp"}))
+    if (!reader.object(field, {"velocity", "spin", "pivot", "sway", "ramp", "reverse_at"}))
         return {};
     return read_motion(reader, field);
 }
@@ -216,7 +217,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
         return collider;
     parse_frames(context, field, collider);
     const Field motion = SceneReader::child(field, "motion");
-    if (reader.object(motion, {"velocity", "spin", "pivot", "sway", "ramp", "frames", "rate", "loop"}))
+    if (reader.object(motion, {"velocity", "spin", "pivot", "sway", "ramp", "reverse_at", "frames", "rate", "loop"}))
     {
         parse_frames(context, motion, collider);
         collider.motion = read_motion(reader, motion);

@@ -292,7 +292,10 @@ double ramped(double seconds, float ramp)
 
 glm::mat4 matrix(const MotionEntry& motion, double scene_seconds)
 {
-    const double seconds = ramped(scene_seconds, motion.ramp);
+    const auto reverse_at = static_cast<double>(motion.reverse_at);
+    const double elapsed =
+        reverse_at > 0 && scene_seconds > reverse_at ? std::max(2 * reverse_at - scene_seconds, 0.0) : scene_seconds;
+    const double seconds = ramped(elapsed, motion.ramp);
     const auto time = static_cast<float>(seconds);
     const glm::mat4 back = glm::translate(glm::mat4(1.f), -motion.pivot);
     glm::vec3 moved = motion.velocity * time;

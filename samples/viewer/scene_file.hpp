@@ -54,7 +54,8 @@ struct MotionEntry
     glm::vec3 spin{0.f};     // degrees/s about x, then y, then z
     glm::vec3 pivot{0.f};    // m, in the scene, at time 0
     std::optional<SwayEntry> sway{};
-    float ramp = 0.f; // s, >= 0: how long it takes to reach its speed, from rest
+    float ramp = 0.f;       // s, >= 0: how long it takes to reach its speed, from rest
+    float reverse_at = 0.f; // s, >= 0: from then on it runs backward, to its start; 0: never
 };
 
 // Meshes of one topology, one a time step of 1/rate s.

@@ -78,6 +78,7 @@ Json motion(const MotionEntry& entry)
     add(json, "spin", entry.spin, glm::vec3(0));
     add(json, "pivot", entry.pivot, glm::vec3(0));
     add(json, "ramp", entry.ramp, 0);
+    add(json, "reverse_at", entry.reverse_at, 0);
     if (entry.sway)
         json["sway"] = {{"amplitude", vector(entry.sway->amplitude)}, {"period", number(entry.sway->period)}};
     return json;

@@ -290,6 +290,24 @@ TEST_CASE("a motion with a ramp starts at rest and has its speed after that time
     CHECK(x(2) - x(1) == tests::close_to(3, 1e-6));
 }
 
+TEST_CASE("a motion that is reversed runs back to its start and stays there")
+{
+    const viewer::MotionEntry motion{.velocity = {3, 0, 0},
+                                     .spin = {90, 0, 0},
+                                     .sway = viewer::SwayEntry{{0, 1, 0}, 1.7f},
+                                     .ramp = 0.5f,
+                                     .reverse_at = 2};
+    viewer::MotionEntry forward = motion;
+    forward.reverse_at = 0;
+    for (const double seconds : {0.25, 1.5, 2.0})
+    {
+        CHECK(viewer::matrix(motion, seconds) == viewer::matrix(forward, seconds));
+        CHECK(viewer::matrix(motion, 4 - seconds) == viewer::matrix(forward, seconds));
+    }
+    CHECK(viewer::matrix(motion, 4) == glm::mat4(1));
+    CHECK(viewer::matrix(motion, 9) == glm::mat4(1));
+}
+
 TEST_CASE("the reference scene is that of the report")
 {
     const fs::path path = tests::source("samples/scenes/reference.json");

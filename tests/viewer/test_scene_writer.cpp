@@ -48,7 +48,7 @@ constexpr const char* k_all = R"({
     {"capsule": {"from": [0, 0, 0], "to": [0, 1, 0], "radius": 0.2}},
     {"box": {"min": [0, 0, 0], "max": [1, 2, 3]}},
     {"frames": "walk_%04d.obj", "rate": 30},
-    {"mesh": "walk.obj", "motion": {"spin": [0, 9, 0], "pivot": [1, 0, 0], "ramp": 0.5}, "frames": "w%d.obj", "rate": 24,
+    {"mesh": "walk.obj", "motion": {"spin": [0, 9, 0], "pivot": [1, 0, 0], "ramp": 0.5, "reverse_at": 3}, "frames": "w%d.obj", "rate": 24,
      "loop": true, "sides": "two", "layers": [31]}
   ],
   "camera": {"position": [0, 2, 5], "target": [0, 1, 0], "fov": 35}
