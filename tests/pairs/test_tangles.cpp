@@ -141,6 +141,33 @@ TEST_CASE("cloths of different layers are not pulled apart, nor one that does no
     }
 }
 
+TEST_CASE("a sheet that meets two sheets in each other stays free of intersections")
+{
+    for (const float speed : {3.f, 0.5f})
+    {
+        PairHarness harness;
+        voile::GridCloth sheet = tests::pair_sheet(12, 12, 0.027f);
+        harness.add(sheet);
+        sheet.transform = at({0.003f, 0, 0.02f}) * turned(0.2f, {1, 0.2f, 0});
+        harness.add(sheet);
+        sheet.transform = at({0, speed > 1 ? 0.12f : 0.05f, 0});
+        sheet.velocity = {0, -speed, 0};
+        harness.add(sheet);
+        harness.upload();
+        REQUIRE(harness.intersections() > 20);
+        uint64_t of_third = 0;
+        for (int i = 0; i < 12; ++i)
+        {
+            harness.step(k_weightless);
+            const tests::ExactMesh third = harness.exact(harness.cloths[2]);
+            of_third += count_pairs(third, third);
+            for (size_t other = 0; other < 2; ++other)
+                of_third += count_pairs_both_ways(harness.exact(harness.cloths[other]), third);
+        }
+        CHECK(of_third == 0);
+    }
+}
+
 TEST_CASE("random crumples in and through each other come free")
 {
     uint64_t before = 0;

@@ -153,9 +153,9 @@ struct SolverOptions
     // are moved straight to the nearest surface, and stay inside of meshes.
     bool depenetration = true;
 
-    // Cloths that collide with themselves are pulled out of each other, and out of themselves, where they intersect when
-    // a step starts (descriptions.hpp). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query
-    // per step. Without this, what intersects is held as it is.
+    // Cloths that collide with themselves are pulled out of each other, and out of themselves, where they intersect
+    // when a step starts (descriptions.hpp). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a
+    // query per step. Without this, what intersects is held as it is.
     bool untangling = true;
 
     // None: vertex input reads the streams. A queue without graphics has no vertex input: name the host's own stages on
