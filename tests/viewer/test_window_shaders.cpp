@@ -40,7 +40,7 @@ TEST_CASE("a changed shader of the cloth starts the scene again, and one that is
     Session session(display, folder, with(arguments, {"--stats", stats}));
     XWindow& window = session.window;
     session.step(2);
-    write("forces/forces.glsl", "* push.gravity;", "* -push.gravity;");
+    write("forces/forces.glsl", "* step_input.gravity;", "* -step_input.gravity;");
     REQUIRE(window.wait_for_title("at frame 0"));
     write("constraints/pin.comp", "void main()",
           "layout(constant_id = 99) const int odd = 1; int f() { return odd; } void main()");
