@@ -171,7 +171,7 @@ TEST_CASE("a sheet that meets two sheets in each other stays free of intersectio
 TEST_CASE("random crumples in and through each other come free")
 {
     uint64_t before = 0;
-    for (uint32_t seed = 0; seed < 4; ++seed)
+    for (uint32_t seed = 0; seed < 2; ++seed)
     {
         tests::Draw draw(seed);
         PairHarness harness;
