@@ -1,2 +1,2 @@
-// The program whose precompiled headers the tests use (voile_precompile). 
+// The program whose precompiled headers the tests use (voile_precompile).
 // Its main function is that of doctest.

@@ -13,7 +13,7 @@ const float k_untangle_acceleration = 300;
 // line of intersection they cancel out, and what is left is rounding.
 const float k_whole_direction = 0.2;
 
-// m/s: the least velocity of a vertex that has mass.
+// m/s, towards which a vertex that has mass is accelerated.
 vec3 untangling_velocity(Tangle tangle)
 {
     const vec3 sum = VOILE_TANGLE_UNIT * vec3(tangle.direction[0], tangle.direction[1], tangle.direction[2]);

@@ -149,7 +149,7 @@ VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the w
 VOILE_SCRATCH_BUFFER(69, paired_vertices, uvec4, pair_vertices, "the vertices in pairs: vertex, cloth, first reference, number of references; in no order")
 VOILE_SCRATCH_BUFFER(70, pair_masks, uint, pair_vertices == 0 ? 0 : 4 * pair_vertices + 2 * corners, "the pairs that each vertex is in, in the lists of the owners around it; during a search the vertices that search")
 
-VOILE_SCRATCH_BUFFER(93, tangles, Tangle, pair_vertices, "the pairs around a vertex that intersect at the step's start, and the way out")
+VOILE_SCRATCH_BUFFER(93, tangles, Tangle, pair_vertices, "the pairs around a vertex that intersect at the step's start, and the direction out of it")
 
 // Intersections: hierarchies of cloths, with SolverOptions::intersections of all, else of those that collide with
 // themselves; and with it what is counted.

@@ -145,7 +145,7 @@ struct PairMemory
 struct Tangle
 {
     int direction[3]; // that shortens the lines of intersection, summed over the pairs, in VOILE_TANGLE_UNIT
-    uint pairs;      // of an edge of a triangle and another triangle; 0: the vertex collides as usual
+    uint pairs;       // of an edge of a triangle and another triangle; 0: the vertex collides as usual
 };
 
 // What a listed pair does in a pass, as the owner of one side sees it. Both sides compute the same bits.

@@ -56,7 +56,7 @@ struct StatisticsRecord
     uint candidates;           // triangles in the lists of all vertices
     uint overflowing_vertices; // vertices near more triangles than a list can contain; they traverse in every substep
     uint forced_pairs;         // in which vertices without mass took more room than there was, in the last step
-    uint tangled_pairs; // of cloths that collide with themselves, that intersected when the last step started
+    uint tangled_pairs;        // of cloths that collide with themselves, that intersected when the last step started
 };
 
 // What the host reads.

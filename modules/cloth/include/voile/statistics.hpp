@@ -65,9 +65,9 @@ struct Statistics
     uint32_t candidates = 0;           // triangles in the lists of near triangles of all vertices
     uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
                                        // every substep, which is slower but misses nothing
-    uint32_t forced_pairs = 0; // of cloths that collide with themselves: how often in the last step a pair of near
-                               // primitives did not have the room that vertices without mass, such as pins,
-                               // took, so that it may intersect; counted once per pass over the pairs
+    uint32_t forced_pairs = 0;  // of cloths that collide with themselves: how often in the last step a pair of near
+                                // primitives did not have the room that vertices without mass, such as pins,
+                                // took, so that it may intersect; counted once per pass over the pairs
     uint32_t tangled_pairs = 0; // of cloths that collide with themselves: pairs of an edge and a triangle that
                                 // intersected when the last step started, as IntersectionCounts::cloth_pairs has
                                 // them, but for parts of a mesh that touch where it starts; the solver pulls them apart

@@ -61,7 +61,7 @@ struct BufferCounts
     uint64_t previous_vertices = 0; // 0 unless the host asks for previous positions
     uint64_t cloth_triangles = 0;   // 0 unless the host asks for indices
     uint64_t pair_vertices = 0;     // 0 unless a cloth collides with itself
-    uint64_t cloth_trees = 0; // 0 without SolverOptions::intersections unless a cloth collides with itself
+    uint64_t cloth_trees = 0;       // 0 without SolverOptions::intersections unless a cloth collides with itself
     uint64_t cloth_leaves = 0;
     uint64_t cloth_boxes = 0;
     uint64_t bvh_edges = 0; // 0 without SolverOptions::intersections, as the next one
