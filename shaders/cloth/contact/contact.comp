@@ -151,6 +151,8 @@ struct ContactState
     bool path_is_clear; // the corrected path crosses no surface
     bool has_plane;     // for the substeps until the next pass
     bool leaves_solid;
+    vec3 n;      // of the last surface that was touched
+    float speed; // m/s, of that surface along it
 };
 
 // m/s, of the collider at the vertex. Bounded, or a collider that jumps would throw the vertex.
@@ -244,6 +246,8 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     const float longest = cloth.thickness - contact.gap + distance(relative.from, relative.to);
     state.path_is_clear = !state.touches && longest < contact.gap;
     state.touches = true;
+    state.n = n;
+    state.speed = push.substeps > 0 ? dot(surface, n) / seconds(push.substeps) : 0;
     if (contact.start < 0)
         motion.v -= dot(motion.v - surface / seconds(push.substeps), n) * n; // it leaves the inside without a velocity of its own
     respond(motion, touched, lift_of(contact, cloth.thickness));
@@ -262,7 +266,7 @@ ColliderWalk walk_path(Motion motion)
 // would stop a vertex that the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
-    ContactState state = ContactState(false, false, false, leaves_solid);
+    ContactState state = ContactState(false, false, false, leaves_solid, vec3(0), 0);
     bool path_only = false;
     ColliderWalk walk = walk_path(motion);
     while (true)
@@ -460,8 +464,12 @@ void main()
         }
         if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
             hold_at_features(i, shifted, motion);
-        if (held)
-            changed = hold_within_guards(hold, motion) || changed;
+        if (held && hold_within_guards(hold, motion))
+        {
+            changed = true;
+            if (state.touches && state.speed > 0)
+                motion.v += max(state.speed - dot(motion.v, state.n), 0) * state.n;
+        }
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)
             end_plane(i, motion, state.has_plane);
     }
