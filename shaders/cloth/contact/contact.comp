@@ -75,6 +75,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "contact/contact_vertex.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
+#include "pairs/direction.glsl"
 #include "pairs/hold.glsl"
 #include "pairs/untangle.glsl"
 
@@ -161,7 +162,8 @@ vec3 carrying_velocity(Motion motion, Depenetration depenetration)
     const uint c = depenetration.solid - 1;
     const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
     const vec3 velocity = surface_displacement(relative, relative.from, vec3(0)) / seconds(push.substeps);
-    return velocity * min(1, VOILE_DEPENETRATION_SPEED / max(length(velocity), 1e-30));
+    const float speed = length(velocity);
+    return speed < 10 ? velocity : velocity * min(1, VOILE_DEPENETRATION_SPEED / max(length(velocity), 1e-30));
 }
 
 // Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step.
@@ -464,6 +466,8 @@ void main()
         }
         if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
             hold_at_features(i, shifted, motion);
+        if (held && state.touches)
+            pair_bounds[i].guard.support = pack_direction(state.n);
         if (held && hold_within_guards(hold, motion))
         {
             changed = true;

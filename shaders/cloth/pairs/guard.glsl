@@ -44,7 +44,8 @@ PairGuard no_guard()
     guard.planes[0] = guard.planes[1] = vec4(0, 0, 0, k_unbounded);
     guard.reach = k_unbounded;
     guard.from = vec3(0);
-    guard.residual = guard.padding = uvec2(0);
+    guard.residual = uvec2(0);
+    guard.support = guard.padding = 0;
     return guard;
 }
 

@@ -38,10 +38,10 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/halvings.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
-#include "pairs/pair_pass.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
@@ -126,13 +126,14 @@ void refer(Fan fan, uint at)
 
 // Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
 // vertex stays on its carry. All that falls freely has the same. Else the clock stops, and the vertex stays where it is.
-// It loses its velocity, so that the next sweeps are shorter.
+// The next sweeps are shorter.
 void bound(uint i, uint cloth, float reach, bool listed)
 {
     PairSweep sweep;
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
-    sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
+    const vec3 listed_sweep = 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w));
+    sweep.sweep = reach > 0 ? listed_sweep : vec3(0);
     sweep.listed = listed ? 1 : 0;
     sweep.carry = pair_carries[i];
     sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
@@ -141,6 +142,7 @@ void bound(uint i, uint cloth, float reach, bool listed)
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
+    pair_bounds[i].halvings = next_halvings(i, length(listed_sweep), sweep.reach);
 }
 
 // What packing has rounded off the mean velocity.

@@ -53,6 +53,10 @@ const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
+// A collider supports a vertex that is pushed towards it by at least this part.
+const float k_least_support = 0.7;
+// The most by which that strengthens an impulse: then sides of equal mass would bounce if there was no support.
+const float k_most_support = 2;
 const float k_most_half = 65504;
 // Halfs are rounded by less than this part.
 const float k_half_rounding = 1e-3;
@@ -65,6 +69,7 @@ struct Vertices
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
+    bvec4 touch; // a collider
 };
 
 // What acted since the last pass is expected to go on.
@@ -73,7 +78,9 @@ void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Ve
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
     const bool known = memory.pass + 1 == pair_pass();
-    const vec3 v = velocities[i].xyz;
+    const vec4 velocity = velocities[i];
+    const vec3 v = velocity.xyz;
+    vertices.touch[k] = (uint(velocity.w) & VOILE_VERTEX_TOUCHES) != 0;
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
@@ -93,6 +100,24 @@ vec2 friction_of(Pair pair)
                 unpackHalf2x16(pair_memories[pair.vertices.w].friction));
 }
 
+// How much stronger the impulse of a pair is because colliders support one side. What a collider holds or drives does not
+// give way: without this it would take several passes until the other side is as fast, and meanwhile both come nearer.
+float support_of(Pair pair, vec4 weights, Vertices vertices, vec3 n)
+{
+    if (!any(vertices.touch))
+        return 1;
+    const vec4 mobilities = weights * weights * vertices.inverse_masses;
+    vec4 gives_way = vec4(1);
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+        if (vertices.touch[k])
+        {
+            const vec3 support = unpack_direction(pair_bounds[pair.vertices[k]].guard.support);
+            gives_way[k] = dot(k < first_side(pair) ? n : -n, support) < -k_least_support ? 0 : 1;
+        }
+    const float mobility = dot(mobilities, vec4(1));
+    return min(mobility / max(dot(mobilities, gives_way), 1e-30), k_most_support);
+}
+
 // How both sides of a pair move relative to each other, at their nearest points.
 struct Approach
 {
@@ -101,6 +126,7 @@ struct Approach
     vec3 n;        // unit, towards the first side
     float missing; // m, of the thickness; below 0: so far apart
     float thickness; // m
+    float support;   // by how much the impulse along n is stronger than what the pair needs
 };
 
 // The velocity that the pair removes or adds, and how far it slides until it touches again, in `drift`.
@@ -121,11 +147,12 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
     const vec3 undo = k_undo_slip / pair_interval() * slip;
     const float speed = length(sliding);
-    const float spare = friction.x * wanted - speed;
+    const float pressure = approach.support * wanted;
+    const float spare = friction.x * pressure - speed;
     if (spare >= 0) // it sticks; taking back what has drifted must not make it slide
-        return wanted * approach.n - sliding - min(1, spare / max(length(undo), 1e-30)) * undo;
-    const float left = slip_speed(speed, wanted, friction.x, friction.y);
-    return wanted * approach.n - (1 - left / speed) * sliding;
+        return pressure * approach.n - sliding - min(1, spare / max(length(undo), 1e-30)) * undo;
+    const float left = slip_speed(speed, pressure, friction.x, friction.y);
+    return pressure * approach.n - (1 - left / speed) * sliding;
 }
 
 // m: how far vertices without mass, which nothing holds, will move towards the other side until the next pass. The first
@@ -198,7 +225,8 @@ void main()
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
     const Approach approach =
-        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness);
+        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
+                 support_of(pair, nearest.weights, vertices, n));
     response.impulse = impulse_of(approach, friction_of(pair), drift);
     response.mobilities = nearest.weights * vertices.inverse_masses;
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));

@@ -34,6 +34,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "pairs/clock.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/halvings.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
@@ -124,7 +125,7 @@ void main()
     const vec3 own = velocities[i].xyz;
     const vec3 v = positions[i].w > 0 ? velocity_at_pass(own, cloths[cloth].flags) : own;
     const vec3 relative = v - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
-    const uint word = pack_half_sweep(0.5 * sweep_of(fan, cloth, relative));
+    const uint word = pack_half_sweep(exp2(-1 - float(halvings_of(i))) * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;
     midpoints[i] = vec4(positions[i].xyz + half_carry + unpack_half_sweep(word), uintBitsToFloat(word));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;

@@ -221,5 +221,6 @@ void main()
     pair_memories[i] = remembered(i, self.y, sum);
     sum.guard.from = positions[i].xyz;
     sum.guard.residual = residuals[i];
+    sum.guard.support = pair_bounds[i].guard.support;
     pair_bounds[i].guard = sum.guard;
 }

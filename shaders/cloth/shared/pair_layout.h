@@ -43,6 +43,11 @@
 #define VOILE_PAIR_TANGLED 13
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
+// How often the sweep of a vertex is halved (PairBound): the bits of that number; by how much it rises where a sweep left
+// no room; and for how many passes it is known.
+#define VOILE_PAIR_HALVING_BITS 3
+#define VOILE_PAIR_HALVINGS 2
+#define VOILE_PAIR_HALVED_PASSES 1024
 // The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
 #define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
 #define VOILE_PAIR_FAR_BIT (1u << 31)
@@ -120,7 +125,8 @@ struct PairGuard
     vec3 from;      // m
     float reach;    // m
     uvec2 residual; // of `from`
-    uvec2 padding;
+    uint support;   // away from the collider that the vertex touches (direction.glsl), while VOILE_VERTEX_TOUCHES is set
+    uint padding;
 };
 
 // What bounds the motion of a vertex that collides with other cloth.
@@ -129,7 +135,7 @@ struct PairBound
     PairSweep sweep;
     PairGuard guard; // void unless sweep.listed
     vec3 impulse;    // m/s, the change of velocity by the last pass
-    uint padding;
+    uint halvings;   // the pass that made the lists, and how often the next sweep is halved (halvings.glsl)
 };
 
 // What a vertex keeps from pass to pass.

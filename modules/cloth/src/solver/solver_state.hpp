@@ -12,6 +12,7 @@
 #include "solver/outputs.hpp"
 #include "solver/step_commands.hpp"
 
+#include "shared/pair_layout.h"
 #include "shared/step_layout.h"
 
 #include <functional>
@@ -83,7 +84,7 @@ struct StepHistory
     bool pairs_met = false;          // in the last step, since the last upload
 
     // What vertices remember from the last pass over pairs does not fit where they are now.
-    void forget_pairs() { ++next_pair_pass; }
+    void forget_pairs() { next_pair_pass += VOILE_PAIR_HALVED_PASSES; }
 };
 
 using StrainLimitOf = std::function<StrainLimit(const ClothModel&)>;
