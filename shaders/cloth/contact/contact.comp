@@ -145,6 +145,13 @@ float lift_of(Contact contact, float thickness)
     return contact.start < 0 ? lift : max(lift, 0);
 }
 
+// What a collider imposes on a vertex.
+struct Drive
+{
+    vec3 direction; // unit; 0: nothing
+    float speed;    // m/s, along it
+};
+
 // The contacts of a vertex in this substep.
 struct ContactState
 {
@@ -152,8 +159,7 @@ struct ContactState
     bool path_is_clear; // the corrected path crosses no surface
     bool has_plane;     // for the substeps until the next pass
     bool leaves_solid;
-    vec3 n;      // of the last surface that was touched
-    float speed; // m/s, of that surface along it
+    Drive drive;
 };
 
 // m/s, of the collider at the vertex. Bounded, or a collider that jumps would throw the vertex.
@@ -167,13 +173,16 @@ vec3 carrying_velocity(Motion motion, Depenetration depenetration)
 }
 
 // Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step.
-void depenetrate(uint i, inout Motion motion, Depenetration depenetration)
+Drive depenetrate(uint i, inout Motion motion, Depenetration depenetration)
 {
     const vec3 surface = carrying_velocity(motion, depenetration);
     if (push.kicks == 1)
         leave(motion, depenetration.velocity, surface, seconds(push.substeps));
     if (push.result == VOILE_CONTACT_KEEPS_START)
         planes[i] = ContactPlane(depenetration.velocity, 0, surface, VOILE_PLANE_OF_EXIT);
+    const float speed = length(depenetration.velocity);
+    const vec3 outwards = depenetration.velocity / max(speed, 1e-30);
+    return Drive(outwards, dot(surface, outwards));
 }
 
 // Puts a vertex whose corrected path crosses a surface back to its start, carried by that surface.
@@ -248,8 +257,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     const float longest = cloth.thickness - contact.gap + distance(relative.from, relative.to);
     state.path_is_clear = !state.touches && longest < contact.gap;
     state.touches = true;
-    state.n = n;
-    state.speed = push.substeps > 0 ? dot(surface, n) / seconds(push.substeps) : 0;
+    state.drive = Drive(n, push.substeps > 0 ? dot(surface, n) / seconds(push.substeps) : 0);
     if (contact.start < 0)
         motion.v -= dot(motion.v - surface / seconds(push.substeps), n) * n; // it leaves the inside without a velocity of its own
     respond(motion, touched, lift_of(contact, cloth.thickness));
@@ -268,7 +276,7 @@ ColliderWalk walk_path(Motion motion)
 // would stop a vertex that the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
-    ContactState state = ContactState(false, false, false, leaves_solid, vec3(0), 0);
+    ContactState state = ContactState(false, false, false, leaves_solid, Drive(vec3(0), 0));
     bool path_only = false;
     ColliderWalk walk = walk_path(motion);
     while (true)
@@ -451,9 +459,10 @@ void main()
         contact.layers = cloths[cloth].layers;
         contact.normal = METHOD == k_method_normal_ray ? vertex_normal(self) : vec3(0);
         const Depenetration depenetration = depenetration_of(i);
+        Drive drive = Drive(vec3(0), 0);
         if (depenetration.solid != 0)
         {
-            depenetrate(i, motion, depenetration);
+            drive = depenetrate(i, motion, depenetration);
             changed = true;
         }
         const vec3 shifted = motion.displacement;
@@ -462,17 +471,21 @@ void main()
         if (state.touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;
+            drive = state.drive;
             changed = true;
         }
         if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
             hold_at_features(i, shifted, motion);
-        if (held && state.touches)
-            pair_bounds[i].guard.support = pack_direction(state.n);
+        if (held && drive.direction != vec3(0))
+        {
+            flags |= VOILE_VERTEX_DRIVEN;
+            pair_bounds[i].guard.support = pack_direction(drive.direction);
+        }
         if (held && hold_within_guards(hold, motion))
         {
             changed = true;
-            if (state.touches && state.speed > 0)
-                motion.v += max(state.speed - dot(motion.v, state.n), 0) * state.n;
+            if (drive.speed > 0)
+                motion.v += max(drive.speed - dot(motion.v, drive.direction), 0) * drive.direction;
         }
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)
             end_plane(i, motion, state.has_plane);

@@ -69,7 +69,7 @@ struct Vertices
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
-    bvec4 touch; // a collider
+    bvec4 driven; // by a collider
 };
 
 // What acted since the last pass is expected to go on.
@@ -80,7 +80,7 @@ void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Ve
     const bool known = memory.pass + 1 == pair_pass();
     const vec4 velocity = velocities[i];
     const vec3 v = velocity.xyz;
-    vertices.touch[k] = (uint(velocity.w) & VOILE_VERTEX_TOUCHES) != 0;
+    vertices.driven[k] = (uint(velocity.w) & VOILE_VERTEX_DRIVEN) != 0;
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
@@ -104,12 +104,12 @@ vec2 friction_of(Pair pair)
 // give way: without this it would take several passes until the other side is as fast, and meanwhile both come nearer.
 float support_of(Pair pair, vec4 weights, Vertices vertices, vec3 n)
 {
-    if (!any(vertices.touch))
+    if (!any(vertices.driven))
         return 1;
     const vec4 mobilities = weights * weights * vertices.inverse_masses;
     vec4 gives_way = vec4(1);
     [[unroll]] for (uint k = 0; k < 4; ++k)
-        if (vertices.touch[k])
+        if (vertices.driven[k])
         {
             const vec3 support = unpack_direction(pair_bounds[pair.vertices[k]].guard.support);
             gives_way[k] = dot(k < first_side(pair) ? n : -n, support) < -k_least_support ? 0 : 1;

@@ -36,6 +36,7 @@
 #define VOILE_VERTEX_TOUCHES 1         // it touches a collider
 #define VOILE_VERTEX_TAUT 2            // a tether, a max-distance constraint or a backstop limits it
 #define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
+#define VOILE_VERTEX_DRIVEN 8          // what it touches, or leaves the inside of, does not give way to other cloth
 
 VOILE_SHARED_BEGIN(voile)
 

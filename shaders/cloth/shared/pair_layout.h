@@ -125,7 +125,7 @@ struct PairGuard
     vec3 from;      // m
     float reach;    // m
     uvec2 residual; // of `from`
-    uint support;   // away from the collider that the vertex touches (direction.glsl), while VOILE_VERTEX_TOUCHES is set
+    uint support;   // the direction (direction.glsl) in which a collider drives it, while it has VOILE_VERTEX_DRIVEN
     uint padding;
 };
 
