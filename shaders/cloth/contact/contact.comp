@@ -369,16 +369,33 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
-// The impulses of pairs act in the first substep after their pass. Whether the motion changes.
-bool respond_to_pairs(Hold hold, inout Motion motion)
+// What of an impulse is in a velocity.
+Drive drive_of(vec3 impulse, vec3 v)
+{
+    const float size = length(impulse);
+    const vec3 direction = impulse / max(size, 1e-30);
+    return Drive(direction, clamp(dot(v, direction), 0, size));
+}
+
+// Guards cut what a collider or an impulse has just given a vertex, for nothing could know of it when they were made. It is
+// kept, so that the next pass hands it on.
+void keep(Drive drive, inout vec3 v)
+{
+    if (drive.speed > 0)
+        v += max(drive.speed - dot(v, drive.direction), 0) * drive.direction;
+}
+
+// The impulses of pairs act in the first substep after their pass. Whether the motion changes. `impulse`: what they give.
+bool respond_to_pairs(Hold hold, inout Motion motion, out Drive impulse)
 {
     const vec3 before = motion.displacement;
+    const vec3 change = hold.bound.impulse;
     if (push.after_pairs != 0)
     {
-        const vec3 change = hold.bound.impulse;
         motion.v += change;
         motion.displacement += seconds(push.substeps) * change;
     }
+    impulse = drive_of(change, motion.v);
     const vec3 along = along_planes(hold, motion.displacement);
     if (push.substeps > 0)
         motion.v += (along - motion.displacement) / seconds(push.substeps);
@@ -447,10 +464,11 @@ void main()
     if (proposed.w > 0)
     {
         Hold hold;
+        Drive impulse;
         if (held)
         {
             hold = hold_of(i, motion.from);
-            changed = respond_to_pairs(hold, motion) || changed;
+            changed = respond_to_pairs(hold, motion, impulse) || changed;
             changed = untangle(i, motion) || changed;
         }
         ClothContact contact;
@@ -484,8 +502,9 @@ void main()
         if (held && hold_within_guards(hold, motion))
         {
             changed = true;
-            if (drive.speed > 0)
-                motion.v += max(drive.speed - dot(motion.v, drive.direction), 0) * drive.direction;
+            keep(drive, motion.v);
+            if (!state.touches)
+                keep(impulse, motion.v);
         }
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)
             end_plane(i, motion, state.has_plane);
