@@ -53,8 +53,6 @@ const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
-// The most of the room between both sides that what colliders push gets.
-const float k_pushed_share = 0.9;
 // A collider supports a vertex that is pushed towards it by at least this part.
 const float k_least_support = 0.7;
 // The most by which that strengthens an impulse: then sides of equal mass would bounce if there was no support.
@@ -157,37 +155,19 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     return pressure * approach.n - (1 - left / speed) * sliding;
 }
 
-// m: how far both sides will be moved towards each other until the next pass, the first side and the second.
-struct Driven
+// m: how far vertices without mass, which nothing holds, will move towards the other side until the next pass. The first
+// side's, and the second's.
+vec2 driven_approach(uint sides, Vertices vertices, Separation separation)
 {
-    vec2 forced; // by vertices without mass, which nothing holds
-    vec2 pushed; // by colliders
-};
-
-Driven driven_approach(uint sides, Vertices vertices, Separation separation)
-{
-    Driven driven = Driven(vec2(0), vec2(0));
+    vec2 needed = vec2(0);
     [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         const bool first = k < sides;
         const float along = pair_interval() * dot(vertices.v[k], first ? -separation.n : separation.n);
-        const float approach = max(along - separation.from_plane[k], 0);
-        const vec2 of_side = first ? vec2(approach, 0) : vec2(0, approach);
-        if (vertices.inverse_masses[k] == 0)
-            driven.forced = max(driven.forced, of_side);
-        else if (vertices.driven[k])
-            driven.pushed = max(driven.pushed, of_side);
+        const float approach = vertices.inverse_masses[k] == 0 ? along - separation.from_plane[k] : 0;
+        needed = max(needed, first ? vec2(approach, 0) : vec2(0, approach));
     }
-    return driven;
-}
-
-// m: what each side may use up of the room between both. What colliders push gets what it needs, if there is so much.
-vec2 shares_of(float room, Driven driven)
-{
-    const float left = room - driven.forced.x - driven.forced.y;
-    vec2 pushed = max(driven.pushed - driven.forced, 0);
-    pushed *= min(1, k_pushed_share * max(left, 0) / max(pushed.x + pushed.y, 1e-30));
-    return max(driven.forced + pushed + 0.5 * (left - pushed.x - pushed.y), 0);
+    return needed;
 }
 
 // m: how far along the normal the planes of both sides are carried, as a half, relative to the first vertex. Vertices
@@ -253,12 +233,12 @@ void main()
 
     const Separation separation = separate(pair.edges, vertices.x, n);
     const uint sides = first_side(pair);
-    const Driven driven = driven_approach(sides, vertices, separation);
+    const vec2 needed = driven_approach(sides, vertices, separation);
     const float room = 2 * VOILE_PAIR_APPROACH * spare_gap(separation.gap, thickness);
-    if (driven.forced.x + driven.forced.y > room && first)
+    const float spare = room - needed.x - needed.y;
+    if (spare < 0 && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
-    const vec2 shares = shares_of(room, driven);
-    const float slack = first ? shares.x : shares.y;
+    const float slack = max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;
     vec3 heights = vec3(0);

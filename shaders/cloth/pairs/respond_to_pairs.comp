@@ -38,6 +38,8 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 // m: the longest drift that is undone, as a part of the thickness.
 const float k_longest_slip = 0.02;
 const float k_keep_slip = 0.999;
+// How far a vertex moves until the next pass: this times its velocity, for impulses to come.
+const float k_wanted = 1.5;
 
 struct Gather
 {
@@ -56,6 +58,7 @@ struct Self
     float inverse_mass;
     uint carry;
     float rate; // of the clock
+    float wanted; // m, that it moves until the next pass, about
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
@@ -86,16 +89,16 @@ void store_guard(uint thread, PairGuard guard)
     shared_parts[3 * thread + 2] = vec4(guard.reach);
 }
 
-void join_guard(uint thread, inout PairGuard guard)
+void join_guard(uint thread, inout PairGuard guard, float wanted)
 {
     guard.reach = min(guard.reach, shared_parts[3 * thread + 2].x);
-    add_plane(guard, shared_parts[3 * thread]);
-    add_plane(guard, shared_parts[3 * thread + 1]);
+    add_plane(guard, shared_parts[3 * thread], wanted);
+    add_plane(guard, shared_parts[3 * thread + 1], wanted);
 }
 
 // What all threads of a vertex have gathered, in the first of them. The order is that of the lists, so that the result
 // does not depend on timing. Sums and guards take the same memory in turn.
-void merge(uint thread, uint lane, inout Gather sum)
+void merge(uint thread, uint lane, float wanted, inout Gather sum)
 {
     for (uint width = push.threads / 2; width > 0; width /= 2)
     {
@@ -111,7 +114,7 @@ void merge(uint thread, uint lane, inout Gather sum)
         store_guard(thread, sum.guard);
         barrier();
         if (lane < width)
-            join_guard(thread + width, sum.guard);
+            join_guard(thread + width, sum.guard, wanted);
     }
 }
 
@@ -142,7 +145,8 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
     const float height = entry_of(heights, first ? place : place - sides);
     const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x]);
-    add_plane(sum.guard, carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w));
+    add_plane(sum.guard, carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w),
+              self.wanted);
     const bool pushed = response.impulse != vec3(0);
     if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
@@ -158,7 +162,8 @@ void add_entry(uint entry, Self self, inout Gather sum)
 // `entry`: the vertex, its cloth, the first of its references, and their number.
 Self self_of(uvec4 entry)
 {
-    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate());
+    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate(),
+                k_wanted * pair_interval() * length(velocities[entry.x].xyz));
 }
 
 Gather gather(Self self, uint lane)
@@ -211,9 +216,14 @@ void main()
     const uvec4 self = exists ? paired_vertices[place] : uvec4(0);
     const uint i = self.x;
     Gather sum = nothing();
+    float wanted = 0;
     if (exists)
-        sum = gather(self_of(self), lane);
-    merge(thread, lane, sum);
+    {
+        const Self gathering = self_of(self);
+        wanted = gathering.wanted;
+        sum = gather(gathering, lane);
+    }
+    merge(thread, lane, wanted, sum);
     if (!exists || lane != 0)
         return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
