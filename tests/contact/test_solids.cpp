@@ -246,6 +246,33 @@ TEST_CASE("cloth leaves solids that move, turn and deform meanwhile")
     }
 }
 
+TEST_CASE("a ball that moves at 8 m/s takes the cloth inside it along, and lets it out")
+{
+    ClothHarness harness;
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(6, 0.1f, {0, 0, 0})));
+    const auto ball = voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.radius = 0.15f}));
+    harness.upload();
+    const voile::Step step{.gravity = glm::vec3(0), .air_density = 0};
+    harness.step(step, 2);
+    constexpr float k_speed = 8; // m/s
+    float x = 0;
+    float top = 0;
+    for (int frame = 0; frame < 15; ++frame)
+    {
+        x += k_speed / 60;
+        REQUIRE(harness.solver.move_collider(ball, moved({x, 0, 0})));
+        harness.step(step);
+        top = std::max(top, fastest(harness.velocities(id)));
+    }
+    CHECK(harness.statistics().penetrating_vertices == 0);
+    float mean = 0;
+    for (const glm::vec4& p : harness.positions(id))
+        mean += p.x / 36;
+    MESSAGE("the sheet has moved by " << mean << " m, the ball by " << x << " m, at most " << top << " m/s");
+    CHECK(mean > 0.9f * x);
+    CHECK(top < 12);
+}
+
 TEST_CASE("a solid that jumps away does not throw the cloth that was inside")
 {
     ClothHarness harness;

@@ -82,6 +82,14 @@ int crumple(uint32_t capacity, bool self_collision)
     return harness.first_intersection({.duration = 1.f / 60, .gravity = {0, 0, 0}, .air_density = 0}, 15);
 }
 
+// m, of the four vertices in the middle of a sheet of 4 x 4. A sheet may tilt, so that one of them may be below one of the
+// sheet beneath, beside it.
+float height_of_middle(PairHarness& harness, voile::ClothId cloth)
+{
+    const std::vector<glm::vec4> x = harness.positions(cloth);
+    return 0.25f * (x[5].y + x[6].y + x[9].y + x[10].y);
+}
+
 } // namespace
 
 TEST_CASE("a strip that is twisted by three turns and let go does not intersect itself")
@@ -116,7 +124,7 @@ TEST_CASE("fifty sheets on a sphere keep their order")
     harness.step({.duration = 1.f / 60}, 10);
     CHECK(harness.intersections() == 0);
     for (size_t i = 0; i + 1 < harness.cloths.size(); ++i)
-        CHECK(harness.positions(harness.cloths[i])[5].y < harness.positions(harness.cloths[i + 1])[5].y);
+        CHECK(height_of_middle(harness, harness.cloths[i]) < height_of_middle(harness, harness.cloths[i + 1]));
 }
 
 TEST_CASE("random crumples with lists of one and two pairs, 100 m away, do not intersect")

@@ -162,14 +162,14 @@ struct ContactState
     Drive drive;
 };
 
-// m/s, of the collider at the vertex. Bounded, or a collider that jumps would throw the vertex.
+// m/s, of the collider at the vertex. A collider that jumps would throw the vertex, so that it hardly follows faster ones.
 vec3 carrying_velocity(Motion motion, Depenetration depenetration)
 {
     const uint c = depenetration.solid - 1;
     const RelativeMotion relative = relative_motion(c, colliders[c].flags, motion);
     const vec3 velocity = surface_displacement(relative, relative.from, vec3(0)) / seconds(push.substeps);
-    const float speed = length(velocity);
-    return speed < 10 ? velocity : velocity * min(1, VOILE_DEPENETRATION_SPEED / max(length(velocity), 1e-30));
+    const float part = min(1, VOILE_FOLLOWED_SPEED / max(length(velocity), 1e-30));
+    return part * part * part * velocity;
 }
 
 // Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step.
@@ -379,10 +379,11 @@ Drive drive_of(vec3 impulse, vec3 v)
 
 // Guards cut what a collider or an impulse has just given a vertex, for nothing could know of it when they were made. It is
 // kept, so that the next pass hands it on.
-void keep(Drive drive, inout vec3 v)
+// `carry`: m/s, of what the drive is relative to.
+void keep(Drive drive, vec3 carry, inout vec3 v)
 {
     if (drive.speed > 0)
-        v += max(drive.speed - dot(v, drive.direction), 0) * drive.direction;
+        v += max(drive.speed - dot(v - carry, drive.direction), 0) * drive.direction;
 }
 
 // The impulses of pairs act in the first substep after their pass. Whether the motion changes. `impulse`: what they give.
@@ -395,7 +396,7 @@ bool respond_to_pairs(Hold hold, inout Motion motion, out Drive impulse)
         motion.v += change;
         motion.displacement += seconds(push.substeps) * change;
     }
-    impulse = drive_of(change, motion.v);
+    impulse = drive_of(change, motion.v - hold.carry);
     const vec3 along = along_planes(hold, motion.displacement);
     if (push.substeps > 0)
         motion.v += (along - motion.displacement) / seconds(push.substeps);
@@ -502,9 +503,9 @@ void main()
         if (held && hold_within_guards(hold, motion))
         {
             changed = true;
-            keep(drive, motion.v);
+            keep(drive, vec3(0), motion.v);
             if (!state.touches)
-                keep(impulse, motion.v);
+                keep(impulse, hold.carry, motion.v);
         }
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)
             end_plane(i, motion, state.has_plane);

@@ -7,6 +7,8 @@
 // m/s: the speed at which a vertex under a surface, or nearer to it than the thickness, is lifted. Vertices that it
 // pulls along may swing at twice that speed.
 #define VOILE_DEPENETRATION_SPEED 0.75f
+// m/s: a vertex inside a solid follows it up to this speed, and less the faster it moves beyond that.
+#define VOILE_FOLLOWED_SPEED 10.0f
 // The buffer of depenetrations begins with the sizes of two indirect dispatches of depenetration. Each step writes one
 // of them. A size has this many words.
 #define VOILE_DISPATCH_WORDS 4
