@@ -43,8 +43,8 @@
 #define VOILE_PAIR_TANGLED 13
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
-// How often the sweep of a vertex is halved (PairBound): the bits of that number; by how much it rises where a sweep left
-// no room; and for how many passes it is known.
+// How often the sweep of a vertex is halved (PairBound): the bits of that number; by how much it rises where a sweep
+// left no room; and for how many passes it is known.
 #define VOILE_PAIR_HALVING_BITS 3
 #define VOILE_PAIR_HALVINGS 2
 #define VOILE_PAIR_HALVED_PASSES 1024
