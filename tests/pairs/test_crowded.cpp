@@ -82,8 +82,8 @@ int crumple(uint32_t capacity, bool self_collision)
     return harness.first_intersection({.duration = 1.f / 60, .gravity = {0, 0, 0}, .air_density = 0}, 15);
 }
 
-// m, of the four vertices in the middle of a sheet of 4 x 4. A sheet may tilt, so that one of them may be below one of the
-// sheet beneath, beside it.
+// m, of the four vertices in the middle of a sheet of 4 x 4. A sheet may tilt, so that one of them may be below one of
+// the sheet beneath, beside it.
 float height_of_middle(PairHarness& harness, voile::ClothId cloth)
 {
     const std::vector<glm::vec4> x = harness.positions(cloth);
