@@ -33,6 +33,7 @@ function(voile_add_shaders)
             DEPENDS ${spirv} ${VOILE_EMBED_SCRIPT}
             COMMAND_EXPAND_LISTS VERBATIM)
         target_sources(${ARG_TARGET} PRIVATE ${cpp})
+        set_source_files_properties(${cpp} PROPERTIES SKIP_PRECOMPILE_HEADERS ON) # they include next to nothing
         string(APPEND declarations "extern const std::span<const uint32_t> k_${symbol};\n")
         string(APPEND names "    {\"${name}\", &k_${symbol}},\n")
     endforeach()
