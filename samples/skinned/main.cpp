@@ -1,7 +1,7 @@
 // A sleeve on an arm that bends: a mesh of cloth, pinned to the upper of two bones, over a collider that both bones
 // skin. The same vertices are drawn and collide. Here the host skins them; an engine that skins on the GPU hands its
 // buffer to Solver::deform_collider (DeviceVertices) and nothing else changes. With a display this opens a window.
-// Without one it simulates a second, writes skinned.png and prints what the statistics say.
+// Without one (--headless [frames]) it simulates a second, writes skinned.png and prints what the statistics say.
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
 
@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <string_view>
 
@@ -148,7 +149,7 @@ voile::ClothId add_sleeve(voile::Solver& solver, voile::AnchorId bone)
     return cloth;
 }
 
-void run(bool headless)
+void run(bool headless, uint64_t frames)
 {
     voile::engine::App app({.title = "a sleeve", .headless = headless});
     voile::engine::Scene& scene = app.scene();
@@ -167,10 +168,9 @@ void run(bool headless)
 
     voile::engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
     const voile::engine::IdleGuard idle(app.device());
-    constexpr uint64_t k_frames = 60;
     voile::Statistics last;
     uint32_t last_slot = 0;
-    app.draws = [](const FrameInfo& frame) { return frame.index + 1 == k_frames; };
+    app.draws = [frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
     app.after_render = [&](VkCommandBuffer cmd, const FrameInfo& frame)
     {
         if (!app.has_window() && app.draws(frame))
@@ -180,10 +180,10 @@ void run(bool headless)
     {
         last = world.solver().statistics(frame.slot);
         if (!app.has_window() && frame.index % 10 == 9)
-            std::printf("frame %3u of %u\n", static_cast<unsigned>(frame.index + 1), static_cast<unsigned>(k_frames));
+            std::printf("frame %3u of %u\n", static_cast<unsigned>(frame.index + 1), static_cast<unsigned>(frames));
         std::fflush(stdout);
     };
-    app.run(k_frames);
+    app.run(frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("skinned.png", readback.picture(last_slot)));
@@ -197,7 +197,8 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless");
+        run(argc > 1 && std::string_view(argv[1]) == "--headless",
+            argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
         return 0;
     }
     catch (const voile::engine::StartupError& error)

@@ -19,7 +19,7 @@ constexpr double k_rounding = 2e-6; // m, for float coordinates near 1, rotated 
 
 voile::GridCloth sheet_above_the_ears()
 {
-    voile::GridCloth grid = tests::flat_sheet(64, 2, 0.62f);
+    voile::GridCloth grid = tests::flat_sheet(48, 1.5f, 0.62f);
     voile::Fabric fabric = voile::cotton();
     for (float& stiffness : fabric.stretch_stiffness)
         stiffness *= 0.25f;

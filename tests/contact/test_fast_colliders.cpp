@@ -10,7 +10,6 @@ namespace
 {
 
 constexpr float k_frame = 1.f / 60;
-constexpr uint32_t k_frames = 5;
 constexpr float k_thin = 0.001f; // m
 constexpr float k_speeds[] = {5, 30, 100};
 
@@ -90,7 +89,8 @@ void drive(const Driven& shape, float speed, Motion motion)
     const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(mesh));
     harness.upload();
     float lowest = 0;
-    for (uint32_t frame = 1; frame <= k_frames; ++frame)
+    const uint32_t frames = speed < 10 ? 5 : 3;
+    for (uint32_t frame = 1; frame <= frames; ++frame)
     {
         const float way = speed * k_frame * static_cast<float>(frame);
         if (motion == Motion::rigid)

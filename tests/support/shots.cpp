@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double k_rounding = 1e-6; // m, for float coordinates near 1
+constexpr uint32_t k_rest_frames = 5;
 
 voile::GridCloth sheet(const ShotScene& scene, const Shot& shot)
 {
@@ -127,16 +128,24 @@ private:
 
 } // namespace
 
+bool at_rest(const Seen& seen, const Shot& shot)
+{
+    return seen.speed * static_cast<double>(k_shot_duration) < static_cast<double>(shot.thickness) / 10;
+}
+
 Seen shoot(const ShotScene& scene, const Shot& shot)
 {
     CAPTURE(scene.name);
     CAPTURE(shot.speed);
     CAPTURE(shot.thickness);
     Run run(scene, shot);
-    for (uint32_t frame = 0; frame < shot.frames; ++frame)
+    uint32_t resting = 0; // frames
+    uint32_t frame = 0;
+    for (; frame < shot.frames && (!shot.until_rest || resting < k_rest_frames); ++frame)
     {
         run.frame();
         run.observe();
+        resting = at_rest(run.seen, shot) ? resting + 1 : 0;
     }
     CHECK(run.seen.wrong == 0);
     CHECK(run.seen.deepest < k_rounding);
@@ -150,7 +159,7 @@ Seen shoot(const ShotScene& scene, const Shot& shot)
     MESSAGE(scene.name, ", ", shot.speed, " m/s, thickness ", shot.thickness, " m: edges of the collider through ",
             run.seen.at_worst.collider_edges, " triangles, of the cloth through ", run.seen.at_worst.cloth_edges,
             ", depth ", run.seen.at_worst.depth, " m; at the end ", run.seen.at_end.count(), ", depth ",
-            run.seen.at_end.depth, " m, speed ", run.seen.speed, " m/s, highest ", run.seen.highest, " m");
+            run.seen.at_end.depth, " m, after ", frame, " frames: speed ", run.seen.speed, " m/s, highest ", run.seen.highest, " m");
     return run.seen;
 }
 

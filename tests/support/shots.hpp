@@ -42,6 +42,7 @@ struct Shot
     float air_density = 0;   // kg/m^3
     float stiffness = 0.25f; // fraction of cotton's: half its substeps, of 3 cm each at 60 m/s
     uint32_t substeps = 0;   // per frame; 0: as many as needed
+    bool until_rest = false; // ends earlier, once the cloth has been at rest for some frames
     float strain_limit = 0;  // 0: none
     voile::Fabric fabric = voile::cotton();
 };
@@ -57,6 +58,9 @@ struct Seen
     Crossings at_worst;
     Crossings at_end;
 };
+
+// Whether the displacement over the last frame was less than the allowed depth.
+[[nodiscard]] bool at_rest(const Seen& seen, const Shot& shot);
 
 // Runs a scene and checks its invariants.
 Seen shoot(const ShotScene& scene, const Shot& shot);
