@@ -197,8 +197,7 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless",
-            argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
+        run(argc > 1 && std::string_view(argv[1]) == "--headless", argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
         return 0;
     }
     catch (const voile::engine::StartupError& error)

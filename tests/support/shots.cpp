@@ -159,7 +159,8 @@ Seen shoot(const ShotScene& scene, const Shot& shot)
     MESSAGE(scene.name, ", ", shot.speed, " m/s, thickness ", shot.thickness, " m: edges of the collider through ",
             run.seen.at_worst.collider_edges, " triangles, of the cloth through ", run.seen.at_worst.cloth_edges,
             ", depth ", run.seen.at_worst.depth, " m; at the end ", run.seen.at_end.count(), ", depth ",
-            run.seen.at_end.depth, " m, after ", frame, " frames: speed ", run.seen.speed, " m/s, highest ", run.seen.highest, " m");
+            run.seen.at_end.depth, " m, after ", frame, " frames: speed ", run.seen.speed, " m/s, highest ",
+            run.seen.highest, " m");
     return run.seen;
 }
 

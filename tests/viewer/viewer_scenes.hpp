@@ -9,6 +9,8 @@
 #include "voile/engine/assets/load_mesh.hpp"
 #include "voile/engine/gpu/device.hpp"
 
+#include <utility>
+
 namespace tests
 {
 
@@ -80,15 +82,27 @@ public:
 
     voile::engine::Picture picture(const std::string& text, uint32_t frame, const std::string& options = "")
     {
+        return pictures(text, frame, frame, options).second;
+    }
+
+    // The frame `last`, and an earlier one: the first, or one in the second half.
+    std::pair<voile::engine::Picture, voile::engine::Picture> pictures(const std::string& text, uint32_t earlier,
+                                                                       uint32_t last, const std::string& options = "")
+    {
         const auto file = folder_.write("s.json", text);
+        const uint32_t every = earlier == 0 ? last : earlier;
         const Run run =
-            run_viewer(file.string() + " --headless --size 320x180 --frames " + std::to_string(frame + 1) +
-                       " --every " + std::to_string(frame) + " --out " + folder_.path().string() + " " + options);
+            run_viewer(file.string() + " --headless --size 320x180 --frames " + std::to_string(last + 1) + " --every " +
+                       std::to_string(every) + " --out " + folder_.path().string() + " " + options);
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
-        std::string number = std::to_string(frame);
-        number.insert(0, 4 - number.size(), '0');
-        return voile::engine::take(voile::engine::load_png(folder_ / ("frame_" + number + ".png")));
+        const auto load = [&](uint32_t frame)
+        {
+            std::string number = std::to_string(frame);
+            number.insert(0, 4 - number.size(), '0');
+            return voile::engine::take(voile::engine::load_png(folder_ / ("frame_" + number + ".png")));
+        };
+        return {load(earlier), load(last)};
     }
 
     [[nodiscard]] const TestFolder& folder() const { return folder_; }
