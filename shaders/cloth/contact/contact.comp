@@ -369,6 +369,9 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
+// m/s: what cloth that a moving collider pushes gives other cloth in a pass. Cloth at rest gives less.
+const float k_push = 0.5;
+
 // What of an impulse is in a velocity.
 Drive drive_of(vec3 impulse, vec3 v)
 {
@@ -497,14 +500,16 @@ void main()
             hold_at_features(i, shifted, motion);
         if (held && drive.direction != vec3(0))
         {
-            flags |= VOILE_VERTEX_DRIVEN;
+            flags |= VOILE_VERTEX_SUPPORTED;
             pair_bounds[i].guard.support = pack_direction(drive.direction);
         }
+        if (held && COLLIDERS_MOVE != 0 && (drive.speed > 0 || impulse.speed > k_push))
+            flags |= VOILE_VERTEX_PUSHED;
         if (held && hold_within_guards(hold, motion))
         {
             changed = true;
             keep(drive, vec3(0), motion.v);
-            if (!state.touches)
+            if ((flags & VOILE_VERTEX_PUSHED) != 0 && !state.touches)
                 keep(impulse, hold.carry, motion.v);
         }
         if (push.result == VOILE_CONTACT_KEEPS_START && depenetration.solid == 0)

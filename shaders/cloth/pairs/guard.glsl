@@ -6,58 +6,45 @@
 
 const float k_unbounded = 1e30;
 
-// m: with length(d) <= this, a displacement d that satisfies plane q satisfies plane p, too. Both have s >= 0.
-float implied_within(vec4 p, vec4 q)
+// Planes of fast vertices are kept tighter than they are, by this part: else planes that are almost parallel would become a
+// ball that also holds a vertex which goes away from all of them.
+const float k_tight = 0.8;
+
+// m: with length(d) <= this, a displacement d that satisfies plane q satisfies plane p, too. Both have s >= 0. `loose`: what
+// p really is, as a multiple.
+float implied_within(vec4 p, vec4 q, float loose)
 {
     const float c = dot(p.xyz, q.xyz);
-    const float rest = p.w - c * q.w;
+    const float rest = loose * p.w - c * q.w;
     return c > 0 && rest > p.w * 1e-3 ? max(p.w, rest * inversesqrt(max(1 - c * c, 1e-8))) : p.w;
 }
 
-float implied_within(vec4 p, vec4 q, vec4 r) { return max(implied_within(p, q), implied_within(p, r)); }
-
-// The part of a plane's distance that another one keeps in its place, so that it implies it farther away.
-const float k_tighter = 0.8;
-
-// Plane p becomes a ball in which q or r imply it. A vertex that goes farther than that, `wanted`, would be held also where
-// it goes away from all planes: then the one that is more parallel to p becomes tighter.
-float replaced_by(vec4 p, inout vec4 q, inout vec4 r, float wanted)
+float implied_within(vec4 p, vec4 q, vec4 r, float loose)
 {
-    const float reach = implied_within(p, q, r);
-    if (reach >= wanted)
-        return reach;
-    const float nearer = k_tighter * p.w;
-    if (dot(p.xyz, q.xyz) > dot(p.xyz, r.xyz))
-        q.w = min(q.w, nearer);
-    else
-        r.w = min(r.w, nearer);
-    return implied_within(p, q, r);
+    return max(implied_within(p, q, loose), implied_within(p, r, loose));
 }
 
-// Adds a plane. Of three, the one that the others imply within the largest ball becomes that ball.
-void add_plane(inout PairGuard guard, vec4 plane, float wanted)
+// Adds a plane. Of three, the one that the others imply within the largest ball becomes that ball. `loose`: 1, or 1 / k_tight
+// if planes are tight.
+void add_plane(inout PairGuard guard, vec4 plane, float loose)
 {
-    vec4 a = guard.planes[0];
-    vec4 b = guard.planes[1];
-    const float without_a = implied_within(a, b, plane);
-    const float without_b = implied_within(b, a, plane);
-    const float without_new = implied_within(plane, a, b);
-    float reach;
+    const vec4 a = guard.planes[0];
+    const vec4 b = guard.planes[1];
+    const float without_a = implied_within(a, b, plane, loose);
+    const float without_b = implied_within(b, a, plane, loose);
+    const float without_new = implied_within(plane, a, b, loose);
     if (without_new >= without_a && without_new >= without_b)
-        reach = replaced_by(plane, a, b, wanted);
+        guard.reach = min(guard.reach, without_new);
     else if (without_a >= without_b)
     {
-        reach = replaced_by(a, b, plane, wanted);
-        a = plane;
+        guard.reach = min(guard.reach, without_a);
+        guard.planes[0] = plane;
     }
     else
     {
-        reach = replaced_by(b, a, plane, wanted);
-        b = plane;
+        guard.reach = min(guard.reach, without_b);
+        guard.planes[1] = plane;
     }
-    guard.reach = min(guard.reach, reach);
-    guard.planes[0] = a;
-    guard.planes[1] = b;
 }
 
 PairGuard no_guard()

@@ -17,6 +17,7 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
@@ -38,10 +39,10 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "pairs/fan.glsl"
-#include "pairs/halvings.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
+#include "pairs/pair_pass.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
 
@@ -132,8 +133,7 @@ void bound(uint i, uint cloth, float reach, bool listed)
     PairSweep sweep;
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
-    const vec3 listed_sweep = 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w));
-    sweep.sweep = reach > 0 ? listed_sweep : vec3(0);
+    sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
     sweep.listed = listed ? 1 : 0;
     sweep.carry = pair_carries[i];
     sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
@@ -142,7 +142,8 @@ void bound(uint i, uint cloth, float reach, bool listed)
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
-    pair_bounds[i].halvings = next_halvings(i, length(listed_sweep), sweep.reach);
+    if ((uint(velocities[i].w) & VOILE_VERTEX_PUSHED) != 0 && sweep.reach < pair_interval() * length(velocities[i].xyz))
+        pair_searches[VOILE_PAIR_CROWDED].entries = pair_pass() + 1;
 }
 
 // What packing has rounded off the mean velocity.

@@ -37,6 +37,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "contact/friction_law.glsl"
 #include "pairs/clock.glsl"
 #include "pairs/direction.glsl"
+#include "pairs/memory.glsl"
 #include "pairs/pair.glsl"
 
 // The part of the thickness below which a pair comes closer slowly, by this part of what it has above the least.
@@ -69,7 +70,7 @@ struct Vertices
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
-    bvec4 driven; // by a collider
+    bvec4 supported; // by a collider
 };
 
 // What acted since the last pass is expected to go on.
@@ -77,10 +78,10 @@ void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Ve
 {
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
-    const bool known = memory.pass + 1 == pair_pass();
+    const bool known = is_of_last_pass(memory.pass);
     const vec4 velocity = velocities[i];
     const vec3 v = velocity.xyz;
-    vertices.driven[k] = (uint(velocity.w) & VOILE_VERTEX_DRIVEN) != 0;
+    vertices.supported[k] = (uint(velocity.w) & VOILE_VERTEX_SUPPORTED) != 0;
     vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
@@ -104,12 +105,12 @@ vec2 friction_of(Pair pair)
 // give way: without this it would take several passes until the other side is as fast, and meanwhile both come nearer.
 float support_of(Pair pair, vec4 weights, Vertices vertices, vec3 n)
 {
-    if (!any(vertices.driven))
+    if (!any(vertices.supported))
         return 1;
     const vec4 mobilities = weights * weights * vertices.inverse_masses;
     vec4 gives_way = vec4(1);
     [[unroll]] for (uint k = 0; k < 4; ++k)
-        if (vertices.driven[k])
+        if (vertices.supported[k])
         {
             const vec3 support = unpack_direction(pair_bounds[pair.vertices[k]].guard.support);
             gives_way[k] = dot(k < first_side(pair) ? n : -n, support) < -k_least_support ? 0 : 1;

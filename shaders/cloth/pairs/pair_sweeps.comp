@@ -125,7 +125,11 @@ void main()
     const vec3 own = velocities[i].xyz;
     const vec3 v = positions[i].w > 0 ? velocity_at_pass(own, cloths[cloth].flags) : own;
     const vec3 relative = v - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
-    const uint word = pack_half_sweep(exp2(-1 - float(halvings_of(i))) * sweep_of(fan, cloth, relative));
+    const uint memory = pair_memories[i].pass;
+    const uint halvings =
+        next_halvings(halvings_of(memory), pair_bounds[i].sweep, pair_interval() * length(relative));
+    pair_memories[i].pass = with_halvings(memory, halvings);
+    const uint word = pack_half_sweep(exp2(-1 - float(halvings)) * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;
     midpoints[i] = vec4(positions[i].xyz + half_carry + unpack_half_sweep(word), uintBitsToFloat(word));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;

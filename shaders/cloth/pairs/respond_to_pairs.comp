@@ -34,12 +34,13 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/direction.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/guard.glsl"
+#include "pairs/halvings.glsl"
 
 // m: the longest drift that is undone, as a part of the thickness.
 const float k_longest_slip = 0.02;
 const float k_keep_slip = 0.999;
-// How far a vertex moves until the next pass: this times its velocity, for impulses to come.
-const float k_wanted = 1.5;
+// Of the thickness: a vertex that moves by more until the next pass is fast.
+const float k_fast = 0.1;
 
 struct Gather
 {
@@ -58,7 +59,7 @@ struct Self
     float inverse_mass;
     uint carry;
     float rate; // of the clock
-    float wanted; // m, that it moves until the next pass, about
+    float loose; // of its planes (guard.glsl)
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
@@ -89,16 +90,16 @@ void store_guard(uint thread, PairGuard guard)
     shared_parts[3 * thread + 2] = vec4(guard.reach);
 }
 
-void join_guard(uint thread, inout PairGuard guard, float wanted)
+void join_guard(uint thread, inout PairGuard guard, float loose)
 {
     guard.reach = min(guard.reach, shared_parts[3 * thread + 2].x);
-    add_plane(guard, shared_parts[3 * thread], wanted);
-    add_plane(guard, shared_parts[3 * thread + 1], wanted);
+    add_plane(guard, shared_parts[3 * thread], loose);
+    add_plane(guard, shared_parts[3 * thread + 1], loose);
 }
 
 // What all threads of a vertex have gathered, in the first of them. The order is that of the lists, so that the result
 // does not depend on timing. Sums and guards take the same memory in turn.
-void merge(uint thread, uint lane, float wanted, inout Gather sum)
+void merge(uint thread, uint lane, float loose, inout Gather sum)
 {
     for (uint width = push.threads / 2; width > 0; width /= 2)
     {
@@ -114,7 +115,7 @@ void merge(uint thread, uint lane, float wanted, inout Gather sum)
         store_guard(thread, sum.guard);
         barrier();
         if (lane < width)
-            join_guard(thread + width, sum.guard, wanted);
+            join_guard(thread + width, sum.guard, loose);
     }
 }
 
@@ -145,8 +146,9 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
     const float height = entry_of(heights, first ? place : place - sides);
     const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x]);
-    add_plane(sum.guard, carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w),
-              self.wanted);
+    vec4 plane = carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w);
+    plane.w /= self.loose;
+    add_plane(sum.guard, plane, self.loose);
     const bool pushed = response.impulse != vec3(0);
     if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
@@ -159,11 +161,20 @@ void add_entry(uint entry, Self self, inout Gather sum)
         sum.change += own / mobility * response.impulse;
 }
 
+// Whether the vertex may move, until the next pass and relative to what carries it, by more than a ball of its guard
+// leaves it.
+bool is_fast(uint vertex, uint cloth)
+{
+    const vec3 carried = clock_rate() * carry_until_next(pair_carries[vertex]);
+    return is_crowded() &&
+           length(pair_interval() * velocities[vertex].xyz - carried) > k_fast * cloths[cloth].pair_thickness;
+}
+
 // `entry`: the vertex, its cloth, the first of its references, and their number.
 Self self_of(uvec4 entry)
 {
     return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate(),
-                k_wanted * pair_interval() * length(velocities[entry.x].xyz));
+                is_fast(entry.x, entry.y) ? 1 / k_tight : 1);
 }
 
 Gather gather(Self self, uint lane)
@@ -179,8 +190,8 @@ PairMemory remembered(uint i, uint cloth, Gather sum)
     const PairMemory before = pair_memories[i];
     PairMemory memory;
     memory.velocity = velocities[i].xyz + sum.change;
-    memory.pass = pair_pass();
-    const vec3 kept = before.pass + 1 == pair_pass() ? k_keep_slip * before.slip : vec3(0);
+    memory.pass = memory_word(halvings_of(before.pass));
+    const vec3 kept = is_of_last_pass(before.pass) ? k_keep_slip * before.slip : vec3(0);
     const vec3 slip = kept + sum.drift / max(sum.touching, 1e-30);
     const float longest = k_longest_slip * cloths[cloth].pair_thickness;
     memory.slip = sum.touching > 0 ? slip * min(1, longest / max(length(slip), 1e-30)) : vec3(0);
@@ -216,14 +227,14 @@ void main()
     const uvec4 self = exists ? paired_vertices[place] : uvec4(0);
     const uint i = self.x;
     Gather sum = nothing();
-    float wanted = 0;
+    float loose = 1;
     if (exists)
     {
         const Self gathering = self_of(self);
-        wanted = gathering.wanted;
+        loose = gathering.loose;
         sum = gather(gathering, lane);
     }
-    merge(thread, lane, wanted, sum);
+    merge(thread, lane, loose, sum);
     if (!exists || lane != 0)
         return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;

@@ -41,10 +41,14 @@
 #define VOILE_PAIR_ROUNDED_OFF 12
 // The dispatch whose `entries` count the pairs of an edge and a triangle that intersect at the step's start.
 #define VOILE_PAIR_TANGLED 13
+// The pass, + 1, that made the last lists that left little room to a vertex which a collider pushes. For some passes,
+// sweeps are halved where they leave little room. It is kept from step to step.
+#define VOILE_PAIR_CROWDED 14
+#define VOILE_PAIR_CROWDED_PASSES 64
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
-// How often the sweep of a vertex is halved (PairBound): the bits of that number; by how much it rises where a sweep
-// left no room; and for how many passes it is known.
+// How often the sweep of a vertex is halved (PairMemory): the bits of the number; by how much it rises where a sweep left no
+// room; for how many passes it is known.
 #define VOILE_PAIR_HALVING_BITS 3
 #define VOILE_PAIR_HALVINGS 2
 #define VOILE_PAIR_HALVED_PASSES 1024
@@ -125,7 +129,7 @@ struct PairGuard
     vec3 from;      // m
     float reach;    // m
     uvec2 residual; // of `from`
-    uint support;   // the direction (direction.glsl) in which a collider drives it, while it has VOILE_VERTEX_DRIVEN
+    uint support;   // the direction (direction.glsl) in which a collider drives it, while it has VOILE_VERTEX_SUPPORTED
     uint padding;
 };
 
@@ -135,14 +139,15 @@ struct PairBound
     PairSweep sweep;
     PairGuard guard; // void unless sweep.listed
     vec3 impulse;    // m/s, the change of velocity by the last pass
-    uint halvings;   // the pass that made the lists, and how often the next sweep is halved (halvings.glsl)
+    uint padding;
 };
 
 // What a vertex keeps from pass to pass.
 struct PairMemory
 {
     vec3 velocity; // m/s, after the last pass
-    uint pass;     // its number; if it is not the last one, velocity and slip are void
+    uint pass;     // its number, and how often the sweep is halved (memory.glsl). If it is not the last one, velocity and
+                   // slip are void.
     vec3 slip;     // m, how far the pairs that stick have drifted
     uint friction; // static and kinetic coefficients of the cloth, as halfs
 };

@@ -120,7 +120,8 @@ void PairRecorder::write_sizes()
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
     for (const uint32_t parity : {0u, 1u})
         sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0, std::as_bytes(std::span(sizes)),
+    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0,
+                     std::as_bytes(std::span(sizes).first(VOILE_PAIR_CROWDED)),
                      (*solver_.device)[buffer::tangles].handle());
     const shared::PairDispatch no_velocities{};
     write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),
