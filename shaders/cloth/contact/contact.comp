@@ -498,7 +498,7 @@ void main()
         }
         if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
             hold_at_features(i, shifted, motion);
-        if (held && drive.direction != vec3(0))
+        if (held && COLLIDERS_MOVE != 0 && drive.direction != vec3(0))
         {
             flags |= VOILE_VERTEX_SUPPORTED;
             pair_bounds[i].guard.support = pack_direction(drive.direction);

@@ -6,8 +6,8 @@
 
 const float k_unbounded = 1e30;
 
-// Planes of fast vertices are kept tighter than they are, by this part: else planes that are almost parallel would become a
-// ball that also holds a vertex which goes away from all of them.
+// Where colliders push crowded cloth, planes are kept tighter than they are, by this part: else planes that are almost parallel
+// would become a ball that also holds a vertex which goes away from all of them.
 const float k_tight = 0.8;
 
 // m: with length(d) <= this, a displacement d that satisfies plane q satisfies plane p, too. Both have s >= 0. `loose`: what

@@ -39,8 +39,6 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 // m: the longest drift that is undone, as a part of the thickness.
 const float k_longest_slip = 0.02;
 const float k_keep_slip = 0.999;
-// Of the thickness: a vertex that moves by more until the next pass is fast.
-const float k_fast = 0.1;
 
 struct Gather
 {
@@ -59,10 +57,12 @@ struct Self
     float inverse_mass;
     uint carry;
     float rate; // of the clock
-    float loose; // of its planes (guard.glsl)
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
+
+// Of planes (guard.glsl), the same for all vertices.
+float looseness() { return is_crowded() ? 1 / k_tight : 1; }
 
 Gather nothing()
 {
@@ -90,16 +90,16 @@ void store_guard(uint thread, PairGuard guard)
     shared_parts[3 * thread + 2] = vec4(guard.reach);
 }
 
-void join_guard(uint thread, inout PairGuard guard, float loose)
+void join_guard(uint thread, inout PairGuard guard)
 {
     guard.reach = min(guard.reach, shared_parts[3 * thread + 2].x);
-    add_plane(guard, shared_parts[3 * thread], loose);
-    add_plane(guard, shared_parts[3 * thread + 1], loose);
+    add_plane(guard, shared_parts[3 * thread], looseness());
+    add_plane(guard, shared_parts[3 * thread + 1], looseness());
 }
 
 // What all threads of a vertex have gathered, in the first of them. The order is that of the lists, so that the result
 // does not depend on timing. Sums and guards take the same memory in turn.
-void merge(uint thread, uint lane, float loose, inout Gather sum)
+void merge(uint thread, uint lane, inout Gather sum)
 {
     for (uint width = push.threads / 2; width > 0; width /= 2)
     {
@@ -115,7 +115,7 @@ void merge(uint thread, uint lane, float loose, inout Gather sum)
         store_guard(thread, sum.guard);
         barrier();
         if (lane < width)
-            join_guard(thread + width, sum.guard, loose);
+            join_guard(thread + width, sum.guard);
     }
 }
 
@@ -147,8 +147,8 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const float height = entry_of(heights, first ? place : place - sides);
     const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x]);
     vec4 plane = carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w);
-    plane.w /= self.loose;
-    add_plane(sum.guard, plane, self.loose);
+    plane.w /= looseness();
+    add_plane(sum.guard, plane, looseness());
     const bool pushed = response.impulse != vec3(0);
     if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
         return;
@@ -161,20 +161,10 @@ void add_entry(uint entry, Self self, inout Gather sum)
         sum.change += own / mobility * response.impulse;
 }
 
-// Whether the vertex may move, until the next pass and relative to what carries it, by more than a ball of its guard
-// leaves it.
-bool is_fast(uint vertex, uint cloth)
-{
-    const vec3 carried = clock_rate() * carry_until_next(pair_carries[vertex]);
-    return is_crowded() &&
-           length(pair_interval() * velocities[vertex].xyz - carried) > k_fast * cloths[cloth].pair_thickness;
-}
-
 // `entry`: the vertex, its cloth, the first of its references, and their number.
 Self self_of(uvec4 entry)
 {
-    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate(),
-                is_fast(entry.x, entry.y) ? 1 / k_tight : 1);
+    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate());
 }
 
 Gather gather(Self self, uint lane)
@@ -227,21 +217,16 @@ void main()
     const uvec4 self = exists ? paired_vertices[place] : uvec4(0);
     const uint i = self.x;
     Gather sum = nothing();
-    float loose = 1;
     if (exists)
-    {
-        const Self gathering = self_of(self);
-        loose = gathering.loose;
-        sum = gather(gathering, lane);
-    }
-    merge(thread, lane, loose, sum);
+        sum = gather(self_of(self), lane);
+    merge(thread, lane, sum);
     if (!exists || lane != 0)
         return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
     pair_bounds[i].impulse = sum.change;
     pair_memories[i] = remembered(i, self.y, sum);
-    sum.guard.from = positions[i].xyz;
-    sum.guard.residual = residuals[i];
-    sum.guard.support = pair_bounds[i].guard.support;
-    pair_bounds[i].guard = sum.guard;
+    pair_bounds[i].guard.planes = sum.guard.planes;
+    pair_bounds[i].guard.reach = sum.guard.reach;
+    pair_bounds[i].guard.from = positions[i].xyz;
+    pair_bounds[i].guard.residual = residuals[i];
 }

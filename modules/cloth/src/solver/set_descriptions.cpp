@@ -255,9 +255,9 @@ void Describer::add_pairs()
              {std::pair(&sets_.pair_clear, &kernels_.pair_clear), std::pair(&sets_.pair_sweeps, &kernels_.pair_sweeps)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
-        for (const auto& [set, kernel] : {std::pair(&sets_.index_pairs, &kernels_.index_pairs),
-                                          std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
-                                          std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
+        for (const auto& [set, kernel] :
+             {std::pair(&sets_.index_pairs, &kernels_.index_pairs), std::pair(&sets_.meet_pairs, &kernels_.meet_pairs),
+              std::pair(&sets_.respond_to_pairs, &kernels_.respond_to_pairs)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions},
                  {binding::stage_residuals, now.residuals},
