@@ -35,10 +35,16 @@ inline std::string scene(const std::string& colliders, const std::string& cloth 
     return scene_of(soft_sheet(cloth, height), colliders);
 }
 
+// A collider that is drawn, and that no cloth touches.
+inline std::string untouched(const std::string& collider)
+{
+    return collider.substr(0, collider.rfind('}')) + R"(, "layers": []})";
+}
+
 // A sheet and its collider among others in one scene. Their layers keep them apart.
 struct SceneCase
 {
-    std::string collider; // an object without `layers`
+    std::string collider; // an object without `layers`, or empty: none
     float height = 0.6f;  // m
 };
 
@@ -70,11 +76,19 @@ public:
             const std::string separator = i == 0 ? "" : ",\n";
             cloths += separator + soft_sheet(layers + R"(, "name": "c)" + std::to_string(i) + '"', cases[i].height);
             const std::string& collider = cases[i].collider;
-            colliders += separator + collider.substr(0, collider.rfind('}')) + layers + "}";
+            if (!collider.empty())
+                colliders += (colliders.empty() ? "" : ",\n") + collider.substr(0, collider.rfind('}')) + layers + "}";
         }
-        const double deepest = run_scene(scene_of(cloths, colliders), frames, options);
+        return run_named(scene_of(cloths, colliders), cases.size(), frames, options);
+    }
+
+    // A scene with as many cloths, which are called c0, c1 and so on.
+    std::vector<SceneResult> run_named(const std::string& text, size_t cloths, uint32_t frames,
+                                       const std::string& options = "--validate --verify")
+    {
+        const double deepest = run_scene(text, frames, options);
         std::vector<SceneResult> results;
-        for (size_t i = 0; i < cases.size(); ++i)
+        for (size_t i = 0; i < cloths; ++i)
             results.push_back({deepest, voile::engine::take(
                                             voile::engine::load_mesh(folder_ / ("s_c" + std::to_string(i) + ".obj")))});
         return results;
@@ -96,6 +110,7 @@ public:
                        std::to_string(every) + " --out " + folder_.path().string() + " " + options);
         CAPTURE(run.errors);
         REQUIRE(run.exit_code == 0);
+        output_ = run.output;
         const auto load = [&](uint32_t frame)
         {
             std::string number = std::to_string(frame);
@@ -106,6 +121,9 @@ public:
     }
 
     [[nodiscard]] const TestFolder& folder() const { return folder_; }
+
+    // Of the last run that drew pictures.
+    [[nodiscard]] const std::string& output() const { return output_; }
 
 private:
     // m: the deepest penetration. The exact checks print it; statistics take longer, because they measure every pass of
@@ -133,6 +151,7 @@ private:
     }
 
     TestFolder folder_;
+    std::string output_;
 };
 
 inline voile::engine::Bounds bounds(const SceneResult& result)
