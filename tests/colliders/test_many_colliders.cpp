@@ -32,7 +32,7 @@ public:
     {
         for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
         {
-            voile::GridCloth grid = flat_sheet(20, 0.8f, 0.75f);
+            voile::GridCloth grid = flat_sheet(15, 0.7f, 0.75f);
             grid.integrator = integrator;
             cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }

@@ -19,7 +19,7 @@ void add_layers(PairHarness& harness, int layers)
 {
     for (int i = 0; i < layers; ++i)
     {
-        voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.02f);
+        voile::GridCloth sheet = tests::pair_sheet(6, 6, 0.02f);
         const auto level = static_cast<float>(i);
         sheet.transform = at({0, 0.006f * level, 0}) * turned(0.3f * level, {0, 1, 0});
         harness.add(sheet);

@@ -38,11 +38,12 @@ struct Pulled
     float fastest = 0; // m/s
 };
 
+// At most so many frames, and two periods after no pair intersects.
 Pulled pull_apart(PairHarness& harness, int frames)
 {
     constexpr int k_period = 5;
     Pulled result{harness.intersections(), -1, 0};
-    for (int i = k_period; i <= frames; i += k_period)
+    for (int i = k_period; i <= frames && (result.frames < 0 || i <= result.frames + 2 * k_period); i += k_period)
     {
         harness.step(k_weightless, k_period);
         for (const voile::ClothId cloth : harness.cloths)

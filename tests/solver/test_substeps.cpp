@@ -114,7 +114,7 @@ private:
     uint32_t layers_ = 1;
 };
 
-constexpr uint32_t k_frames = 6;
+constexpr uint32_t k_frames = 4;
 
 voile::Step frame(uint32_t index)
 {
