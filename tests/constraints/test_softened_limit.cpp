@@ -76,6 +76,7 @@ double worst_stretch(ClothHarness& harness, const voile::GridCloth& grid, const 
     {
         harness.step(step);
         worst = std::max(worst, stretch_99(harness.positions(id), grid.columns));
+        MESSAGE("ZZ ", frame, " ", worst);
     }
     return worst;
 }

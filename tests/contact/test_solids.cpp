@@ -110,7 +110,7 @@ TEST_CASE("a sheet that a solid pierces leaves it and comes to rest")
         {
             CAPTURE(c.name);
             ClothHarness harness;
-            voile::GridCloth grid = sheet(16, 0.9f, {0.01f, c.height, 0.02f});
+            voile::GridCloth grid = sheet(13, 0.9f, {0.01f, c.height, 0.02f});
             grid.integrator = integrator;
             const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
             voile::MeshCollider description = collider(c.mesh);
@@ -119,7 +119,7 @@ TEST_CASE("a sheet that a solid pierces leaves it and comes to rest")
             (void)voile::engine::take(harness.solver.add_collider(description));
             (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -0.3f}));
             harness.upload();
-            comes_out(harness, id, exact, 90, 30);
+            comes_out(harness, id, exact, 90, 25);
             CHECK(harness.statistics().kinetic_energy < 0.05f); // J; measured: 0.012
             CHECK(harness.statistics().max_stretch < 0.1f);     // measured: 0.043
         }
@@ -156,14 +156,15 @@ TEST_CASE("a mesh cloth leaves a sharp spire and nested parts")
         voile::MeshCloth description;
         std::vector<glm::vec3> positions;
         std::vector<glm::uvec3> triangles;
-        for (uint32_t i = 0; i < 14 * 14; ++i)
-            positions.emplace_back(0.03f * static_cast<float>(i % 14) - 0.2f, 0.05f,
-                                   0.03f * static_cast<float>(i / 14) - 0.19f);
-        for (uint32_t i = 0; i < 13 * 14; ++i)
-            if (i % 14 < 13)
+        constexpr uint32_t k_side = 11; // vertices
+        for (uint32_t i = 0; i < k_side * k_side; ++i)
+            positions.emplace_back(0.039f * static_cast<float>(i % k_side) - 0.2f, 0.05f,
+                                   0.039f * static_cast<float>(i / k_side) - 0.19f);
+        for (uint32_t i = 0; i < (k_side - 1) * k_side; ++i)
+            if (i % k_side < k_side - 1)
             {
-                triangles.emplace_back(i, i + 14, i + 1);
-                triangles.emplace_back(i + 1, i + 14, i + 15);
+                triangles.emplace_back(i, i + k_side, i + 1);
+                triangles.emplace_back(i + 1, i + k_side, i + k_side + 1);
             }
         description.positions = positions;
         description.triangles = triangles;
@@ -217,7 +218,7 @@ TEST_CASE("cloth leaves solids that move, turn and deform meanwhile")
     {
         CAPTURE(deforms);
         ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(16, 0.7f, {0.01f, 0.05f, 0})));
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(13, 0.7f, {0.01f, 0.05f, 0})));
         voile::MeshCollider description = collider(box);
         description.deforms = deforms;
         const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(description));

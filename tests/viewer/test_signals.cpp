@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 using tests::Ending;
 using tests::ViewerProcess;
 
-const std::vector<std::string> k_endless = {"reference", "--headless", "--frames",           "100000000",
-                                            "--size",    "64x36",      "--cloth-resolution", "16"};
+// Without contact, so that the first frame comes soon.
+const std::vector<std::string> k_endless = {"flag",   "--headless", "--frames",           "100000000",
+                                            "--size", "64x36",      "--cloth-resolution", "16"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more)
 {
@@ -163,7 +164,7 @@ TEST_CASE("a closed terminal does not end a run")
         ::dup2(ends[1], STDERR_FILENO);
         ::dup2(ends[1], STDOUT_FILENO);
     };
-    ViewerProcess viewer({"reference", "--headless", "--frames", "20", "--size", "64x36", "--cloth-resolution", "16",
+    ViewerProcess viewer({"flag", "--headless", "--frames", "20", "--size", "64x36", "--cloth-resolution", "16",
                           "--stats", (folder / "s.json").string(), "--export", (folder / "c.pc2").string()},
                          broken);
     const Ending ending = viewer.wait();
@@ -180,7 +181,7 @@ TEST_CASE("a pipe instead of a scene or a mesh is refused and delays no signal")
     const std::string fifo = (folder / "pipe.obj").string();
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{fifo, "--headless"}, {"reference", "--headless", "--collider", fifo}})
+         {std::vector<std::string>{fifo, "--headless"}, {"flag", "--headless", "--collider", fifo}})
     {
         ViewerProcess viewer(arguments);
         const Ending ending = viewer.wait();
@@ -188,7 +189,7 @@ TEST_CASE("a pipe instead of a scene or a mesh is refused and delays no signal")
         CHECK(ending.errors == "viewer: " + fifo + ": cannot read: not a regular file\n");
     }
     // Where the viewer does wait for somebody else, signals end it: a pipe as a target has no reader.
-    ViewerProcess viewer({"reference", "--headless", "--frames", "1", "--stats", fifo});
+    ViewerProcess viewer({"flag", "--headless", "--frames", "1", "--stats", fifo});
     std::this_thread::sleep_for(std::chrono::seconds(1));
     viewer.send(SIGINT);
     CHECK(viewer.wait().signal == SIGINT);
@@ -197,7 +198,7 @@ TEST_CASE("a pipe instead of a scene or a mesh is refused and delays no signal")
 TEST_CASE("ignored signals stay ignored, as nohup requires")
 {
     const TestFolder folder;
-    ViewerProcess viewer({"reference", "--headless", "--frames", "30", "--size", "64x36", "--cloth-resolution", "16",
+    ViewerProcess viewer({"flag", "--headless", "--frames", "80", "--size", "64x36", "--cloth-resolution", "16",
                           "--export", (folder / "c.pc2").string()},
                          [] { ::signal(SIGHUP, SIG_IGN); });
     REQUIRE(ViewerProcess::wait_until([&] { return !unfinished(folder).empty(); }));

@@ -12,7 +12,7 @@ using tests::difference;
 using tests::headless;
 using tests::hide_panel;
 using tests::is_missing;
-using tests::k_reference;
+using tests::k_flag;
 using tests::picture_when;
 using tests::read_statistics;
 using tests::Session;
@@ -61,7 +61,7 @@ TEST_CASE("a period takes one step while paused, and R starts again")
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, with(k_reference, {"--stats", stats}));
+    Session session(display, folder, with(k_flag, {"--stats", stats}));
     session.step(3);
     session.window.press(XK_r);
     REQUIRE(session.window.wait_for_title("at frame 0"));
@@ -69,7 +69,7 @@ TEST_CASE("a period takes one step while paused, and R starts again")
     session.close();
     const Statistics statistics = read_statistics(stats);
     CHECK(statistics.frames == 2);
-    CHECK(statistics.hash == headless(folder, k_reference, 2).hash);
+    CHECK(statistics.hash == headless(folder, k_flag, 2).hash);
 }
 
 TEST_CASE("space pauses and continues, and nothing is simulated while paused or minimized")
@@ -78,7 +78,7 @@ TEST_CASE("space pauses and continues, and nothing is simulated while paused or 
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, k_reference);
+    Session session(display, folder, k_flag);
     XWindow& window = session.window;
     window.press(XK_space);
     REQUIRE(window.wait_for_title("paused", false));
@@ -102,7 +102,7 @@ TEST_CASE("a window is resized, and Escape closes it")
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, k_reference);
+    Session session(display, folder, k_flag);
     session.step(1);
     for (const unsigned int width : {500u, 200u})
     {
@@ -228,11 +228,11 @@ TEST_CASE("the panel shows and hides, and a picture is saved without it")
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, k_reference, "640x400");
+    Session session(display, folder, k_flag, "640x400");
     XWindow& window = session.window;
     session.step(2);
     window.press(XK_F2);
-    const std::filesystem::path saved = folder / "reference_1.png";
+    const std::filesystem::path saved = folder / "flag_1.png";
     REQUIRE(ViewerProcess::wait_until([&] { return std::filesystem::exists(saved); }));
     const auto file = voile::engine::load_png(saved);
     REQUIRE(file);

@@ -11,7 +11,7 @@ using tests::difference;
 using tests::headless;
 using tests::hide_panel;
 using tests::is_missing;
-using tests::k_reference;
+using tests::k_flag;
 using tests::picture_when;
 using tests::read_statistics;
 using tests::Session;
@@ -32,7 +32,7 @@ TEST_CASE("a changed shader of the cloth starts the scene again, and one that is
         REQUIRE(changed.find(part) != std::string::npos);
         std::ofstream(cloth / file) << changed.replace(changed.find(part), part.size(), by);
     };
-    const std::vector<std::string> arguments = with(k_reference, {"--shaders", (folder / "shaders").string()});
+    const std::vector<std::string> arguments = with(k_flag, {"--shaders", (folder / "shaders").string()});
     const std::string stats = (folder / "stats.json").string();
     const XServer display;
     if (is_missing(display))
@@ -52,7 +52,7 @@ TEST_CASE("a changed shader of the cloth starts the scene again, and one that is
     write("constraints/pin.comp", "void main()", "void main()");
     const std::string hash = read_statistics(stats).hash;
     CHECK(hash == headless(folder, arguments, 2).hash);
-    CHECK(hash != headless(folder, k_reference, 2).hash);
+    CHECK(hash != headless(folder, k_flag, 2).hash);
 }
 
 TEST_CASE("a changed shader changes the picture, and a broken one is reported by its line")
@@ -70,7 +70,7 @@ TEST_CASE("a changed shader changes the picture, and a broken one is reported by
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, with(k_reference, {"--shaders", (folder / "shaders/render").string()}));
+    Session session(display, folder, with({"reference", "--cloth-resolution", "16"}, {"--shaders", (folder / "shaders/render").string()}));
     XWindow& window = session.window;
     const voile::engine::Picture before = hide_panel(window);
     write("return gradient + glow;", "return vec3(1, 0, 0);");

@@ -17,7 +17,7 @@
 namespace tests
 {
 
-inline const std::vector<std::string> k_reference{"reference", "--cloth-resolution", "16"};
+inline const std::vector<std::string> k_flag{"flag", "--cloth-resolution", "16"};
 
 // ctest skips tests with this message.
 inline bool is_missing(const XServer& display)
