@@ -1,6 +1,7 @@
 // A component of your own: a ball that swings through a curtain. A component is one class. The scene calls its hooks
 // each frame: `update` for the host's work, `record_draw` for each view. With a display this opens a window. Without
-// one it simulates a second, writes own_component.png and prints how many vertices of the curtain the ball touched.
+// one (--headless [frames]) it simulates a second, writes own_component.png and prints how many vertices of the curtain
+// the ball touched.
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <string_view>
 
@@ -69,7 +71,7 @@ voile::GridCloth curtain()
     return grid;
 }
 
-void run(bool headless)
+void run(bool headless, uint64_t frames)
 {
     voile::engine::App app({.title = "a component of your own", .headless = headless});
     voile::engine::Scene& scene = app.scene();
@@ -88,10 +90,9 @@ void run(bool headless)
 
     voile::engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
     const voile::engine::IdleGuard idle(app.device());
-    constexpr uint64_t k_frames = 60;
     uint32_t last_slot = 0;
     uint32_t most_contacts = 0;
-    app.draws = [](const FrameInfo& frame) { return frame.index + 1 == k_frames; };
+    app.draws = [frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
     app.after_render = [&](VkCommandBuffer cmd, const FrameInfo& frame)
     {
         if (!app.has_window() && app.draws(frame))
@@ -103,10 +104,10 @@ void run(bool headless)
         most_contacts = std::max(most_contacts, contacts);
         if (!app.has_window() && frame.index % 10 == 9)
             std::printf("frame %3u of %u: %u vertices touch\n", static_cast<unsigned>(frame.index + 1),
-                        static_cast<unsigned>(k_frames), contacts);
+                        static_cast<unsigned>(frames), contacts);
         std::fflush(stdout);
     };
-    app.run(k_frames);
+    app.run(frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("own_component.png", readback.picture(last_slot)));
@@ -119,7 +120,7 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless");
+        run(argc > 1 && std::string_view(argv[1]) == "--headless", argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
         return 0;
     }
     catch (const voile::engine::StartupError& error)

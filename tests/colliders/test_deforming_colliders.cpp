@@ -101,8 +101,7 @@ TEST_CASE("friction on a flowing surface carries cloth along")
     constexpr uint32_t k_side = 21;
     for (uint32_t row = 0; row < k_side; ++row)
         for (uint32_t column = 0; column < k_side; ++column)
-            ground.positions.emplace_back(0.1f * static_cast<float>(column) - 1, 0,
-                                          0.1f * static_cast<float>(row) - 1);
+            ground.positions.emplace_back(0.1f * static_cast<float>(column) - 1, 0, 0.1f * static_cast<float>(row) - 1);
     for (uint32_t row = 0; row + 1 < k_side; ++row)
         for (uint32_t column = 0; column + 1 < k_side; ++column)
         {

@@ -65,7 +65,7 @@ double stretch_99(const std::vector<glm::vec4>& x, uint32_t side)
     return *at;
 }
 
-// The largest over all frames.
+// The largest over all frames. It is reached after 29 frames in the drape scene, after 49 on two corners.
 double worst_stretch(ClothHarness& harness, const voile::GridCloth& grid, const voile::Step& step, uint32_t frames)
 {
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -76,7 +76,6 @@ double worst_stretch(ClothHarness& harness, const voile::GridCloth& grid, const 
     {
         harness.step(step);
         worst = std::max(worst, stretch_99(harness.positions(id), grid.columns));
-        MESSAGE("ZZ ", frame, " ", worst);
     }
     return worst;
 }
@@ -89,28 +88,28 @@ TEST_CASE("cotton of 64 x 64 in 16 and 8 of 175 substeps keeps its size as it ha
     {
         CAPTURE(substeps);
         ClothHarness harness;
-        CHECK(worst_stretch(harness, pinned(64), {.max_substeps = substeps}, 60) < 0.08);
+        CHECK(worst_stretch(harness, pinned(64), {.max_substeps = substeps}, 50) < 0.08);
     }
     ClothHarness harness; // what the limit is for
-    CHECK(worst_stretch(harness, pinned(64), {.max_substeps = 16, .softened_strain_limit = 0}, 60) > 0.2);
+    CHECK(worst_stretch(harness, pinned(64), {.max_substeps = 16, .softened_strain_limit = 0}, 40) > 0.2);
 }
 
 TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size as it hangs from two corners")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, pinned(128), {.max_substeps = 16}, 60) < 0.08);
+    CHECK(worst_stretch(harness, pinned(128), {.max_substeps = 16}, 50) < 0.08);
 }
 
 TEST_CASE("cotton of 64 x 64 in 16 of 175 substeps keeps its size in the drape scene")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, over_heart(harness, 64), {.max_substeps = 16}, 60) < 0.08);
+    CHECK(worst_stretch(harness, over_heart(harness, 64), {.max_substeps = 16}, 40) < 0.08);
 }
 
 TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size in the drape scene")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, over_heart(harness, 128), {.max_substeps = 16}, 50) < 0.08);
+    CHECK(worst_stretch(harness, over_heart(harness, 128), {.max_substeps = 16}, 35) < 0.08);
 }
 
 // Cloth lies on a sphere by shearing.

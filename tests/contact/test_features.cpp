@@ -383,7 +383,7 @@ TEST_CASE("own masses of any size are not thrown at the edges of a box")
                 harness.solver.add_collider(voile::BoxCollider{.min = {-0.3f, 0, -0.3f}, .max = {0.3f, 0.24f, 0.3f}}));
             harness.upload();
             float fastest = 0;
-            for (int i = 0; i < 40; ++i)
+            for (int i = 0; i < 30; ++i)
             {
                 harness.step({.max_substeps = 20});
                 for (const glm::vec4& v : harness.velocities(id))

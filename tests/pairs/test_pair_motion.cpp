@@ -200,16 +200,16 @@ TEST_CASE("a ball that is driven at 8 m/s into a sheet that collides with itself
     }
 }
 
-// Without the speed that colliders keep, shorter sweeps and supported impulses the sheets pass the ball, and single vertices
-// reach 40 to 130 m/s.
+// Without the speed that colliders keep, shorter sweeps and supported impulses the sheets pass the ball, and single
+// vertices reach 40 to 130 m/s.
 TEST_CASE("a ball drives one sheet into another one, and takes both along")
 {
     constexpr float k_speed = 4; // m/s
     for (const voile::Integrator integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
     {
         PairHarness harness;
-        const voile::ColliderId ball = take(
-            harness.solver.add_collider(voile::SphereCollider{.center = {0, -0.12f, 0}, .radius = 0.08f}));
+        const voile::ColliderId ball =
+            take(harness.solver.add_collider(voile::SphereCollider{.center = {0, -0.12f, 0}, .radius = 0.08f}));
         for (const float height : {0.f, 0.02f})
         {
             voile::GridCloth sheet = tests::pair_sheet(16, 16, 0.025f);

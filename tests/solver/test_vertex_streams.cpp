@@ -147,10 +147,11 @@ TEST_CASE("the vertex streams have device addresses, from the module's allocator
     }
     voile::engine::Device device(
         {.device = {}, .validation = true, .instance_extensions = {}, .swapchain = false, .device_addresses = true});
+    tests::KeptPipelines kept(device.context());
     for (const bool hosts : {false, true})
     {
         CAPTURE(hosts);
-        voile::Handles handles = device.context().handles;
+        voile::Handles handles = kept.handles();
         if (!hosts)
             handles.buffer_allocator = nullptr;
         voile::engine::FrameRing frames(device, 1);

@@ -22,23 +22,23 @@ namespace tests
 class KeptPipelines
 {
 public:
-    // The device's handles, with functions that keep pipelines. For one device per process.
+    // The test device's handles, with functions that keep pipelines.
     static voile::Handles handles(const voile::gpu::Context& context)
     {
         static KeptPipelines kept(context);
-        s_kept = &kept;
-        voile::Handles result = context.handles;
-        result.get_instance_proc_addr = &instance_function;
-        return result;
+        return kept.handles();
     }
 
-private:
+    // Of another device, which must live longer. One at a time: what solvers of others make meanwhile is made with it.
     explicit KeptPipelines(const voile::gpu::Context& context) : context_(context), fn_(context.fn)
     {
         const auto get = context.handles.get_instance_proc_addr;
         get_device_function_ =
             reinterpret_cast<PFN_vkGetDeviceProcAddr>(get(context.handles.instance, "vkGetDeviceProcAddr"));
     }
+
+    KeptPipelines(const KeptPipelines&) = delete;
+    KeptPipelines& operator=(const KeptPipelines&) = delete;
 
     // Before the device, which was made first.
     ~KeptPipelines()
@@ -51,6 +51,15 @@ private:
             fn_.vkDestroyDescriptorSetLayout(context_.device(), layout, nullptr);
     }
 
+    voile::Handles handles()
+    {
+        s_kept = this;
+        voile::Handles result = context_.handles;
+        result.get_instance_proc_addr = &instance_function;
+        return result;
+    }
+
+private:
     // A pipeline that is made when it is first bound.
     struct Promise
     {
