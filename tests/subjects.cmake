@@ -189,6 +189,8 @@ endforeach()
 ]])
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/late_pipelines.cmake)
     # The hosts of the module, too. "foreign_engine: a sheet falls on a ball" makes all pipelines in advance.
+    set_tests_properties("async_compute: each frame is drawn from its own vertices" PROPERTIES ENVIRONMENT
+        "VK_ADD_LAYER_PATH=${layers};VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines:VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
     set_property(TEST "consumer: find_package" "consumer: add_subdirectory" APPEND PROPERTY ENVIRONMENT
         VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
     if(XVFB_RUN)
