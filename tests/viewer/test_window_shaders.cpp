@@ -70,7 +70,9 @@ TEST_CASE("a changed shader changes the picture, and a broken one is reported by
     const XServer display;
     if (is_missing(display))
         return;
-    Session session(display, folder, with({"reference", "--cloth-resolution", "16"}, {"--shaders", (folder / "shaders/render").string()}));
+    Session session(
+        display, folder,
+        with({"reference", "--cloth-resolution", "16"}, {"--shaders", (folder / "shaders/render").string()}));
     XWindow& window = session.window;
     const voile::engine::Picture before = hide_panel(window);
     write("return gradient + glow;", "return vec3(1, 0, 0);");
