@@ -76,6 +76,7 @@ layout(push_constant, std430) uniform Push { ContactPush push; };
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
 #include "pairs/direction.glsl"
+#include "pairs/drive.glsl"
 #include "pairs/hold.glsl"
 #include "pairs/untangle.glsl"
 
@@ -144,13 +145,6 @@ float lift_of(Contact contact, float thickness)
     const float lift = min(thickness, contact.start + VOILE_DEPENETRATION_SPEED * seconds(push.substeps)) - contact.gap;
     return contact.start < 0 ? lift : max(lift, 0);
 }
-
-// What a collider imposes on a vertex.
-struct Drive
-{
-    vec3 direction; // unit; 0: nothing
-    float speed;    // m/s, along it
-};
 
 // The contacts of a vertex in this substep.
 struct ContactState
@@ -276,7 +270,7 @@ ColliderWalk walk_path(Motion motion)
 // would stop a vertex that the other releases.
 ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidates list, bool leaves_solid)
 {
-    ContactState state = ContactState(false, false, false, leaves_solid, Drive(vec3(0), 0));
+    ContactState state = ContactState(false, false, false, leaves_solid, k_no_drive);
     bool path_only = false;
     ColliderWalk walk = walk_path(motion);
     while (true)
@@ -367,26 +361,6 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
     velocities[i] = proposed_velocities[i];
     if (is_verlet(cloths[cloth].flags))
         predicted[i] = proposed_predicted[i];
-}
-
-// m/s: what cloth that a moving collider pushes gives other cloth in a pass. Cloth at rest gives less.
-const float k_push = 0.5;
-
-// What of an impulse is in a velocity.
-Drive drive_of(vec3 impulse, vec3 v)
-{
-    const float size = length(impulse);
-    const vec3 direction = impulse / max(size, 1e-30);
-    return Drive(direction, clamp(dot(v, direction), 0, size));
-}
-
-// Guards cut what a collider or an impulse has just given a vertex, for nothing could know of it when they were made. It is
-// kept, so that the next pass hands it on.
-// `carry`: m/s, of what the drive is relative to.
-void keep(Drive drive, vec3 carry, inout vec3 v)
-{
-    if (drive.speed > 0)
-        v += max(drive.speed - dot(v - carry, drive.direction), 0) * drive.direction;
 }
 
 // The impulses of pairs act in the first substep after their pass. Whether the motion changes. `impulse`: what they give.
@@ -481,7 +455,7 @@ void main()
         contact.layers = cloths[cloth].layers;
         contact.normal = METHOD == k_method_normal_ray ? vertex_normal(self) : vec3(0);
         const Depenetration depenetration = depenetration_of(i);
-        Drive drive = Drive(vec3(0), 0);
+        Drive drive = k_no_drive;
         if (depenetration.solid != 0)
         {
             drive = depenetrate(i, motion, depenetration);

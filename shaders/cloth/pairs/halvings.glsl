@@ -14,13 +14,13 @@ bool is_crowded()
     return pair_pass() + 1 - pair_searches[VOILE_PAIR_CROWDED].entries <= VOILE_PAIR_CROWDED_PASSES;
 }
 
-// `sweep`: of the last lists. `way`: m, until the next pass, relative to what carries the vertex. Twice the sweep costs about
-// half of its length in reach.
-uint next_halvings(uint before, PairSweep sweep, float way)
+// `sweep`: of the last lists. `displacement`: m, until the next pass, relative to what carries the vertex. Twice the
+// sweep costs about half of its length in reach.
+uint next_halvings(uint before, PairSweep sweep, float displacement)
 {
-    if (!is_crowded() || sweep.reach - VOILE_PAIR_APPROACH * length(sweep.sweep) > 1.5 * way)
+    if (!is_crowded() || sweep.reach - VOILE_PAIR_APPROACH * length(sweep.sweep) > 1.5 * displacement)
         return max(before, 1) - 1;
-    return min(before + (sweep.reach <= 0 ? VOILE_PAIR_HALVINGS : sweep.reach < way ? 1 : 0), k_most_halvings);
+    return min(before + (sweep.reach <= 0 ? VOILE_PAIR_HALVINGS : sweep.reach < displacement ? 1 : 0), k_most_halvings);
 }
 
 #endif

@@ -127,7 +127,7 @@ void refer(Fan fan, uint at)
 
 // Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
 // vertex stays on its carry. All that falls freely has the same. Else the clock stops, and the vertex stays where it is.
-// The next sweeps are shorter.
+// The next sweeps are shorter, because it loses its velocity or, if a collider pushes it, by halvings.glsl.
 void bound(uint i, uint cloth, float reach, bool listed)
 {
     PairSweep sweep;

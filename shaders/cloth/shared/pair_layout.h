@@ -47,8 +47,8 @@
 #define VOILE_PAIR_CROWDED_PASSES 64
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
-// How often the sweep of a vertex is halved (PairMemory): the bits of the number; by how much it rises where a sweep left no
-// room; for how many passes it is known.
+// How often the sweep of a vertex is halved (PairMemory): the bits of the number; by how much it rises where a sweep
+// left no room; for how many passes it is known.
 #define VOILE_PAIR_HALVING_BITS 3
 #define VOILE_PAIR_HALVINGS 2
 #define VOILE_PAIR_HALVED_PASSES 1024
@@ -146,9 +146,9 @@ struct PairBound
 struct PairMemory
 {
     vec3 velocity; // m/s, after the last pass
-    uint pass;     // its number, and how often the sweep is halved (memory.glsl). If it is not the last one, velocity and
-                   // slip are void.
-    vec3 slip;     // m, how far the pairs that stick have drifted
+    uint pass; // its number, and how often the sweep is halved (memory.glsl). If it is not the last one, velocity and
+               // slip are void.
+    vec3 slip; // m, how far the pairs that stick have drifted
     uint friction; // static and kinetic coefficients of the cloth, as halfs
 };
 
