@@ -119,6 +119,15 @@ float support_of(Pair pair, vec4 weights, Vertices vertices, vec3 n)
     return min(mobility / max(dot(mobilities, gives_way), 1e-30), k_most_support);
 }
 
+// 0..1: the part of an impulse with which no vertex changes its velocity by more than the pair does. Less than 1 only where
+// the nearest point is almost at a vertex without mass, or one that is much heavier than its neighbors: to move it, they
+// would have to move farther by the inverse of their weights, and where pins press cloth into itself that is in vain.
+float lever_of(vec4 weights, vec4 mobilities)
+{
+    const vec4 own = abs(mobilities);
+    return min(dot(weights, mobilities) / max(max(max(own.x, own.y), max(own.z, own.w)), 1e-30), 1);
+}
+
 // How both sides of a pair move relative to each other, at their nearest points.
 struct Approach
 {
@@ -228,8 +237,8 @@ void main()
     const Approach approach =
         Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
                  support_of(pair, nearest.weights, vertices, n));
-    response.impulse = impulse_of(approach, friction_of(pair), drift);
     response.mobilities = nearest.weights * vertices.inverse_masses;
+    response.impulse = lever_of(nearest.weights, response.mobilities) * impulse_of(approach, friction_of(pair), drift);
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
