@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Finds the vertices whose primitives may be near those of a vertex: its candidates. One thread per vertex. The vertices
-// that have many are listed, in no order, for find_pairs.comp, and the candidates of the others for
-// sift_candidates.comp.
+// Finds the vertices whose primitives may be near those of a vertex: its candidates. push.candidate_lanes threads per
+// vertex traverse the hierarchy alike. Each takes some of the vertices of a leaf, so that each of them has a list of its
+// own, whatever the number of threads. The vertices that have many candidates are listed, in no order, for find_pairs.comp,
+// and the candidates of the others for sift_candidates.comp.
 //
 // Most vertices that are near each other are neighbors in cloth that is almost flat (flat.glsl). They are no candidates.
 #include "shared/bindings.h"
@@ -31,6 +32,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "contact/rounding.glsl"
 #include "shared/box.glsl"
+#include "pairs/candidate_lists.glsl"
 #include "pairs/flat.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/reservation.glsl"
@@ -51,7 +53,9 @@ struct Search
     vec2 heights;     // m, the lowest and the highest of the fan along it, from the viewpoint
     float range;
     float rounding; // m, of positions near it
-    uint count;
+    uint lane;
+    uint lengths;   // of the lists of candidates, VOILE_PAIR_LENGTH_BITS each
+    bool overflows; // one of them is full, and there are more
 };
 
 #define VOILE_QUERY Search
@@ -126,7 +130,8 @@ bool are_near(Search search, Hull hull)
            hull.heights.y >= search.heights.x - margin;
 }
 
-void consider(inout Search search, uint vertex, uint cloth)
+// `list`: of candidates.
+void consider(inout Search search, uint vertex, uint cloth, uint list)
 {
     if (vertex == search.fan.center || !meets(search.cloth, cloth))
         return;
@@ -134,16 +139,22 @@ void consider(inout Search search, uint vertex, uint cloth)
         return;
     if (!are_near(search, hull_of(fan_of(cloth, vertex), search.from, search.normal)))
         return;
-    if (search.count < VOILE_PAIR_CANDIDATES)
-        candidates[search.fan.center * VOILE_PAIR_CANDIDATES + search.count] = vertex;
-    ++search.count;
+    const uint length = length_of(search.lengths, list);
+    if (length == VOILE_PAIR_CANDIDATE_LIST)
+    {
+        search.overflows = true;
+        return;
+    }
+    candidates[candidate_place(search.fan.center, list, length)] = vertex;
+    search.lengths += 1u << list * VOILE_PAIR_LENGTH_BITS;
 }
 
 void visit_leaf(inout Search search, uint leaf, uint count)
 {
     const uint first = padded_boxes[leaf].padding_0 * VOILE_PAIR_LEAF;
-    for (uint place = first; place < min(first + VOILE_PAIR_LEAF, push.places); ++place)
-        consider(search, pair_order[place].x, pair_order[place].y);
+    const uint end = min(first + VOILE_PAIR_LEAF, push.places);
+    for (uint place = first + search.lane; place < end; place += push.candidate_lanes)
+        consider(search, pair_order[place].x, pair_order[place].y, place - first);
 }
 
 #include "colliders/padded.glsl"
@@ -162,7 +173,7 @@ vec3 normal_of(Search search)
     return normal;
 }
 
-Search search_of(uint vertex, uint cloth)
+Search search_of(uint vertex, uint cloth, uint lane)
 {
     Search search;
     search.fan = fan_of(cloth, vertex);
@@ -179,21 +190,56 @@ Search search_of(uint vertex, uint cloth)
     search.hull = hull.box;
     search.tree_hull = hull_of(search.fan, Viewpoint(search.from.x, tree_carry(), tree_fall()), search.normal).box;
     search.heights = hull.heights;
-    search.count = 0;
+    search.lane = lane;
     return search;
 }
 
+// Of each thread: what it has found, and whether it must search again.
+shared uint shared_lengths[gl_WorkGroupSize.x];
+shared float shared_ranges[gl_WorkGroupSize.x];
+shared uint shared_overflows[gl_WorkGroupSize.x];
+shared uint searching_again;
+
+// What all threads of a vertex have found, in each of them. All threads of the workgroup call it.
+void share(inout Search search, uint thread, bool searches)
+{
+    shared_lengths[thread] = search.lengths;
+    shared_ranges[thread] = search.range;
+    shared_overflows[thread] = search.overflows ? 1 : 0;
+    if (thread == 0)
+        searching_again = 0;
+    barrier();
+    const uint first = thread - search.lane;
+    for (uint k = first; k < first + push.candidate_lanes; ++k)
+    {
+        search.lengths |= shared_lengths[k];
+        search.range = min(search.range, shared_ranges[k]);
+        search.overflows = search.overflows || shared_overflows[k] != 0;
+    }
+    if (searches && search.overflows)
+        searching_again = 1;
+    barrier();
+}
+
 // A vertex with too many candidates searches again in a smaller range, at last with as many as fit and no range at all.
-void find(inout Search search)
+// All threads of the workgroup call it.
+void find(inout Search search, uint thread, bool searches)
 {
     for (uint k = 0; k <= k_retries; ++k)
     {
-        search.count = 0;
-        search.box = grown(shifted(search.tree_hull, search.from.x), search.range + search.rounding);
-        traverse_padded(search, 0, (1u << findMSB(2 * push.leaves - 1)) - 1, push.leaves);
-        if (search.count <= VOILE_PAIR_CANDIDATES)
+        if (searches && (k == 0 || search.overflows))
+        {
+            search.lengths = 0;
+            search.overflows = false;
+            search.box = grown(shifted(search.tree_hull, search.from.x), search.range + search.rounding);
+            traverse_padded(search, 0, (1u << findMSB(2 * push.leaves - 1)) - 1, push.leaves);
+        }
+        share(search, thread, searches);
+        if (searching_again == 0)
             return;
-        search.range *= k < k_retries ? k_retry_range : 0;
+        if (search.overflows)
+            search.range *= k < k_retries ? k_retry_range : 0;
+        barrier();
     }
 }
 
@@ -203,33 +249,40 @@ shared uint shared_candidates;
 
 void main()
 {
-    const uint at = gl_GlobalInvocationID.x;
-    if (gl_LocalInvocationID.x == 0)
+    const uint thread = gl_LocalInvocationID.x;
+    const uint lanes = push.candidate_lanes;
+    const uint at = gl_GlobalInvocationID.x / lanes;
+    if (thread == 0)
         shared_vertices = shared_candidates = 0;
-    uint vertex = 0;
-    uint count = 0;
-    if (at < push.places && collides_with_itself(pair_order[at].y))
-    {
-        vertex = pair_order[at].x;
-        Search search = search_of(vertex, pair_order[at].y);
-        find(search);
-        count = min(search.count, VOILE_PAIR_CANDIDATES);
-        pair_lists[vertex] = PairList(search.range, 0, search.cloth, count);
-    }
+    const bool searches = at < push.places && collides_with_itself(pair_order[at].y);
+    const uint vertex = searches ? pair_order[at].x : 0;
+    Search search;
+    search.lane = thread % lanes;
+    search.lengths = 0;
+    search.range = k_unbounded;
+    search.overflows = false;
+    if (searches)
+        search = search_of(vertex, pair_order[at].y, search.lane);
+    find(search, thread, searches);
+    if (searches && search.lane == 0)
+        pair_lists[vertex] = PairList(search.range, 0, search.cloth, search.lengths);
     // What has many candidates is almost surely near one of them.
-    const bool searches = count > push.sifted;
+    const bool many = sum_of_lengths(search.lengths, 0, 1) > push.sifted;
+    const uint own = sum_of_lengths(search.lengths, search.lane, lanes);
+    const bool listed = many && search.lane == 0;
+    uint place = listed ? atomicAdd(shared_vertices, 1) : !many && own > 0 ? atomicAdd(shared_candidates, own) : 0;
     barrier();
-    uint place = searches ? atomicAdd(shared_vertices, 1) : count > 0 ? atomicAdd(shared_candidates, count) : 0;
-    barrier();
-    if (gl_LocalInvocationID.x == 0)
+    if (thread == 0)
     {
         reserve(shared_vertices, VOILE_PAIR_FIND, push.lanes);
         reserve(shared_candidates, VOILE_PAIR_SIFT, 1);
     }
     barrier();
-    if (searches)
+    if (listed)
         searching_vertices[shared_vertices + place] = vertex;
-    else
-        for (uint k = 0; k < count; ++k)
-            candidate_places[shared_candidates + place + k] = vertex * VOILE_PAIR_CANDIDATES + k;
+    if (many)
+        return;
+    for (uint list = search.lane; list < VOILE_PAIR_LEAF; list += lanes)
+        for (uint k = 0; k < length_of(search.lengths, list); ++k)
+            candidate_places[shared_candidates + place++] = candidate_place(vertex, list, k);
 }

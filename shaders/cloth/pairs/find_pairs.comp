@@ -3,11 +3,11 @@
 #extension GL_EXT_control_flow_attributes : require
 // Lists the pairs of near primitives of all cloths that collide with themselves and each other. A vertex searches for
 // all primitives that it owns (fan.glsl) at once, among those of its candidates that may be near (sift_candidates.comp).
-// push.lanes neighboring threads share a search: each tests a part of the wedges and fills a part of the list.
+// push.lanes neighboring threads share a search: VOILE_PAIR_WEDGE_LANES of them take a candidate, each some of its wedges.
 //
-// Vertices move along sweeps. A pair is listed if the distance of its sweeps is at most the range of the owner. A list
-// that is full keeps the nearest pairs, and the range shrinks to the nearest pair that it leaves out. The owner of the
-// other side decides for itself (match_pairs.comp).
+// Vertices move along sweeps. A pair is listed if the distance of its sweeps is at most the range of the owner. A thread
+// or a list that is full keeps the nearest pairs, and the range shrinks to the nearest pair that it leaves out. The owner
+// of the other side decides for itself (match_pairs.comp).
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/pair_layout.h"
@@ -25,11 +25,12 @@ layout(VOILE_BINDING(pair_masks)) readonly buffer PairMasks { uint searching_ver
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 layout(VOILE_BINDING(pairs)) writeonly buffer Pairs { uvec4 pairs[]; };
-layout(VOILE_BINDING(pair_distances)) buffer PairDistances { float pair_distances[]; };
+layout(VOILE_BINDING(pair_distances)) writeonly buffer PairDistances { float pair_distances[]; };
 layout(VOILE_BINDING(pair_lists)) buffer PairLists { PairList pair_lists[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
+#include "pairs/candidate_lists.glsl"
 #include "pairs/search.glsl"
 
 const float k_unbounded_range = 1e30;
@@ -60,13 +61,28 @@ bool are_tangled(uvec4 vertices, bool edges)
     return (tangled.x || (edges && tangled.y)) && ((!edges && tangled.y) || tangled.z || tangled.w);
 }
 
-void insert(inout Search search, uvec4 vertices, bool edges, float at)
+// A pair that a thread has found: which one of the search, and its distance. Its vertices would take twice the shared
+// memory.
+struct Found
+{
+    float distance; // m
+    uint code;
+};
+
+const uint k_kind_bits = 3;
+const uint k_candidate_bits = 7;
+
+shared Found found[VOILE_PAIR_FOUND * gl_WorkGroupSize.x];
+shared uint found_counts[gl_WorkGroupSize.x];
+shared float found_ranges[gl_WorkGroupSize.x];
+shared float left_out[gl_WorkGroupSize.x]; // m, per search: the nearest pair for which the list has no room
+
+void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at)
 {
     if (are_tangled(vertices, edges) || touch_at_start(search.fan, vertices, edges))
         return;
-    const uint part = VOILE_PAIRS / search.lanes;
-    const uint first = search.fan.center * VOILE_PAIRS + search.lane * part;
-    const uint capacity = max(push.capacity / search.lanes, 1);
+    const uint first = gl_LocalInvocationID.x * VOILE_PAIR_FOUND;
+    const uint capacity = min(push.capacity, VOILE_PAIR_FOUND);
     uint place = search.count;
     if (search.count < capacity)
         ++search.count;
@@ -74,68 +90,122 @@ void insert(inout Search search, uvec4 vertices, bool edges, float at)
     {
         float farthest = at;
         for (uint k = 0; k < capacity; ++k)
-            if (pair_distances[first + k] > farthest)
+            if (found[first + k].distance > farthest)
             {
-                farthest = pair_distances[first + k];
+                farthest = found[first + k].distance;
                 place = k;
             }
         search.range = min(search.range, farthest);
         if (place == capacity)
             return;
     }
-    pairs[first + place] = packed(Pair(vertices, edges));
-    pair_distances[first + place] = at;
+    found[first + place] =
+        Found(at, (search.combination << k_candidate_bits | search.candidate) << k_kind_bits | kind);
 }
-
-shared float shared_ranges[gl_WorkGroupSize.x];
-shared uint shared_counts[gl_WorkGroupSize.x];
 
 bool goes_on(Search search) { return true; }
 
-// What all threads of a search have found, in the first of them: the smallest range, and the lengths of their parts.
-PairList merged_list(uint thread, Search search, PairList list)
+uint candidate_at(Search search, uint place) { return candidates[search.fan.center * VOILE_PAIR_CANDIDATES + place]; }
+
+Pair pair_of(Search search, uint code)
 {
-    shared_ranges[thread] = search.range;
-    shared_counts[thread] = search.count;
-    barrier();
-    list.counts = search.count;
-    list.range = search.range;
-    if (search.lane == 0)
-        for (uint k = 1; k < search.lanes; ++k)
+    const uint kind = code & ((1u << k_kind_bits) - 1);
+    const uint combination = code >> (k_kind_bits + k_candidate_bits);
+    const uint other = candidate_at(search, code >> k_kind_bits & ((1u << k_candidate_bits) - 1));
+    const Wedge own = wedge_of(search.fan, combination % search.fan.wedges);
+    const Wedge wedge = wedge_of(fan_of(pair_lists[other].cloth, other), combination / search.fan.wedges);
+    if (kind == k_own_vertex)
+        return Pair(ordered_triangle(search.fan.center, uvec3(other, wedge.b, wedge.c)), false);
+    if (kind == k_own_triangle)
+        return Pair(ordered_triangle(other, uvec3(search.fan.center, own.b, own.c)), false);
+    const uvec2 a = uvec2(search.fan.center, (kind & 1u) == 0 ? own.b : own.c);
+    const uvec2 b = uvec2(other, (kind & 2u) == 0 ? wedge.b : wedge.c);
+    return Pair(ordered_edges(a, b), true);
+}
+
+void search_candidates(inout Search search, uint lane, uint lengths)
+{
+    const uint lists = max(push.lanes / VOILE_PAIR_WEDGE_LANES, 1); // at a time
+    for (uint list = lane / VOILE_PAIR_WEDGE_LANES; list < VOILE_PAIR_LEAF; list += lists)
+    {
+        for (uint k = 0; k < length_of(lengths, list); ++k)
         {
-            list.range = min(list.range, shared_ranges[thread + k]);
-            list.counts |= shared_counts[thread + k] << (k * VOILE_PAIR_COUNT_BITS);
+            search.candidate = candidate_place(0, list, k);
+            const uint other = candidate_at(search, search.candidate);
+            if ((other & VOILE_PAIR_FAR_BIT) == 0)
+                consider_fan(search, fan_of(pair_lists[other].cloth, other));
         }
-    return list;
+    }
+}
+
+// The place of a pair among all that the threads of its search have found: the nearest is first, so that the order does
+// not depend on timing.
+uint rank_of(Found pair, uint first_thread)
+{
+    uint rank = 0;
+    for (uint thread = first_thread; thread < first_thread + push.lanes; ++thread)
+        for (uint k = 0; k < found_counts[thread]; ++k)
+        {
+            const Found other = found[thread * VOILE_PAIR_FOUND + k];
+            if (other.distance < pair.distance || (other.distance == pair.distance && other.code < pair.code))
+                ++rank;
+        }
+    return rank;
+}
+
+// Lists what the thread has found.
+void list_found(Search search, uint thread, uint first_thread)
+{
+    for (uint k = 0; k < search.count; ++k)
+    {
+        const Found pair = found[thread * VOILE_PAIR_FOUND + k];
+        const uint rank = rank_of(pair, first_thread);
+        if (rank == push.capacity)
+            left_out[first_thread] = pair.distance;
+        if (rank >= push.capacity)
+            continue;
+        const uint entry = search.fan.center * VOILE_PAIRS + rank;
+        pairs[entry] = packed(pair_of(search, pair.code));
+        pair_distances[entry] = pair.distance;
+    }
+}
+
+// By the first thread of the search.
+void end_list(uint vertex, uint thread)
+{
+    uint count = 0;
+    float range = left_out[thread];
+    for (uint k = thread; k < thread + push.lanes; ++k)
+    {
+        count += found_counts[k];
+        range = min(range, found_ranges[k]);
+    }
+    pair_lists[vertex].range = range;
+    pair_lists[vertex].count = min(count, push.capacity);
 }
 
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
+    const uint lane = thread % push.lanes;
     const uint place = gl_GlobalInvocationID.x / push.lanes;
     const bool searches = place < pair_passes[VOILE_PAIR_FIND].entries;
+    const uint vertex = searches ? searching_vertices[place] : 0;
     Search search;
-    search.lane = thread % push.lanes;
-    search.lanes = push.lanes;
     search.range = k_unbounded_range;
     search.count = 0;
-    uint vertex = 0;
-    PairList list = PairList(0, 0, 0, 0);
     if (searches)
     {
-        vertex = searching_vertices[place];
-        list = pair_lists[vertex];
-        search = search_of(vertex, list, search.lane, push.lanes);
-        for (uint k = 0; k < (list.mask & VOILE_PAIR_CANDIDATE_MASK); ++k)
-        {
-            const uint other = candidates[vertex * VOILE_PAIR_CANDIDATES + k];
-            if ((other & VOILE_PAIR_FAR_BIT) == 0)
-                consider_fan(search, fan_of(pair_lists[other].cloth, other));
-        }
+        const PairList list = pair_lists[vertex];
+        search = search_of(vertex, list, lane % VOILE_PAIR_WEDGE_LANES, min(push.lanes, VOILE_PAIR_WEDGE_LANES));
+        search_candidates(search, lane, list.mask);
     }
-    list = merged_list(thread, search, list);
-    if (!searches || search.lane != 0)
-        return;
-    pair_lists[vertex].range = list.range;
-    pair_lists[vertex].counts = list.counts;
+    found_counts[thread] = search.count;
+    found_ranges[thread] = search.range;
+    left_out[thread] = k_unbounded_range;
+    barrier();
+    list_found(search, thread, thread - lane);
+    barrier();
+    if (searches && lane == 0)
+        end_list(vertex, thread);
 }

@@ -87,7 +87,7 @@ shared uint shared_vertices;
 shared uint shared_references;
 
 // Only vertices that have found pairs were matched.
-uint mask_of(PairList list) { return list.counts == 0 ? 0 : list.mask; }
+uint mask_of(PairList list) { return list.count == 0 ? 0 : list.mask; }
 
 uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Of the pairs that a vertex lists (find_pairs.comp), those that the owner of the other side lists, too. Only these are
 // pairs. Up to the nearest of the others, the list is complete. As in find_pairs.comp, push.lanes neighboring threads
-// share a vertex that searches, each takes a part of its list.
+// share a vertex that searches.
 //
 // Whether both sides list a pair cannot be derived from its distance, because each side leaves out pairs by boxes, by
 // flat neighborhoods and by a range of its own. Let d be the distance of a pair that at most one side lists. The range
@@ -29,11 +29,10 @@ shared uint shared_masks[gl_WorkGroupSize.x];
 
 bool lists(uint owner, uvec4 words)
 {
-    uint counts = pair_lists[owner].counts;
-    for (uint first = owner * VOILE_PAIRS; counts != 0; counts >>= VOILE_PAIR_COUNT_BITS, first += VOILE_PAIRS / push.lanes)
-        for (uint e = 0; e < (counts & VOILE_PAIR_COUNT_MASK); ++e)
-            if (pairs[first + e] == words)
-                return true;
+    const uint count = pair_lists[owner].count;
+    for (uint e = 0; e < count; ++e)
+        if (pairs[owner * VOILE_PAIRS + e] == words)
+            return true;
     return false;
 }
 
@@ -66,9 +65,9 @@ void main()
     if (searches)
     {
         matched.range = pair_lists[owner].range;
-        const uint count = (pair_lists[owner].counts >> (lane * VOILE_PAIR_COUNT_BITS)) & VOILE_PAIR_COUNT_MASK;
-        for (uint e = 0; e < count; ++e)
-            match(owner, lane * (VOILE_PAIRS / push.lanes) + e, matched);
+        const uint count = pair_lists[owner].count;
+        for (uint e = lane; e < count; e += push.lanes)
+            match(owner, e, matched);
     }
     shared_ranges[thread] = matched.range;
     shared_masks[thread] = matched.mask;

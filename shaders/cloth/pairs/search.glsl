@@ -39,6 +39,8 @@ struct Search
     uint count; // of pairs
     uint lane;
     uint lanes;
+    uint candidate;   // the place of the one that is searched
+    uint combination; // of its wedges with those of the vertex
     uint own_wedge; // its piece is in `own`
     Piece own;
 };
@@ -77,8 +79,14 @@ Spheres spheres_of(Piece piece)
     return spheres;
 }
 
+// Which primitives of two wedges are a pair: the vertex and the triangle of the candidate, the reverse, or two edges: from
+// here on two bits say which, as in consider_spokes.
+const uint k_own_vertex = 0;
+const uint k_own_triangle = 1;
+const uint k_edges = 4;
+
 // The kernel's: what it does with a pair within the range, and whether it looks for more.
-void insert(inout Search search, uvec4 vertices, bool edges, float at);
+void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at);
 bool goes_on(Search search);
 
 // m: between both sides along a direction, `heights` and `sweeps`: of the vertices along it.
@@ -118,23 +126,23 @@ bool are_near(Search search, vec4 a, vec4 b)
     return dot(apart, apart) <= near * near;
 }
 
-void consider_triangle(inout Search search, Node v, Piece piece, vec4 around)
+void consider_triangle(inout Search search, uint kind, Node v, Piece piece, vec4 around)
 {
     if (!piece.wedge.triangle || !are_near(search, vec4(v.x, reach_of(v)), around) ||
         v.vertex == piece.a.vertex || v.vertex == piece.b.vertex || v.vertex == piece.c.vertex)
         return;
     const float at = distance_of(search, false, Node[](v, piece.a, piece.b, piece.c));
     if (at <= search.range)
-        insert(search, ordered_triangle(v.vertex, uvec3(piece.a.vertex, piece.b.vertex, piece.c.vertex)), false, at);
+        insert(search, kind, ordered_triangle(v.vertex, uvec3(piece.a.vertex, piece.b.vertex, piece.c.vertex)), false, at);
 }
 
-void consider_edges(inout Search search, Node a, Node b, Node c, Node d)
+void consider_edges(inout Search search, uint kind, Node a, Node b, Node c, Node d)
 {
     if (a.vertex == c.vertex || a.vertex == d.vertex || b.vertex == c.vertex || b.vertex == d.vertex)
         return;
     const float at = distance_of(search, true, Node[](a, b, c, d));
     if (at <= search.range)
-        insert(search, ordered_edges(uvec2(a.vertex, b.vertex), uvec2(c.vertex, d.vertex)), true, at);
+        insert(search, kind, ordered_edges(uvec2(a.vertex, b.vertex), uvec2(c.vertex, d.vertex)), true, at);
 }
 
 void consider_spokes(inout Search search, Piece own, Piece piece)
@@ -154,7 +162,7 @@ void consider_spokes(inout Search search, Piece own, Piece piece)
             Node d = piece.c;
             if (second)
                 d = piece.b;
-            consider_edges(search, own.a, b, piece.a, d);
+            consider_edges(search, k_edges + k, own.a, b, piece.a, d);
         }
     }
 }
@@ -176,10 +184,11 @@ void consider_fan(inout Search search, Fan fan)
         search.own_wedge = j;
         if (!overlap(grown(piece.box, search.range + search.rounding), search.own.box))
             continue;
+        search.combination = k;
         if (j == 0)
-            consider_triangle(search, search.own.a, piece, spheres_of(piece).triangle);
+            consider_triangle(search, k_own_vertex, search.own.a, piece, spheres_of(piece).triangle);
         if (k < own_wedges)
-            consider_triangle(search, piece.a, search.own, spheres_of(search.own).triangle);
+            consider_triangle(search, k_own_triangle, piece.a, search.own, spheres_of(search.own).triangle);
         consider_spokes(search, search.own, piece);
     }
 }
@@ -196,6 +205,7 @@ Search search_of(uint vertex, PairList list, uint lane, uint lanes)
     search.lane = lane;
     search.lanes = lanes;
     search.own_wedge = search.fan.wedges;
+    search.candidate = search.combination = 0;
     return search;
 }
 

@@ -26,7 +26,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/reservation.glsl"
 #include "pairs/search.glsl"
 
-void insert(inout Search search, uvec4 vertices, bool edges, float at) { ++search.count; }
+void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at) { ++search.count; }
 
 // One pair is enough.
 bool goes_on(Search search) { return search.count == 0; }

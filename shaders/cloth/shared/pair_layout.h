@@ -4,20 +4,21 @@
 
 #include "../../shared_types.h"
 
-// The capacity of a vertex's list of pairs. Each thread of a search fills a part of it.
+// The capacity of a vertex's list of pairs.
 #define VOILE_PAIRS 32
-// The most threads of a search. The lengths of their parts have this many bits each.
-#define VOILE_PAIR_LANES 4
-#define VOILE_PAIR_COUNT_BITS 8
-#define VOILE_PAIR_COUNT_MASK 0xffu
+// The most threads of a search, how many of them share a candidate, and the most pairs that each finds.
+#define VOILE_PAIR_LANES 16
+#define VOILE_PAIR_WEDGE_LANES 4
+#define VOILE_PAIR_FOUND 8
 
 // The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
-// patch, folds of levels, and one per vertex of a slot of a leaf.
+// patch, folds of levels, one per vertex of a slot of a leaf, and push.candidate_lanes per place.
 #define VOILE_PAIR_SEARCHES 16
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
 #define VOILE_PAIR_FOLDS 2
 #define VOILE_PAIR_OF_LEAVES 7
+#define VOILE_PAIR_OF_CANDIDATES 8
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
 // had.
 #define VOILE_PAIR_FORCED 0
@@ -52,11 +53,15 @@
 #define VOILE_PAIR_HALVING_BITS 3
 #define VOILE_PAIR_HALVINGS 2
 #define VOILE_PAIR_HALVED_PASSES 1024
-// The most candidates of a vertex. They take the memory of the references to pairs. Those with this bit are not near.
-#define VOILE_PAIR_CANDIDATES (2 * VOILE_PAIRS)
+// The most candidates of a vertex, in as many lists as a leaf has vertices. They take the memory of the references to
+// pairs. Those with this bit are not near.
+#define VOILE_PAIR_CANDIDATES (4 * VOILE_PAIRS)
+#define VOILE_PAIR_CANDIDATE_LIST (VOILE_PAIR_CANDIDATES / VOILE_PAIR_LEAF)
 #define VOILE_PAIR_FAR_BIT (1u << 31)
-// During a search the mask of a list has the number of candidates, and whether any is near.
-#define VOILE_PAIR_CANDIDATE_MASK 0xffu
+// During a search the mask of a list has the lengths of the lists of candidates, so many bits for each, and whether any
+// candidate is near.
+#define VOILE_PAIR_LENGTH_BITS 7
+#define VOILE_PAIR_LENGTH_MASK 0x7fu
 #define VOILE_PAIR_NEAR_BIT (1u << 31)
 // The dispatches of a pass: over the listed pairs, over the vertices in any.
 #define VOILE_PAIR_MEET 0
@@ -100,7 +105,7 @@ struct PairDispatch
 struct PairList
 {
     float range; // m, up to which it has all pairs
-    uint counts; // the lengths of its parts
+    uint count;
     uint cloth;
     uint mask; // the places of pairs that both sides list, if there are any
 };
@@ -181,6 +186,7 @@ struct PairPush
     uint vertices; // of the solver, the capacity of its buffers
     uint threads;  // per vertex in respond_to_pairs.comp
     uint lanes;    // per vertex in find_pairs.comp
+    uint candidate_lanes; // per vertex in find_candidates.comp: 1, 2 or 4
     uint capacity; // of a list, at most VOILE_PAIRS
     uint colliders;
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS

@@ -26,10 +26,21 @@ uint32_t threads_per_vertex(const Tuning& tuning)
     return tuning.feature_threads == 1 ? 1 : std::min(k_threads, tuning.workgroup_size);
 }
 
+// Below, a search waits for its slowest threads; above, for the work of all, which grows with threads that share it.
+constexpr uint32_t k_large = 131072; // vertices
+
 // That share the search of a vertex.
-uint32_t lanes_per_search(const Tuning& tuning)
+uint32_t lanes_per_search(const Tuning& tuning, uint32_t vertices)
 {
-    return tuning.feature_threads == 1 ? 1 : std::min<uint32_t>(VOILE_PAIR_LANES, tuning.workgroup_size);
+    const bool few = tuning.feature_threads == 1 || vertices >= k_large;
+    return std::min<uint32_t>(few ? VOILE_PAIR_LANES / 2 : VOILE_PAIR_LANES, tuning.workgroup_size);
+}
+
+// That share the search for the candidates of a vertex.
+uint32_t candidate_lanes(const Tuning& tuning, uint32_t vertices)
+{
+    const bool one = tuning.feature_threads == 1 || vertices >= k_large;
+    return one ? 1 : std::min<uint32_t>(VOILE_PAIR_LEAF, tuning.workgroup_size);
 }
 
 // The most candidates of a vertex that are sifted. A small cloth waits for its slowest thread, so that a pass more
@@ -37,10 +48,10 @@ uint32_t lanes_per_search(const Tuning& tuning)
 uint32_t most_sifted(const Tuning& tuning, uint32_t vertices)
 {
     constexpr uint32_t k_most = 24;
-    constexpr uint32_t k_large = 32768;
+    constexpr uint32_t k_many = 32768;
     if (tuning.sifting_vertices == 0 && tuning.feature_threads == 1)
         return 0;
-    return vertices >= (tuning.sifting_vertices > 0 ? tuning.sifting_vertices : k_large) ? k_most : 0;
+    return vertices >= (tuning.sifting_vertices > 0 ? tuning.sifting_vertices : k_many) ? k_most : 0;
 }
 
 VkDeviceSize offset_of(uint32_t dispatch)
@@ -91,7 +102,8 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.pass = substep / period_;
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.threads = threads_per_vertex(solver_.options.tuning);
-    push.lanes = lanes_per_search(solver_.options.tuning);
+    push.lanes = lanes_per_search(solver_.options.tuning, push.places);
+    push.candidate_lanes = candidate_lanes(solver_.options.tuning, push.places);
     push.capacity = solver_.options.tuning.pair_capacity;
     push.colliders = solver_.passes.colliders;
     push.sifted = most_sifted(solver_.options.tuning, push.places);
@@ -114,7 +126,10 @@ void PairRecorder::write_sizes()
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(leaves_);
     sizes[VOILE_PAIR_OF_LEAVES] = {((VOILE_PAIR_LEAF << fold.bottom) + group - 1) / group, 1, 1, 0};
-    sizes[VOILE_PAIR_OF_PLACES] = {(solver_.device->pair_places + group - 1) / group, 1, 1, 0};
+    const uint32_t places = solver_.device->pair_places;
+    sizes[VOILE_PAIR_OF_PLACES] = {(places + group - 1) / group, 1, 1, 0};
+    const uint32_t candidate_threads = places * candidate_lanes(solver_.options.tuning, places);
+    sizes[VOILE_PAIR_OF_CANDIDATES] = {(candidate_threads + group - 1) / group, 1, 1, 0};
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
@@ -152,7 +167,7 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
         recorder_.dispatch_indirect(solver_.kernels.refit.levels, sets.pair_refit, sizes, offset_of(i),
                                     next_fold(solver_.kernels.refit, fold).push);
     recorder_.dispatch_indirect(solver_.kernels.find_candidates, sets.find_candidates, sizes,
-                                offset_of(VOILE_PAIR_OF_PLACES), push);
+                                offset_of(VOILE_PAIR_OF_CANDIDATES), push);
     publish_dispatch(recorder_);
     const VkBuffer passes = (*solver_.device)[buffer::pair_passes].handle();
     if (push.sifted > 0)
