@@ -180,14 +180,14 @@ struct PairPush
 {
     float substeps; // of level 0, from this pass to the next
     uint first_patch;
-    uint places;   // in the order of vertices
-    uint leaves;   // of the hierarchy
-    uint pass;     // of the step
-    uint vertices; // of the solver, the capacity of its buffers
-    uint threads;  // per vertex in respond_to_pairs.comp
-    uint lanes;    // per vertex in find_pairs.comp
+    uint places;          // in the order of vertices
+    uint leaves;          // of the hierarchy
+    uint pass;            // of the step
+    uint vertices;        // of the solver, the capacity of its buffers
+    uint threads;         // per vertex in respond_to_pairs.comp
+    uint lanes;           // per vertex in find_pairs.comp
     uint candidate_lanes; // per vertex in find_candidates.comp: 1, 2 or 4
-    uint capacity; // of a list, at most VOILE_PAIRS
+    uint capacity;        // of a list, at most VOILE_PAIRS
     uint colliders;
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
     float lag;   // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
