@@ -2,6 +2,8 @@
 // each frame: `update` for the host's work, `record_draw` for each view. With a display this opens a window. Without
 // one (--headless [frames]) it simulates a second, writes own_component.png and prints how many vertices of the curtain
 // the ball touched.
+#include "samples/arguments.hpp"
+
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
 
@@ -13,9 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
-#include <string_view>
 
 namespace
 {
@@ -71,9 +71,9 @@ voile::GridCloth curtain()
     return grid;
 }
 
-void run(bool headless, uint64_t frames)
+void run(const samples::Arguments& arguments)
 {
-    voile::engine::App app({.title = "a component of your own", .headless = headless});
+    voile::engine::App app({.title = "a component of your own", .headless = arguments.headless});
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {2.6f, 1.5f, 2.2f}, .target = {0, 0.9f, 0.2f}};
     scene.focus = {0, 0.8f, 0};
@@ -92,7 +92,7 @@ void run(bool headless, uint64_t frames)
     const voile::engine::IdleGuard idle(app.device());
     uint32_t last_slot = 0;
     uint32_t most_contacts = 0;
-    app.draws = [frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
+    app.draws = [frames = arguments.frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
     app.after_render = [&](VkCommandBuffer cmd, const FrameInfo& frame)
     {
         if (!app.has_window() && app.draws(frame))
@@ -104,10 +104,10 @@ void run(bool headless, uint64_t frames)
         most_contacts = std::max(most_contacts, contacts);
         if (!app.has_window() && frame.index % 10 == 9)
             std::printf("frame %3u of %u: %u vertices touch\n", static_cast<unsigned>(frame.index + 1),
-                        static_cast<unsigned>(frames), contacts);
+                        static_cast<unsigned>(arguments.frames), contacts);
         std::fflush(stdout);
     };
-    app.run(frames);
+    app.run(arguments.frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("own_component.png", readback.picture(last_slot)));
@@ -120,7 +120,7 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless", argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
+        run(samples::parse_arguments(argc, argv));
         return 0;
     }
     catch (const voile::engine::StartupError& error)

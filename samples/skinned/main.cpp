@@ -2,6 +2,8 @@
 // skin. The same vertices are drawn and collide. Here the host skins them; an engine that skins on the GPU hands its
 // buffer to Solver::deform_collider (DeviceVertices) and nothing else changes. With a display this opens a window.
 // Without one (--headless [frames]) it simulates a second, writes skinned.png and prints what the statistics say.
+#include "samples/arguments.hpp"
+
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
 
@@ -15,9 +17,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
-#include <string_view>
 
 namespace
 {
@@ -149,9 +149,9 @@ voile::ClothId add_sleeve(voile::Solver& solver, voile::AnchorId bone)
     return cloth;
 }
 
-void run(bool headless, uint64_t frames)
+void run(const samples::Arguments& arguments)
 {
-    voile::engine::App app({.title = "a sleeve", .headless = headless});
+    voile::engine::App app({.title = "a sleeve", .headless = arguments.headless});
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.5f, 1.15f, 0.9f}, .target = {0, 0.98f, 0.1f}, .fov = 32};
     scene.focus = {0, 0.8f, 0};
@@ -170,7 +170,7 @@ void run(bool headless, uint64_t frames)
     const voile::engine::IdleGuard idle(app.device());
     voile::Statistics last;
     uint32_t last_slot = 0;
-    app.draws = [frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
+    app.draws = [frames = arguments.frames](const FrameInfo& frame) { return frame.index + 1 == frames; };
     app.after_render = [&](VkCommandBuffer cmd, const FrameInfo& frame)
     {
         if (!app.has_window() && app.draws(frame))
@@ -180,10 +180,11 @@ void run(bool headless, uint64_t frames)
     {
         last = world.solver().statistics(frame.slot);
         if (!app.has_window() && frame.index % 10 == 9)
-            std::printf("frame %3u of %u\n", static_cast<unsigned>(frame.index + 1), static_cast<unsigned>(frames));
+            std::printf("frame %3u of %u\n", static_cast<unsigned>(frame.index + 1),
+                        static_cast<unsigned>(arguments.frames));
         std::fflush(stdout);
     };
-    app.run(frames);
+    app.run(arguments.frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("skinned.png", readback.picture(last_slot)));
@@ -197,7 +198,7 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless", argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 60);
+        run(samples::parse_arguments(argc, argv));
         return 0;
     }
     catch (const voile::engine::StartupError& error)

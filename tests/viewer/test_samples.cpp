@@ -80,6 +80,24 @@ TEST_CASE("the shooting method gives the known drops of a heavy elastica")
     CHECK(cantilever_drop(5) == doctest::Approx(0.4959).epsilon(1e-3));
 }
 
+TEST_CASE("samples refuse arguments that are none of theirs")
+{
+    const TestFolder folder;
+    for (const char* name : {"own_component", "skinned"})
+        for (const char* arguments : {"--headles", "--headless abc", "--headless 0", "--headless 9x", "--headless 9 9"})
+        {
+            CAPTURE(arguments);
+            const std::string command = "cd " + folder.path().string() + " && '" + tests::program(name).string() +
+                                        "' " + arguments + " 2> errors.txt";
+            CHECK(std::system(command.c_str()) != 0);
+            std::ifstream file(folder / "errors.txt");
+            std::string line;
+            std::getline(file, line);
+            CHECK(line.find(std::string(name) + ": ") == 0);
+            CHECK(line.find(arguments == std::string("--headless abc") ? "'abc'" : "") != std::string::npos);
+        }
+}
+
 TEST_CASE("own_component swings a ball through a curtain")
 {
     const TestFolder folder;
