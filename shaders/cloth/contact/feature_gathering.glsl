@@ -1,17 +1,21 @@
 // The features near the vertices of a workgroup.
 //
-// Its threads traverse a hierarchy together, one level at a time. Then each tests its pieces of cloth against what they
+// Its threads traverse a hierarchy together, one node each at a time. Then each tests its pieces of cloth against what they
 // found, from shared memory. A thread that traverses alone waits for memory at every node, and where features are dense
 // the whole dispatch waits for that thread.
+//
+// Vertices that follow each other need not be close: those of a skirt make an arc that a leg is in. So they are divided into
+// parts, and a node is visited if it is near one of these.
 //
 // The including kernel declares bvh_nodes[], features[], feature_slots[], padded_boxes[] and push (NearFeaturesPush), and
 // includes box.glsl, padded.glsl and near_feature.glsl before.
 #ifndef VOILE_FEATURE_GATHERING_GLSL
 #define VOILE_FEATURE_GATHERING_GLSL
 
-const uint k_most_gathered = 128;  // features, of all colliders together
-const uint k_most_nodes = 128;     // of a level
-const uint k_most_gatherings = 8;  // colliders
+const uint k_most_gathered = 128; // features, of all colliders together
+const uint k_most_nodes = 256;    // that wait to be visited
+const uint k_most_gatherings = 8; // colliders
+const uint k_parts = 16;          // of the workgroup's vertices, each with boxes of its own
 
 // What is near of one collider: a range of the gathered features.
 struct Gathering
@@ -29,12 +33,12 @@ shared vec4 gathered_ends[k_most_gathered];
 shared vec4 gathered_motions[2 * k_most_gathered]; // of a and of b until the next query, in the collider's space
 shared uint found_features[k_most_gathered]; // of one collider, in no order
 shared uint found_count;
-shared uint level_nodes[2 * k_most_nodes];
-shared uint level_counts[2];
+shared uint nodes[k_most_nodes]; // that wait, a stack
+shared uint node_count;
 shared uint sweep_is_near;
-shared uint is_crowded;
-shared uint corners[12]; // of two boxes, minima and maxima, as numbers in the order of the floats
+shared uint corners[12 * (k_parts + 1)]; // minima and maxima of the two boxes of each part, at the end of all; as floats
 
+// A number in the order of the floats.
 uint ordered(float x)
 {
     const uint bits = floatBitsToUint(x);
@@ -43,7 +47,7 @@ uint ordered(float x)
 
 float from_ordered(uint x) { return uintBitsToFloat((x & 0x80000000u) != 0 ? x & 0x7fffffffu : ~x); }
 
-// Of a workgroup, in the space of a collider.
+// Of a vertex or a workgroup, in the space of a collider.
 struct GroupBoxes
 {
     Box pieces; // of cloth, with their margins
@@ -66,27 +70,65 @@ Box joined_corners(uint first)
     Box result;
     for (int axis = 0; axis < 3; ++axis)
     {
-        result.min[axis] = from_ordered(corners[first + axis]);
-        result.max[axis] = from_ordered(corners[first + 3 + axis]);
+        result.min[axis] = uintBitsToFloat(corners[first + axis]);
+        result.max[axis] = uintBitsToFloat(corners[first + 3 + axis]);
     }
     return result;
 }
 
-// The unions of the boxes of the threads that `have` them. Those that are not finite are left out. All threads of the
-// workgroup call it.
+// Joins the boxes of the threads that `have` them, those of each part for is_near_part, and returns the unions of all.
+// Those that are not finite are left out. All threads of the workgroup call it.
 GroupBoxes joined_of_group(bool have, GroupBoxes own)
 {
+    const uint thread = gl_LocalInvocationID.x;
+    const uint part = 12 * (thread * k_parts / gl_WorkGroupSize.x);
+    const uint all_parts = 12 * k_parts;
     barrier();
-    for (uint i = gl_LocalInvocationID.x; i < 12; i += gl_WorkGroupSize.x)
+    for (uint i = thread; i < corners.length(); i += gl_WorkGroupSize.x)
         corners[i] = ordered(i % 6 < 3 ? 3e38 : -3e38);
     barrier();
     if (have && is_finite(own.pieces) && is_finite(own.sweep))
     {
-        join_corners(0, own.pieces);
-        join_corners(6, own.sweep);
+        join_corners(part, own.pieces);
+        join_corners(part + 6, own.sweep);
+        join_corners(all_parts, own.pieces);
+        join_corners(all_parts + 6, own.sweep);
     }
     barrier();
-    return GroupBoxes(joined_corners(0), joined_corners(6));
+    for (uint i = thread; i < corners.length(); i += gl_WorkGroupSize.x)
+        corners[i] = floatBitsToUint(from_ordered(corners[i]));
+    barrier();
+    return GroupBoxes(joined_corners(all_parts), joined_corners(all_parts + 6));
+}
+
+// Whether a node overlaps one of the parts' boxes. `all`: their union. `first`: the corners of the first one.
+bool is_near_part(Box all, uint first, Box node)
+{
+    bool result = false;
+    if (overlap(all, node))
+        for (uint part = 0; part < k_parts && !result; ++part)
+            result = overlap(joined_corners(12 * part + first), node);
+    return result;
+}
+
+bool is_near_pieces(GroupBoxes boxes, Box node) { return is_near_part(boxes.pieces, 0, node); }
+bool is_near_sweep(GroupBoxes boxes, Box node) { return is_near_part(boxes.sweep, 6, node); }
+
+// The hierarchy of a collider's features. That of a mesh that deforms is the one of its triangles (padded_layout.h).
+struct FeatureTree
+{
+    uint collider;
+    bool deforms;
+    uint first_node; // or box
+    uint first_leaf; // feature or slot
+    uint triangles;  // of a mesh that deforms
+};
+
+FeatureTree feature_tree(uint c, FeatureSet set, bool deforms)
+{
+    if (deforms)
+        return FeatureTree(c, true, colliders[c].first_node, set.first_node, colliders[c].triangles);
+    return FeatureTree(c, false, set.first_node, set.first_feature, 0);
 }
 
 void add_leaf(uint leaf, uint first_feature)
@@ -94,12 +136,7 @@ void add_leaf(uint leaf, uint first_feature)
     const uint first = first_feature + (leaf & VOILE_BVH_FIRST_MASK);
     const uint count = (leaf >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK) + 1;
     const uint at = atomicAdd(found_count, count);
-    if (at + count > k_most_gathered)
-    {
-        is_crowded = 1;
-        return;
-    }
-    for (uint i = 0; i < count; ++i)
+    for (uint i = 0; i < count && at + i < k_most_gathered; ++i)
         found_features[at + i] = first + i;
 }
 
@@ -115,18 +152,7 @@ void add_slot(uint slot, DeformingSet set)
         const uint at = atomicAdd(found_count, 1);
         if (at < k_most_gathered)
             found_features[at] = f;
-        else
-            is_crowded = 1;
     }
-}
-
-void add_node(uint node, uint level)
-{
-    const uint at = atomicAdd(level_counts[level], 1);
-    if (at < k_most_nodes)
-        level_nodes[level * k_most_nodes + at] = node;
-    else
-        is_crowded = 1;
 }
 
 // Notes whether a feature is in the sweep. Returns whether the children of a node must be visited.
@@ -135,109 +161,99 @@ void add_node(uint node, uint level)
 bool visit_box(Box box, GroupBoxes boxes, bool looks, bool is_leaf)
 {
     const float coarse = sudden_reach();
-    bool in_sweep = looks && overlap(boxes.sweep, box);
+    bool in_sweep = looks && is_near_sweep(boxes, box);
     const vec3 size = box.max - box.min;
     if (in_sweep && (is_leaf || max(max(size.x, size.y), size.z) <= coarse))
     {
         sweep_is_near = 1;
         in_sweep = false;
     }
-    return !is_leaf && (overlap(boxes.pieces, box) || in_sweep);
+    return !is_leaf && (in_sweep || is_near_pieces(boxes, box));
 }
 
-void visit_child(uint child, Box box, GroupBoxes boxes, bool looks, uint first_feature, uint next_level)
+void visit_child(uint child, Box box, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
     const bool is_leaf = (child & VOILE_BVH_LEAF_BIT) != 0;
     if (visit_box(box, boxes, looks, is_leaf))
-        add_node(child, next_level);
-    if (is_leaf && overlap(boxes.pieces, box))
-        add_leaf(child, first_feature);
+        nodes[atomicAdd(node_count, 1)] = child;
+    if (is_leaf && is_near_pieces(boxes, box))
+        add_leaf(child, tree.first_leaf);
 }
 
-// The tree of a mesh that deforms (padded_layout.h).
-struct PaddedSearch
-{
-    DeformingSet set;
-    uint first_box;
-    uint first_slot;
-    uint triangles;
-};
+uint padded_width(uint node) { return 1u << findMSB(node + 1); }
 
-// `width`: the number of boxes on the level of `index`.
-void visit_padded(uint index, uint width, PaddedSearch search, GroupBoxes boxes, bool looks, uint next_level)
+// `node`: its index in the tree.
+void visit_padded(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
-    const bool is_leaf = width >= search.triangles; // the last level
-    if (is_leaf && index >= search.triangles)
+    const uint width = padded_width(node);
+    const uint index = node + 1 - width;
+    const bool is_leaf = width >= tree.triangles; // the last level
+    if (is_leaf && index >= tree.triangles)
         return; // repeats another slot
-    const Box box = padded_box(search.first_box + width - 1 + index);
+    const Box box = padded_box(tree.first_node + node);
     if (visit_box(box, boxes, looks, is_leaf))
-        add_node(index, next_level);
-    if (is_leaf && overlap(boxes.pieces, box))
-        add_slot(search.first_slot + index, search.set);
+        nodes[atomicAdd(node_count, 1)] = node;
+    if (is_leaf && is_near_pieces(boxes, box))
+        add_slot(tree.first_leaf + index, deforming_set(tree.collider));
 }
 
-// A tree of one triangle has one level, its root, which is its leaf.
-void gather_padded(GroupBoxes boxes, PaddedSearch search)
+void visit_children(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
-    const uint thread = gl_LocalInvocationID.x;
-    if (thread == 0)
+    if (tree.deforms)
     {
-        found_count = sweep_is_near = is_crowded = 0;
-        level_counts[0] = level_counts[1] = 0;
+        const uint width = padded_width(node);
+        visit_padded(node + width, tree, boxes, looks);
+        visit_padded(node + 2 * width, tree, boxes, looks);
+        return;
     }
-    barrier();
-    if (thread == 0)
-        visit_padded(0, 1, search, boxes, true, 0);
-    barrier();
-    uint level = 0;
-    for (uint width = 1; width < search.triangles; width *= 2)
-    {
-        const uint count = level_counts[level];
-        const bool looks = sweep_is_near == 0;
-        const bool crowded = is_crowded != 0;
-        barrier();
-        if (count == 0 || crowded)
-            return;
-        if (thread == 0)
-            level_counts[1 - level] = 0;
-        barrier();
-        for (uint i = thread; i < count; i += gl_WorkGroupSize.x)
-        {
-            const uint node = level_nodes[level * k_most_nodes + i];
-            visit_padded(node, 2 * width, search, boxes, looks, 1 - level);
-            visit_padded(node + width, 2 * width, search, boxes, looks, 1 - level);
-        }
-        barrier();
-        level = 1 - level;
-    }
+    const BvhNode n = bvh_nodes[tree.first_node + node];
+    visit_child(n.left, Box(n.left_min, n.left_max), tree, boxes, looks);
+    visit_child(n.right, Box(n.right_min, n.right_max), tree, boxes, looks);
 }
 
-void gather_levels(GroupBoxes boxes, uint first_node, uint first_feature)
+// The root is visited here. That of a tree of one triangle is its leaf.
+void start_gathering(FeatureTree tree, GroupBoxes boxes)
 {
-    const uint thread = gl_LocalInvocationID.x;
-    if (thread == 0)
+    if (gl_LocalInvocationID.x == 0)
     {
-        found_count = sweep_is_near = is_crowded = 0;
-        level_counts[0] = 1;
-        level_nodes[0] = 0;
+        found_count = sweep_is_near = 0;
+        node_count = tree.deforms ? 0 : 1;
+        nodes[0] = 0;
+        if (tree.deforms)
+            visit_padded(0, tree, boxes, true);
     }
     barrier();
-    for (uint level = 0;; level = 1 - level)
+}
+
+// How many of the nodes that wait are visited together. Each leaves two at most. Where the stack is almost full, the last
+// node is visited alone, and the stack grows by one node per level at most, as that of a single thread. So it never
+// overflows.
+uint visited_together(uint count)
+{
+    const uint room = k_most_nodes - VOILE_BVH_MAX_DEPTH;
+    return min(min(count, gl_WorkGroupSize.x), count < room ? room - count : 1);
+}
+
+// Ends early where there are more features than fit.
+void gather_features(FeatureTree tree, GroupBoxes boxes)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    start_gathering(tree, boxes);
+    for (;;)
     {
-        const uint count = level_counts[level];
+        const uint count = node_count;
+        const uint visited = visited_together(count);
+        const uint node = thread < visited ? nodes[count - 1 - thread] : 0;
         const bool looks = sweep_is_near == 0;
-        const bool crowded = is_crowded != 0;
-        if (thread == 0)
-            level_counts[1 - level] = 0;
+        const bool ends = count == 0 || found_count > k_most_gathered;
         barrier();
-        if (count == 0 || crowded)
+        if (ends)
             return;
-        for (uint i = thread; i < count; i += gl_WorkGroupSize.x)
-        {
-            const BvhNode n = bvh_nodes[first_node + level_nodes[level * k_most_nodes + i]];
-            visit_child(n.left, Box(n.left_min, n.left_max), boxes, looks, first_feature, 1 - level);
-            visit_child(n.right, Box(n.right_min, n.right_max), boxes, looks, first_feature, 1 - level);
-        }
+        if (thread == 0)
+            node_count = count - visited;
+        barrier();
+        if (thread < visited)
+            visit_children(node, tree, boxes, looks);
         barrier();
     }
 }
@@ -277,12 +293,8 @@ Gathering gather(uint index, GroupBoxes boxes, uint c, FeatureSet set, bool defo
     Gathering result = Gathering(first, first, false, false);
     if (all(lessThanEqual(boxes.sweep.min, boxes.sweep.max))) // else no vertex is near
     {
-        if (deforms)
-            gather_padded(boxes, PaddedSearch(deforming_set(c), colliders[c].first_node, set.first_node,
-                                              colliders[c].triangles));
-        else
-            gather_levels(boxes, set.first_node, set.first_feature);
-        result.crowded = is_crowded != 0 || first + found_count > k_most_gathered;
+        gather_features(feature_tree(c, set, deforms), boxes);
+        result.crowded = first + found_count > k_most_gathered;
         result.near = result.crowded || sweep_is_near != 0;
         if (!result.crowded)
         {
