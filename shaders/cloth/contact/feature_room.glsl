@@ -1,0 +1,98 @@
+// Room for the items of vertices: how many each gets, and where.
+//
+// Each thread has counted its items within every margin. The workgroup adds them up per vertex, chooses the widest margin
+// with few enough, and claims room for all of its vertices at once.
+//
+// The including kernel declares cells[], dispatch_size[] and push (NearFeaturesPush), and defines FeatureSearch, k_margins
+// and k_fractions before. It sets counts[], items_of_group, fewer_items and first_of_group to 0.
+#ifndef VOILE_FEATURE_ROOM_GLSL
+#define VOILE_FEATURE_ROOM_GLSL
+
+// Of the workgroup.
+shared uint items_of_group;
+shared uint fewer_items;                            // that the workgroup would have with fewer of each vertex
+shared uint first_of_group;                         // of the batch's items
+shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
+shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen
+shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
+
+// The most items of a vertex.
+uint most_items()
+{
+    if (push.retries == 0)
+        return VOILE_MOST_FEATURE_ITEMS;
+    if (dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER] <= push.items)
+        return VOILE_FEWER_FEATURE_ITEMS;
+    return push.items / (gl_NumWorkGroups.x / push.lanes * gl_WorkGroupSize.x);
+}
+
+// The index of the margin with few enough items; k_margins: none.
+uint choose_margin(uint in_group, uint most)
+{
+    for (uint i = 0; i < k_margins; ++i)
+        if (counts[k_margins * in_group + i] <= most)
+            return i;
+    return k_margins;
+}
+
+// Claims room for the items of the workgroup.
+void claim_items()
+{
+    if (items_of_group == 0)
+        return;
+    const uint word = push.retries == 0 ? VOILE_DISPATCH_CLAIMED : VOILE_DISPATCH_RETRY_CLAIMED;
+    first_of_group = atomicAdd(dispatch_size[push.dispatch_word + word], items_of_group);
+    const uint end = first_of_group + items_of_group;
+    if (push.retries == 0)
+        atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER], fewer_items);
+    if (end <= push.items)
+        atomicMax(dispatch_size[push.dispatch_word], (end + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+    else
+        atomicMax(dispatch_size[push.dispatch_word + VOILE_DISPATCH_RETRY], gl_NumWorkGroups.x);
+}
+
+// The number of items of a vertex with fewer.
+uint count_fewer(uint in_group)
+{
+    const uint chosen = choose_margin(in_group, VOILE_FEWER_FEATURE_ITEMS);
+    return chosen < k_margins ? counts[k_margins * in_group + chosen] : 0;
+}
+
+// Chooses the margin of a vertex and claims room for its items. False: it has none.
+bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_group)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    for (uint i = 0; i < k_margins; ++i)
+        atomicAdd(counts[k_margins * in_group + i], search.counts[i]);
+    barrier();
+    const uint chosen = choose_margin(in_group, most_items());
+    const bool fits = countable && chosen < k_margins;
+    const uint of_margin = min(chosen, k_margins - 1);
+    const uint count = fits ? search.counts[of_margin] : 0;
+    const uint cell_count = fits ? counts[k_margins * in_group + of_margin] : 0;
+    search.margin *= k_fractions[of_margin];
+    lane_counts[thread] = count;
+    if (lane == 0)
+    {
+        cell_firsts[in_group] = atomicAdd(items_of_group, cell_count);
+        if (countable && push.retries == 0)
+            atomicAdd(fewer_items, count_fewer(in_group));
+    }
+    barrier();
+    if (thread == 0)
+        claim_items();
+    barrier();
+    // Without room the query is repeated.
+    const bool room = first_of_group + items_of_group <= push.items;
+    const uint first = push.first_item + first_of_group + cell_firsts[in_group];
+    search.next = first;
+    for (uint i = thread - lane; i < thread; ++i)
+        search.next += lane_counts[i];
+    search.end = search.next + (room ? count : 0);
+    if (lane == 0 && search.self.exists)
+        cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
+                                               uint[4](0, 0, 0, 0));
+    return room && count > 0;
+}
+
+#endif
