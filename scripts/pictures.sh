@@ -3,7 +3,7 @@
 # before you commit it. Those of a material's parameters need ffmpeg.
 #
 #   scripts/pictures.sh              all
-#   scripts/pictures.sh NAME ...     some of: reference drape curtains moving fabrics debug, and of a material's parameters
+#   scripts/pictures.sh NAME ...     some of: reference drape curtains moving fabrics dressed debug, and of a material's parameters
 #                                    stretch_stiffness shear_stiffness bending_stiffness areal_density air_drag friction thickness
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -28,13 +28,14 @@ picture() {
 parameter() { picture "materials/$1.jpg" "$2" 1440x640 "$1"; }
 
 parameters='stretch_stiffness shear_stiffness bending_stiffness areal_density air_drag friction thickness'
-for name in ${@:-reference drape curtains moving fabrics debug $parameters}; do
+for name in ${@:-reference drape curtains moving fabrics dressed debug $parameters}; do
   case "$name" in
     reference) picture reference.png 100 960x540 reference ;;
     drape) picture drape.png 90 960x540 drape --cloth-resolution 64 ;;
     curtains) picture curtains.png 100 960x540 curtains ;;
     moving) picture moving.png 75 960x540 moving ;;
     fabrics) picture fabrics.png 65 1280x720 fabrics --cloth-resolution 40 ;;
+    dressed) picture dressed.png 100 560x680 dressed ;;
     debug) picture debug.png 75 960x540 moving --debug boxes:3 --debug contacts ;;
     stretch_stiffness | shear_stiffness) parameter "$name" 120 ;;
     bending_stiffness | thickness) parameter "$name" 60 ;;
