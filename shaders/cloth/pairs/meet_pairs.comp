@@ -54,6 +54,10 @@ const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
+// m: where pins hold both sides at one point, no plane separates them. A plane through it would let them part, but not
+// come back, whatever pulls at them.
+const float k_pinned_room = 1e3;
+const float k_least_lever = 0.01;
 // A collider supports a vertex that is pushed towards it by at least this part.
 const float k_least_support = 0.7;
 // The most by which that strengthens an impulse: then sides of equal mass would bounce if there was no support.
@@ -238,7 +242,8 @@ void main()
         Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
                  support_of(pair, nearest.weights, vertices, n));
     response.mobilities = nearest.weights * vertices.inverse_masses;
-    response.impulse = lever_of(nearest.weights, response.mobilities) * impulse_of(approach, friction_of(pair), drift);
+    const float lever = lever_of(nearest.weights, response.mobilities);
+    response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
@@ -246,9 +251,10 @@ void main()
     const vec2 needed = driven_approach(sides, vertices, separation);
     const float room = 2 * VOILE_PAIR_APPROACH * spare_gap(separation.gap, thickness);
     const float spare = room - needed.x - needed.y;
-    if (spare < 0 && first)
+    const bool pinned = lever < k_least_lever && apart < k_carry_floor * thickness;
+    if ((spare < 0 || pinned) && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
-    const float slack = max((first ? needed.x : needed.y) + 0.5 * spare, 0);
+    const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uint begin = first ? 0 : sides;
     const uint end = first ? sides : 4;
     vec3 heights = vec3(0);
