@@ -11,6 +11,8 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 namespace
@@ -385,4 +387,41 @@ TEST_CASE("crumpled cloths move equally in every run, and whether candidates are
         else
             CHECK(tests::same_bits(first, harness.positions(id)));
     }
+}
+
+TEST_CASE("what lists of vertices with a hundred triangles leave out cannot meet")
+{
+    constexpr uint32_t k_triangles = 100;
+    constexpr float k_radius = 0.15f; // m
+    std::vector<glm::vec3> positions{{0, 0, 0}};
+    std::vector<glm::uvec3> triangles;
+    for (uint32_t i = 0; i < k_triangles; ++i)
+    {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / k_triangles;
+        positions.push_back(k_radius * glm::vec3(std::cos(angle), 0, std::sin(angle)));
+        triangles.emplace_back(0, 1 + (i + 1) % k_triangles, 1 + i);
+    }
+    ListHarness harness;
+    Primitives all;
+    std::vector<voile::ClothId> cloths;
+    for (const float side : {-1.f, 1.f})
+    {
+        voile::MeshCloth fan;
+        fan.positions = positions;
+        fan.triangles = triangles;
+        fan.material = voile::cotton();
+        fan.integrator = voile::Integrator::verlet;
+        fan.self_collision = true;
+        fan.velocity = {0, side, 0};
+        fan.transform[3] = {0.002f * side, -0.003f * side, 0.001f * side, 1};
+        fan.transform[2].y = 0.02f * side;
+        cloths.push_back(voile::engine::take(harness.solver.add_cloth(fan)));
+    }
+    harness.upload();
+    for (const voile::ClothId cloth : cloths)
+        add_cloth(all, harness.solver, cloth);
+    const Found found = check_all(harness.lists(), all);
+    CHECK(found.listed > 50);
+    CHECK(found.meetings == 0);
+    CHECK(found.one_sided == 0);
 }

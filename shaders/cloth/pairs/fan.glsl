@@ -50,11 +50,13 @@ Fan fan_of(uint cloth, uint vertex)
 
 MeshCorner fan_corner(Fan fan, uint k) { return mesh_corners[fan.lists.first_corner + k * MESH_STRIDE]; }
 
-// Of the vertices b and c of all wedges, those that are a b count as spokes once, as a b.
-bool is_b(Fan fan, uint local)
+// Of the vertices b and c of all wedges, those that are a b count as spokes once, as a b. `wedge`: of which it is the c.
+// That of which it is the b often comes before or after: where a vertex has hundreds of triangles, to search through all
+// of them for each would take longest, and lavapipe ends loops after 65,535 rounds in all.
+bool is_b(Fan fan, uint wedge, uint local)
 {
     for (uint k = 0; k < fan.wedges; ++k)
-        if (fan_corner(fan, k).b == local)
+        if (fan_corner(fan, (wedge + fan.wedges - 1 + k) % fan.wedges).b == local)
             return true;
     return false;
 }
@@ -78,7 +80,7 @@ Wedge wedge_of(Fan fan, uint k)
     const uint first = fan.center - fan.local;
     const bool b = corner.b > fan.local;
     const bool c = corner.c > fan.local;
-    return Wedge(first + corner.b, first + corner.c, b && c, b, c && !is_b(fan, corner.c));
+    return Wedge(first + corner.b, first + corner.c, b && c, b, c && !is_b(fan, k, corner.c));
 }
 
 // The owners of the primitives around a vertex: itself and neighbors with a lower index. Their number, at most.
@@ -101,7 +103,7 @@ bool owner_of(Fan fan, uint k, out uint owner)
     const bool is_c = (k & 1u) == 0;
     const uint local = is_c ? corner.c : corner.b;
     owner = fan.center - fan.local + local;
-    return local < fan.local && !(is_c && is_b(fan, local));
+    return local < fan.local && !(is_c && is_b(fan, (k - 1) / 2, local));
 }
 
 #endif
