@@ -216,6 +216,26 @@ void add_load(uint vertex, float weight)
     atomicAdd(pair_loads[(pair_pass() & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
 }
 
+// How far the vertices of the own side may approach, `slack` for all, and how far the clock carries the planes
+// (PairResponse::heights). Where it would carry them farther than they have room, it slows down.
+// `own`: the first place of the side, and the first one after it.
+uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float thickness, float carry)
+{
+    const float room_to_carry = max(slack, VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness));
+    vec3 heights = vec3(0);
+    float rate = 1;
+    for (uint k = own.x; k < own.y; ++k)
+    {
+        const float nearer = (carry - dot(separation.n, vertices.carry[k])) * (own.x == 0 ? 1 : -1);
+        if (nearer > separation.from_plane[k] + room_to_carry)
+            rate = min(rate, (separation.from_plane[k] + room_to_carry) / nearer);
+        heights[k - own.x] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
+    }
+    if (rate < 1)
+        atomicMin(pair_searches[VOILE_PAIR_RATES + (pair_pass() & 1u)].entries, floatBitsToUint(rate));
+    return uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x >= pair_passes[VOILE_PAIR_MEET].entries)
@@ -255,23 +275,10 @@ void main()
     if ((spare < 0 || pinned) && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
     const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
-    const uint begin = first ? 0 : sides;
-    const uint end = first ? sides : 4;
-    vec3 heights = vec3(0);
+    const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
     const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(first_carry));
-    const float room_to_carry = max(slack, VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness));
-    float rate = 1;
-    for (uint k = begin; k < end; ++k)
-    {
-        const float nearer = (carry - dot(n, vertices.carry[k])) * (first ? 1 : -1);
-        if (nearer > separation.from_plane[k] + room_to_carry)
-            rate = min(rate, (separation.from_plane[k] + room_to_carry) / nearer);
-        heights[k - begin] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
-        if (response.impulse != vec3(0))
-            add_load(pair.vertices[k], nearest.weights[k]);
-    }
-    if (rate < 1)
-        atomicMin(pair_searches[VOILE_PAIR_RATES + (pair_pass() & 1u)].entries, floatBitsToUint(rate));
-    response.heights = uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
+    response.heights = heights_of(own, vertices, separation, slack, thickness, carry);
     pair_responses[entry] = response;
+    for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)
+        add_load(pair.vertices[k], nearest.weights[k]);
 }
