@@ -201,7 +201,7 @@ shared uint shared_overflows[gl_WorkGroupSize.x];
 shared uint searching_again;
 
 // What all threads of a vertex have found, in each of them. All threads of the workgroup call it.
-void share(inout Search search, uint thread, bool searches)
+void merge(inout Search search, uint thread, bool searches)
 {
     shared_lengths[thread] = search.lengths;
     shared_ranges[thread] = search.range;
@@ -234,7 +234,7 @@ void find(inout Search search, uint thread, bool searches)
             search.box = grown(shifted(search.tree_hull, search.from.x), search.range + search.rounding);
             traverse_padded(search, 0, (1u << findMSB(2 * push.leaves - 1)) - 1, push.leaves);
         }
-        share(search, thread, searches);
+        merge(search, thread, searches);
         if (searching_again == 0)
             return;
         if (search.overflows)

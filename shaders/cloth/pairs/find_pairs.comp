@@ -69,8 +69,7 @@ struct Found
     uint code;
 };
 
-const uint k_kind_bits = 3;
-const uint k_candidate_bits = 7;
+const uint k_kinds = 8;
 
 shared Found found[VOILE_PAIR_FOUND * gl_WorkGroupSize.x];
 shared uint found_counts[gl_WorkGroupSize.x];
@@ -100,18 +99,18 @@ void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at
             return;
     }
     found[first + place] =
-        Found(at, (search.combination << k_candidate_bits | search.candidate) << k_kind_bits | kind);
+        Found(at, (search.combination * VOILE_PAIR_CANDIDATES + search.candidate) * k_kinds + kind);
 }
 
 bool goes_on(Search search) { return true; }
 
-uint candidate_at(Search search, uint place) { return candidates[search.fan.center * VOILE_PAIR_CANDIDATES + place]; }
+uint candidate_at(Search search, uint place) { return candidates[candidate_place(search.fan.center, 0, place)]; }
 
 Pair pair_of(Search search, uint code)
 {
-    const uint kind = code & ((1u << k_kind_bits) - 1);
-    const uint combination = code >> (k_kind_bits + k_candidate_bits);
-    const uint other = candidate_at(search, code >> k_kind_bits & ((1u << k_candidate_bits) - 1));
+    const uint kind = code % k_kinds;
+    const uint combination = code / (k_kinds * VOILE_PAIR_CANDIDATES);
+    const uint other = candidate_at(search, code / k_kinds % VOILE_PAIR_CANDIDATES);
     const Wedge own = wedge_of(search.fan, combination % search.fan.wedges);
     const Wedge wedge = wedge_of(fan_of(pair_lists[other].cloth, other), combination / search.fan.wedges);
     if (kind == k_own_vertex)

@@ -136,7 +136,7 @@ VOILE_SCRATCH_BUFFER(59, pairs, uvec4, pair_vertices * VOILE_PAIRS, "per vertex 
 VOILE_SCRATCH_BUFFER(60, pair_distances, float, pair_vertices * VOILE_PAIRS, "the distances of these pairs, along their sweeps")
 VOILE_SCRATCH_BUFFER(77, pair_thicknesses, float, pair_vertices * VOILE_PAIRS, "m, at which these pairs repel each other")
 VOILE_SCRATCH_BUFFER(78, pair_references, uint, pair_vertices * VOILE_PAIR_CANDIDATES, "for each vertex the places of the pairs that it is in, in the lists; during a search the vertices that may be near it")
-VOILE_SCRATCH_BUFFER(61, pair_lists, PairList, pair_vertices, "the distance up to which a vertex lists pairs, the lengths of the parts of its list, and the pairs that both sides list; during a search the number of its candidates, and whether one is near")
+VOILE_SCRATCH_BUFFER(61, pair_lists, PairList, pair_vertices, "the distance up to which a vertex lists pairs, their number, and those that both sides list; during a search the lengths of its lists of candidates, and whether one is near")
 VOILE_SCRATCH_BUFFER(62, pair_bounds, PairBound, pair_vertices == 0 ? 0 : 2 + pair_vertices, "the sizes of the dispatches that make the lists, not 0 if a vertex asks for it; then per vertex what bounds its motion")
 VOILE_SCRATCH_BUFFER(63, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
 VOILE_SCRATCH_BUFFER(64, pair_midpoints, vec4, pair_vertices, "the middle of the motion that the lists expect of a vertex, and half of its sweep")
