@@ -1,12 +1,12 @@
 // Arguments of the small samples: [--headless [FRAMES]].
 #pragma once
 
+#include "voile/engine/assets/words.hpp"
 #include "voile/engine/gpu/device.hpp"
 
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <string>
 #include <string_view>
 
 namespace samples
@@ -32,7 +32,8 @@ inline Arguments parse_arguments(int count, char** arguments)
     const char* end = arguments[2] + std::strlen(arguments[2]);
     const auto read = std::from_chars(arguments[2], end, result.frames);
     if (read.ec != std::errc{} || read.ptr != end || result.frames == 0)
-        throw voile::engine::StartupError("FRAMES: '" + std::string(arguments[2]) + "' is no number above 0");
+        throw voile::engine::StartupError("FRAMES: " + voile::engine::quoted_word(arguments[2]) +
+                                          " is no number above 0");
     return result;
 }
 
