@@ -131,6 +131,7 @@ quick(test_self_collision
     "a capacity of lists of pairs out of its range is refused"
     "a sheet that collides with itself falls freely as one that does not"
     "cloth slides down on cloth as Coulomb's law says"
+    "islands are the cloths that may reach each other, whatever their order"
     "pins that are driven through each other force pairs, and no intersection is left after they part"
     "tangled pairs are counted as they are when the step starts, within a cloth and between cloths"
     "without untangling, sheets that start in each other stay so, and nothing is counted")

@@ -1,9 +1,8 @@
 // The lists of pairs against all pairs of primitives. A step of one substep makes new lists of the state before it.
 #include "support/cloth_harness.hpp"
 #include "support/cloth_meshes.hpp"
+#include "support/opened_solver.hpp"
 #include "support/random_cloths.hpp"
-
-#include "solver/solver_state.hpp"
 
 #include "shared/pair_layout.h"
 #include "voile/fabrics.hpp"
@@ -17,15 +16,6 @@
 
 namespace
 {
-
-// The solver's buffers are private. An explicit instantiation may name them.
-template <auto member>
-struct Opened
-{
-    friend const voile::Solver::State& opened(const voile::Solver& solver) { return *(solver.*member); }
-};
-template struct Opened<&voile::Solver::state_>;
-const voile::Solver::State& opened(const voile::Solver& solver);
 
 namespace buffer = voile::buffer;
 using voile::shared::PairBound;
@@ -55,14 +45,14 @@ public:
     template <typename T>
     std::vector<T> content(buffer::Name name, size_t count)
     {
-        return read<T>((*opened(solver).device)[name].handle(), count);
+        return read<T>((*tests::opened(solver).device)[name].handle(), count);
     }
 
     Lists lists()
     {
         step({.duration = 1e-4f, .substeps = 1, .gravity = {0, 0, 0}, .air_density = 0});
         Lists result;
-        const auto vertices = opened(solver).device->vertices;
+        const auto vertices = tests::opened(solver).device->vertices;
         const auto bounds = content<PairBound>(buffer::pair_bounds, 2 + vertices);
         for (size_t i = 2; i < bounds.size(); ++i)
             result.sweeps.push_back(bounds[i].sweep);
@@ -360,7 +350,7 @@ TEST_CASE("a flat sheet that moves in any direction has no pairs, and its vertic
         harness.upload();
         const Lists lists = harness.lists();
         CHECK(lists.pairs.empty());
-        const float range = opened(harness.solver).model.cloths.find(id)->record.pair_range;
+        const float range = tests::opened(harness.solver).model.cloths.find(id)->record.pair_range;
         for (const PairSweep& sweep : lists.sweeps)
             CHECK(sweep.reach >= 0.99f * VOILE_PAIR_APPROACH * VOILE_FLAT_RANGE * range);
     }

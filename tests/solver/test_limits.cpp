@@ -23,7 +23,7 @@ VkPhysicalDeviceLimits least_limits()
     limits.maxComputeWorkGroupSize[0] = 128;
     limits.maxComputeWorkGroupCount[0] = 65535;
     limits.maxPerStageDescriptorStorageBuffers = 4;
-    limits.maxDescriptorSetStorageBuffers = 28; // of the contact pass, four more than Vulkan requires
+    limits.maxDescriptorSetStorageBuffers = 29; // of the contact pass, five more than Vulkan requires
     limits.maxPerStageResources = 128;
     return limits;
 }

@@ -60,6 +60,7 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
     PairBound pair_bounds[];
 };
 
+layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
@@ -415,9 +416,9 @@ bool hold_within_guards(Hold hold, inout Motion motion)
 }
 
 // Nothing holds a vertex without mass.
-void watch_driven(uint i, Motion motion)
+void watch_driven(uint i, uint cloth, Motion motion)
 {
-    const Hold hold = hold_of(i, motion.from);
+    const Hold hold = hold_of(i, cloth, motion.from);
     ask_for_lists(hold, motion.displacement);
     if (!is_in_sweep(hold, motion.displacement))
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
@@ -438,14 +439,14 @@ void main()
     bool changed = flags != 0;
     const bool held = PAIRS != 0 && (cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) != 0;
     if (held && proposed.w == 0)
-        watch_driven(i, motion);
+        watch_driven(i, cloth, motion);
     if (proposed.w > 0)
     {
         Hold hold;
         Drive impulse;
         if (held)
         {
-            hold = hold_of(i, motion.from);
+            hold = hold_of(i, cloth, motion.from);
             changed = respond_to_pairs(hold, motion, impulse) || changed;
             changed = untangle(i, motion) || changed;
         }

@@ -12,6 +12,8 @@
 #ifndef VOILE_FEATURE_GATHERING_GLSL
 #define VOILE_FEATURE_GATHERING_GLSL
 
+#include "shared/ordered.glsl"
+
 const uint k_most_gathered = 128; // features, of all colliders together
 const uint k_most_nodes = 256;    // that wait to be visited
 const uint k_most_gatherings = 8; // colliders
@@ -37,15 +39,6 @@ shared uint nodes[k_most_nodes]; // that wait, a stack
 shared uint node_count;
 shared uint sweep_is_near;
 shared uint corners[12 * (k_parts + 1)]; // minima and maxima of the two boxes of each part, at the end of all; as floats
-
-// A number in the order of the floats.
-uint ordered(float x)
-{
-    const uint bits = floatBitsToUint(x);
-    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
-}
-
-float from_ordered(uint x) { return uintBitsToFloat((x & 0x80000000u) != 0 ? x & 0x7fffffffu : ~x); }
 
 // Of a vertex or a workgroup, in the space of a collider.
 struct GroupBoxes

@@ -20,6 +20,7 @@ layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex m
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
+layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_boxes)) readonly buffer PairBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; };
 layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint candidates[]; };
@@ -43,6 +44,7 @@ struct Search
 {
     Fan fan;
     uint cloth;
+    uint island;
     Flat flat_around;
     float least_flat; // m, a neighborhood is flat if it keeps primitives so far apart
     Viewpoint from;   // the middle of the vertex's sweep, carried as the vertex is
@@ -133,7 +135,7 @@ bool are_near(Search search, Hull hull)
 // `list`: of candidates.
 void consider(inout Search search, uint vertex, uint cloth, uint list)
 {
-    if (vertex == search.fan.center || !meets(search.cloth, cloth))
+    if (vertex == search.fan.center || !meets(search.cloth, cloth) || island_of(cloth) != search.island)
         return;
     if (cloth == search.cloth && search.fan.columns >= VOILE_LEAST_FLAT_COLUMNS && is_flat_neighbor(search, vertex))
         return;
@@ -178,6 +180,7 @@ Search search_of(uint vertex, uint cloth, uint lane)
     Search search;
     search.fan = fan_of(cloth, vertex);
     search.cloth = cloth;
+    search.island = island_of(cloth);
     const vec2 flats = pair_flats[vertex];
     search.flat_around = Flat(flats.x, flats.y);
     search.range = cloths[cloth].pair_range;
@@ -188,7 +191,7 @@ Search search_of(uint vertex, uint cloth, uint lane)
     search.normal = normal / max(length(normal), 1e-30);
     const Hull hull = hull_of(search.fan, search.from, search.normal);
     search.hull = hull.box;
-    search.tree_hull = hull_of(search.fan, Viewpoint(search.from.x, tree_carry(), tree_fall()), search.normal).box;
+    search.tree_hull = hull_of(search.fan, tree_viewpoint(search.from.x, cloth), search.normal).box;
     search.heights = hull.heights;
     search.lane = lane;
     return search;

@@ -1,6 +1,6 @@
 // Holds vertices within the guards of their pairs (pair_layout.h).
 //
-// The including kernel declares pair_bounds[] and push (ContactPush).
+// The including kernel declares pair_bounds[], pair_islands[] and push (ContactPush).
 #ifndef VOILE_HOLD_GLSL
 #define VOILE_HOLD_GLSL
 
@@ -36,7 +36,7 @@ struct Hold
     vec3 left;       // m, for which the clock ends too early, until the pass after the next
 };
 
-Hold hold_of(uint i, FinePosition from)
+Hold hold_of(uint i, uint cloth, FinePosition from)
 {
     Hold hold;
     const PairSweep sweep = pair_bounds[i].sweep;
@@ -51,17 +51,17 @@ Hold hold_of(uint i, FinePosition from)
     const PairGuard guard = hold.bound.guard;
     hold.at = displacement(FinePosition(guard.from, unpack_residual(guard.residual)), from);
     hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
-    const float rate = uintBitsToFloat(pair_searches[VOILE_PAIR_RATE].entries);
-    const float clock = uintBitsToFloat(pair_searches[VOILE_PAIR_CLOCK].entries);
+    const float rate = pair_islands[cloth].rate;
+    const float clock = pair_islands[cloth].clock;
     const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
-                          (sweep.fall > 0 ? rounded_off() : vec3(0));
+                          (sweep.fall > 0 ? rounded_off(cloth) : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
-    const vec3 mean = rate * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL_RATE].entries) * gravity;
+    const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity;
     const float now = clock + rate * mix(pair_from(), pair_to(), sweep.fall);
     hold.carry = rate * (velocity + now * gravity);
     hold.carried = (pair_to() - pair_from()) * mean;
     hold.at -= pair_from() * mean;
-    hold.swept -= clock * velocity + uintBitsToFloat(pair_searches[VOILE_PAIR_FALL].entries) * gravity +
+    hold.swept -= clock * velocity + pair_islands[cloth].fall * gravity +
                   pair_from() * mean;
     const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
     hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);

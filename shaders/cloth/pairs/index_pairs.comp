@@ -27,6 +27,7 @@ layout(VOILE_BINDING(pair_masks)) buffer PairMasks { uint pair_masks[]; };
 layout(VOILE_BINDING(pair_entries)) writeonly buffer PairEntries { uint pair_entries[]; };
 layout(VOILE_BINDING(paired_vertices)) writeonly buffer PairedVertices { uvec4 paired_vertices[]; };
 layout(VOILE_BINDING(pair_references)) writeonly buffer PairReferences { uint pair_references[]; };
+layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
 
 layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
@@ -138,7 +139,7 @@ void bound(uint i, uint cloth, float reach, bool listed)
     sweep.carry = pair_carries[i];
     sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
     if (reach <= 0 && sweep.fall == 0)
-        pair_searches[VOILE_PAIR_STOPPED].entries = pair_pass() + 1;
+        pair_islands[island_of(cloth)].stopped = pair_pass() + 1;
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
@@ -146,14 +147,17 @@ void bound(uint i, uint cloth, float reach, bool listed)
         pair_searches[VOILE_PAIR_CROWDED].entries = pair_pass() + 1;
 }
 
-// What packing has rounded off the mean velocity.
-void keep_rounded_off()
+// The clock of a cloth begins.
+void begin_clock(uint cloth)
 {
-    const vec3 mean = mean_velocity();
+    const uint parity = pair_pass() & 1u;
+    pair_islands[cloth].rates[parity] = floatBitsToUint(1);
+    pair_islands[cloth].clocks[parity] = pair_islands[cloth].falls[parity] = 0;
+    const vec3 mean = mean_velocity(island_of(cloth));
     const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean);
     const vec3 packed = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word);
-    const uvec3 numbers = floatBitsToUint(mean - packed);
-    pair_searches[VOILE_PAIR_ROUNDED_OFF] = PairDispatch(numbers.x, 0, numbers.y, numbers.z);
+    for (uint k = 0; k < 3; ++k)
+        pair_islands[cloth].rounded_off[k] = mean[k] - packed[k];
 }
 
 // The pairs that the vertex is in, as masks. The first of them has all pairs of its own list.
@@ -163,14 +167,8 @@ void main()
     const uint i = self.index;
     if (gl_GlobalInvocationID.x < VOILE_PAIR_SEARCHES)
         pair_searches[gl_GlobalInvocationID.x].wanted = 0;
-    if (gl_GlobalInvocationID.x == 0)
-        pair_searches[VOILE_PAIR_CLOCKS + (pair_pass() & 1u)].entries = 0;
-    if (gl_GlobalInvocationID.x == 0)
-        pair_searches[VOILE_PAIR_FALLS + (pair_pass() & 1u)].entries = 0;
-    if (gl_GlobalInvocationID.x == 0)
-        keep_rounded_off();
-    if (gl_GlobalInvocationID.x == 0)
-        pair_passes[VOILE_PAIR_CLEAR] = PairDispatch(0, 0, 0, 0);
+    for (uint c = gl_LocalInvocationID.x; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
+        begin_clock(c);
     if (gl_GlobalInvocationID.x == 0)
         pair_passes[VOILE_PAIR_FIND] = pair_passes[VOILE_PAIR_SIFT] = PairDispatch(0, 1, 1, 0);
     if (gl_LocalInvocationID.x == 0)

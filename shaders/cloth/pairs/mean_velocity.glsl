@@ -1,9 +1,10 @@
-// How fast vertices that are clear of colliders move on average (pair_clear.comp).
+// How fast the vertices of an island that are clear of colliders move on average (pair_clear.comp).
 //
-// The including kernel declares pair_passes[] and push.
+// The including kernel declares pair_islands[] and push.
 #ifndef VOILE_MEAN_VELOCITY_GLSL
 #define VOILE_MEAN_VELOCITY_GLSL
 
+#include "pairs/island.glsl"
 #include "shared/step_input.glsl"
 
 // m/s, at a pass, of a vertex that falls freely.
@@ -13,12 +14,18 @@ vec3 velocity_at_pass(vec3 velocity, uint cloth_flags)
     return velocity + ((cloth_flags & VOILE_CLOTH_VERLET) != 0 ? lag : vec3(0));
 }
 
-// m/s: the mean of all vertices that are clear of colliders.
-vec3 mean_velocity()
+// m/s: of a sum of velocities.
+vec3 mean_of(ivec3 sum, uint count)
 {
-    const PairDispatch sum = pair_passes[VOILE_PAIR_CLEAR];
-    return vec3(int(sum.groups), int(sum.wanted), int(sum.one)) *
-           (VOILE_PAIR_UNIT_SPEED * float(push.places) / float(max(sum.entries, 1)));
+    return vec3(sum) * (VOILE_PAIR_UNIT_SPEED * float(push.places) / float(max(count, 1)));
 }
+
+ivec3 velocities_of(uint island)
+{
+    return ivec3(pair_islands[island].velocity[0], pair_islands[island].velocity[1], pair_islands[island].velocity[2]);
+}
+
+// m/s
+vec3 mean_velocity(uint island) { return mean_of(velocities_of(island), pair_islands[island].clear); }
 
 #endif

@@ -20,6 +20,8 @@ layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_thicknesses)) readonly buffer PairThicknesses { float pair_thicknesses[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(pair_entries)) readonly buffer PairEntries { uint pair_entries[]; };
+layout(VOILE_BINDING(pair_lists)) readonly buffer PairLists { PairList pair_lists[]; };
+layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
 layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
@@ -75,10 +77,19 @@ struct Vertices
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
     bvec4 supported; // by a collider
+    uint island;
+};
+
+// What the vertices of a pair are relative to.
+struct Frame
+{
+    FinePosition origin; // the first vertex, and how it is carried
+    uint carry;
+    vec3 fall; // of the island (free_fall_until_next)
 };
 
 // What acted since the last pass is expected to go on.
-void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Vertices vertices)
+void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
 {
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
@@ -86,10 +97,10 @@ void read_vertex(uint i, uint k, FinePosition origin, uint first_carry, inout Ve
     const vec4 velocity = velocities[i];
     const vec3 v = velocity.xyz;
     vertices.supported[k] = (uint(velocity.w) & VOILE_VERTEX_SUPPORTED) != 0;
-    vertices.x[k] = displacement(origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
+    vertices.x[k] = displacement(frame.origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
     vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
     vertices.slip[k] = known ? memory.slip : vec3(0);
-    vertices.carry[k] = carry_until_next(pair_carries[i], first_carry);
+    vertices.carry[k] = carry_until_next(pair_carries[i], frame.carry, frame.fall);
     vertices.inverse_masses[k] = position.w;
 }
 
@@ -232,7 +243,7 @@ uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slac
         heights[k - own.x] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
     }
     if (rate < 1)
-        atomicMin(pair_searches[VOILE_PAIR_RATES + (pair_pass() & 1u)].entries, floatBitsToUint(rate));
+        atomicMin(pair_islands[vertices.island].rates[pair_pass() & 1u], floatBitsToUint(rate));
     return uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
 }
 
@@ -246,12 +257,13 @@ void main()
     const bool first = owners.x == entry / VOILE_PAIRS;
     const float thickness = pair_thicknesses[entry];
     PairResponse response;
-    const FinePosition origin =
-        FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x]));
-    const uint first_carry = pair_carries[pair.vertices.x];
+    const uint cloth = pair_lists[entry / VOILE_PAIRS].cloth;
+    const Frame frame = Frame(FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x])),
+                              pair_carries[pair.vertices.x], free_fall_until_next(cloth));
     Vertices vertices;
+    vertices.island = island_of(cloth);
     [[unroll]] for (uint k = 0; k < 4; ++k)
-        read_vertex(pair.vertices[k], k, origin, first_carry, vertices);
+        read_vertex(pair.vertices[k], k, frame, vertices);
     const Nearest nearest = nearest_points(pair.edges, vertices.x);
     const float apart = length(nearest.apart);
     const vec3 direction = separating_direction(pair.edges, vertices.x, nearest);
@@ -276,7 +288,7 @@ void main()
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
     const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
-    const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(first_carry));
+    const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(frame.carry, frame.fall));
     response.heights = heights_of(own, vertices, separation, slack, thickness, carry);
     pair_responses[entry] = response;
     for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)

@@ -18,6 +18,7 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(pair_order)) readonly buffer PairOrder { uvec2 pair_order[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
+layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_boxes)) writeonly buffer PairBoxes { PaddedBox boxes[]; };
 layout(VOILE_BINDING(pair_flats)) writeonly buffer PairFlats { vec2 pair_flats[]; };
 
@@ -58,7 +59,7 @@ Box place_box(uint place)
     const uvec2 entry = pair_order[place];
     if (!collides_with_itself(entry.y))
         return empty;
-    return fan_box(fan_of(entry.y, entry.x), Viewpoint(vec3(0), tree_carry(), tree_fall()));
+    return fan_box(fan_of(entry.y, entry.x), tree_viewpoint(vec3(0), entry.y));
 }
 
 shared Box shared_boxes[gl_WorkGroupSize.x];

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Whether vertices that collide with other cloth are clear of all colliders for some time, so that nothing but cloth can
-// stop them or their neighbors, and how fast those that are move on average. One thread per vertex.
+// stop them or their neighbors, how fast those that are move, and where each cloth is. One thread per vertex.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -11,6 +11,7 @@
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 const uint COLLIDERS_MOVE = 1;
+const float k_unbounded = 1e30;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
@@ -21,7 +22,7 @@ layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { Collid
 layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
 layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(pair_flats)) writeonly buffer PairFlats { vec2 pair_flats[]; };
-layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
@@ -30,6 +31,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/mean_velocity.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
+#include "shared/ordered.glsl"
 
 // Edges and corners of colliders push vertices that are an edge of the cloth away.
 bool is_clear_vertex(uint i, uint cloth)
@@ -39,36 +41,61 @@ bool is_clear_vertex(uint i, uint cloth)
            is_clear(positions[i].xyz, VOILE_PAIR_SWEEP_TIME * velocities[i].xyz, margin, cloths[cloth].layers);
 }
 
-shared vec4 shared_sums[gl_WorkGroupSize.x];
+// Of some vertices of a cloth.
+struct Part
+{
+    vec3 velocity; // m/s, summed over those that are clear
+    float clear;
+    Box box;
+    float vertices;
+};
+
+shared Part shared_parts[gl_WorkGroupSize.x];
+
+Part joined(Part a, Part b)
+{
+    return Part(a.velocity + b.velocity, a.clear + b.clear, joined(a.box, b.box), a.vertices + b.vertices);
+}
 
 // The order does not depend on timing: groups add whole numbers.
-void add_velocities(uint thread, vec4 velocity)
+void add_to_cloth(uint cloth, Part part)
 {
-    shared_sums[thread] = velocity;
-    for (uint width = gl_WorkGroupSize.x / 2; width > 0; width /= 2)
+    const ivec3 sum = ivec3(round(part.velocity / (VOILE_PAIR_UNIT_SPEED * float(push.places))));
+    for (uint k = 0; k < 3; ++k)
     {
-        barrier();
-        if (thread < width)
-            shared_sums[thread] += shared_sums[thread + width];
+        atomicAdd(pair_islands[cloth].velocity[k], sum[k]);
+        atomicMax(pair_islands[cloth].low[k], ~ordered(part.box.min[k]));
+        atomicMax(pair_islands[cloth].high[k], ordered(part.box.max[k]));
     }
-    if (thread > 0 || shared_sums[0].w == 0)
-        return;
-    const ivec3 sum = ivec3(round(shared_sums[0].xyz / (VOILE_PAIR_UNIT_SPEED * float(push.places))));
-    atomicAdd(pair_passes[VOILE_PAIR_CLEAR].groups, uint(sum.x));
-    atomicAdd(pair_passes[VOILE_PAIR_CLEAR].wanted, uint(sum.y));
-    atomicAdd(pair_passes[VOILE_PAIR_CLEAR].one, uint(sum.z));
-    atomicAdd(pair_passes[VOILE_PAIR_CLEAR].entries, uint(shared_sums[0].w));
+    atomicAdd(pair_islands[cloth].clear, uint(part.clear));
+    atomicAdd(pair_islands[cloth].vertices, uint(part.vertices));
+}
+
+Part part_of(PatchVertex self, bool clear)
+{
+    if (!self.exists)
+        return Part(vec3(0), 0, Box(vec3(k_unbounded), vec3(-k_unbounded)), 0);
+    const vec3 x = positions[self.index].xyz;
+    const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
+    return Part(clear ? v : vec3(0), clear ? 1 : 0, Box(x, x), 1);
 }
 
 void main()
 {
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    const bool collides = self.exists && collides_with_itself(self.cloth);
-    const bool clear = collides && is_clear_vertex(self.index, self.cloth);
-    if (collides)
+    if (!collides_with_itself(self.cloth)) // the cloth of all threads
+        return;
+    const bool clear = self.exists && is_clear_vertex(self.index, self.cloth);
+    if (self.exists)
         pair_flats[self.index] = vec2(clear ? 1 : 0, 0);
-    vec4 velocity = vec4(0);
-    if (clear)
-        velocity = vec4(velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags), 1);
-    add_velocities(gl_LocalInvocationID.x, velocity);
+    const uint thread = gl_LocalInvocationID.x;
+    shared_parts[thread] = part_of(self, clear);
+    for (uint width = gl_WorkGroupSize.x / 2; width > 0; width /= 2)
+    {
+        barrier();
+        if (thread < width)
+            shared_parts[thread] = joined(shared_parts[thread], shared_parts[thread + width]);
+    }
+    if (thread == 0)
+        add_to_cloth(self.cloth, shared_parts[0]);
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Chooses how the lists of pairs expect vertices to move (sweep.glsl), and begins new lists. One thread per vertex.
 //
-// What is clear of colliders is carried as it moves on average, its border less. The motion of a vertex relative to that
+// What is clear of colliders is carried as the island moves on average, its border less. The motion of a vertex relative to that
 // becomes its sweep. A sweep lasts for the same time, but its part along the surface is short: vertices that
 // sweep along the surface reach their neighbors, and any of them may stop. Those that sweep across it do not.
 #include "shared/bindings.h"
@@ -21,6 +21,7 @@ layout(VOILE_BINDING(pair_midpoints)) writeonly buffer PairMidpoints { vec4 midp
 layout(VOILE_BINDING(pair_loads)) writeonly buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_passes)) buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_flats)) readonly buffer PairFlats { vec2 pair_flats[]; }; // x: 1: clear of colliders
 layout(VOILE_BINDING(pair_carries)) writeonly buffer PairCarries { uint pair_carries[]; };
 
@@ -89,9 +90,9 @@ float mesh_clearance(Fan fan)
 }
 
 // The part of the mean velocity, and of gravity if it is all.
-float clearance(uint i, Fan fan)
+float clearance(uint i, uint cloth, Fan fan)
 {
-    if (positions[i].w == 0 || is_clock_stopped())
+    if (positions[i].w == 0 || is_clock_stopped(cloth))
         return 0;
     return fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan);
 }
@@ -109,7 +110,7 @@ vec3 sweep_of(Fan fan, uint cloth, vec3 v)
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
-    if (place < VOILE_PAIR_CLEAR)
+    if (place < VOILE_PAIR_PASSES)
         pair_passes[place] = PairDispatch(place == VOILE_PAIR_RESPOND ? 1 : 0, 1, 1, 0);
     if (place >= push.places)
         return;
@@ -118,8 +119,8 @@ void main()
     if (!collides_with_itself(cloth))
         return;
     const Fan fan = fan_of(cloth, i);
-    const float clear = clearance(i, fan);
-    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * clear * mean_velocity()) |
+    const float clear = clearance(i, cloth, fan);
+    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * clear * mean_velocity(island_of(cloth))) |
                             (clear == 1 ? k_falls_bit : 0);
     const vec3 half_carry = unpack_half_sweep(carry_word);
     const vec3 own = velocities[i].xyz;

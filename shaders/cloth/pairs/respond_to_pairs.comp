@@ -18,6 +18,7 @@ layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairRespon
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec4 paired_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
 
@@ -57,6 +58,7 @@ struct Self
     float inverse_mass;
     uint carry;
     float rate; // of the clock
+    vec3 fall;  // of the island (free_fall_until_next)
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
@@ -145,7 +147,7 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const vec3 n = unpack_direction(response.normal);
     const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
     const float height = entry_of(heights, first ? place : place - sides);
-    const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x]);
+    const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x], self.fall);
     vec4 plane = carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w);
     plane.w /= looseness();
     add_plane(sum.guard, plane, looseness());
@@ -164,7 +166,8 @@ void add_entry(uint entry, Self self, inout Gather sum)
 // `entry`: the vertex, its cloth, the first of its references, and their number.
 Self self_of(uvec4 entry)
 {
-    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate());
+    return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate(entry.y),
+                free_fall_until_next(entry.y));
 }
 
 Gather gather(Self self, uint lane)
@@ -190,27 +193,41 @@ PairMemory remembered(uint i, uint cloth, Gather sum)
 }
 
 // For the substeps until the next pass, and for that pass.
-void keep_clock()
+void keep_clock(uint cloth)
 {
-    const float clock = clock_at_pass();
-    const float rate = clock_rate();
+    const float clock = clock_at_pass(cloth);
+    const float rate = clock_rate(cloth);
+    const float fall = fall_at_pass(cloth);
+    const float gained = rate * fall_until_next(cloth);
     const uint other = 1 - (pair_pass() & 1u);
-    pair_searches[VOILE_PAIR_RATE].entries = floatBitsToUint(rate);
-    pair_searches[VOILE_PAIR_CLOCK].entries = floatBitsToUint(clock);
-    const float fall = fall_at_pass();
-    const float gained = rate * fall_until_next();
-    pair_searches[VOILE_PAIR_FALL].entries = floatBitsToUint(fall);
-    pair_searches[VOILE_PAIR_FALL_RATE].entries = floatBitsToUint(gained / pair_interval());
-    pair_searches[VOILE_PAIR_FALLS + other].entries = floatBitsToUint(fall + gained);
-    pair_searches[VOILE_PAIR_CLOCKS + other].entries = floatBitsToUint(clock + rate * pair_interval());
-    pair_searches[VOILE_PAIR_RATES + other].entries = floatBitsToUint(1);
+    pair_islands[cloth].rate = rate;
+    pair_islands[cloth].clock = clock;
+    pair_islands[cloth].fall = fall;
+    pair_islands[cloth].fall_rate = gained / pair_interval();
+    pair_islands[cloth].clocks[other] = clock + rate * pair_interval();
+    pair_islands[cloth].falls[other] = fall + gained;
+    pair_islands[cloth].rates[other] = floatBitsToUint(1);
+}
+
+// For the next search.
+void forget_part(uint cloth)
+{
+    pair_islands[cloth].vertices = pair_islands[cloth].clear = 0;
+    for (uint k = 0; k < 3; ++k)
+    {
+        pair_islands[cloth].velocity[k] = 0;
+        pair_islands[cloth].low[k] = pair_islands[cloth].high[k] = 0;
+    }
 }
 
 void main()
 {
-    if (gl_GlobalInvocationID.x == 0)
-        keep_clock();
     const uint thread = gl_LocalInvocationID.x;
+    for (uint c = thread; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
+    {
+        keep_clock(c);
+        forget_part(c);
+    }
     const uint lane = thread % push.threads;
     const uint place = gl_GlobalInvocationID.x / push.threads;
     const bool exists = place < pair_passes[VOILE_PAIR_RESPOND].entries;

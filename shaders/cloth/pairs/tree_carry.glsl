@@ -1,23 +1,23 @@
-// How the boxes of the hierarchy of pairs are carried, so that those of cloth that falls are small.
+// How the boxes of the hierarchy of pairs are carried, so that those of cloth that falls are small: those of an island as
+// most of its vertices are.
 //
-// The including kernel declares pair_order[], pair_carries[] and push.places.
+// The including kernel declares pair_islands[] and push (PairPush).
 #ifndef VOILE_TREE_CARRY_GLSL
 #define VOILE_TREE_CARRY_GLSL
 
+#include "pairs/mean_velocity.glsl"
 #include "pairs/node.glsl"
 #include "pairs/sweep.glsl"
 
-// m, half of the way: the mean of some vertices'.
-vec3 tree_carry()
+// At `x`.
+Viewpoint tree_viewpoint(vec3 x, uint cloth)
 {
-    const uint samples = 4;
-    vec3 sum = vec3(0);
-    for (uint k = 0; k < samples; ++k)
-        sum += unpack_half_sweep(pair_carries[pair_order[(2 * k + 1) * push.places / (2 * samples)].x]);
-    return sum / float(samples);
+    const uint island = island_of(cloth);
+    const bool carried = 2 * pair_islands[island].clear > pair_islands[island].vertices;
+    if (!carried)
+        return Viewpoint(x, vec3(0), 0);
+    const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean_velocity(island)) | k_falls_bit;
+    return Viewpoint(x, unpack_half_sweep(word), fall_of(word));
 }
-
-// m, beyond that (node.glsl): as vertices in the middle, if they fall freely.
-float tree_fall() { return fall_of(pair_carries[pair_order[push.places / 2].x]); }
 
 #endif

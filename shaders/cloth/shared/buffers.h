@@ -141,6 +141,7 @@ VOILE_SCRATCH_BUFFER(62, pair_bounds, PairBound, pair_vertices == 0 ? 0 : 2 + pa
 VOILE_SCRATCH_BUFFER(63, pair_memories, PairMemory, pair_vertices, "what a vertex keeps from pass to pass")
 VOILE_SCRATCH_BUFFER(64, pair_midpoints, vec4, pair_vertices, "the middle of the motion that the lists expect of a vertex, and half of its sweep")
 VOILE_SCRATCH_BUFFER(84, pair_carries, uint, pair_vertices, "half of the way that the clock of the lists carries a vertex")
+VOILE_SCRATCH_BUFFER(94, pair_islands, PairIsland, pair_vertices == 0 ? 0 : cloths, "how near cloths are to others that may meet them, and the clock of the lists that these share")
 VOILE_SCRATCH_BUFFER(83, pair_flats, vec2, pair_vertices, "how far apart primitives around a vertex are unless they share a vertex, in two neighborhoods; not above 0 where that is unknown; before that, whether it is clear of colliders")
 VOILE_SCRATCH_BUFFER(65, pair_passes, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_PASSES, "the sizes of the dispatches of a pass")
 VOILE_SCRATCH_BUFFER(66, pair_entries, uint, pair_vertices * VOILE_PAIRS, "the places of the pairs that both sides list, in no order; during a search the places of the candidates that are sifted")

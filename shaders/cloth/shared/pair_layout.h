@@ -12,39 +12,23 @@
 #define VOILE_PAIR_FOUND 8
 
 // The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
-// patch, folds of levels, one per vertex of a slot of a leaf, and push.candidate_lanes per place.
+// patch, folds of levels, one per vertex of a slot of a leaf, push.candidate_lanes per place, one workgroup for all
+// cloths.
 #define VOILE_PAIR_SEARCHES 16
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
 #define VOILE_PAIR_FOLDS 2
 #define VOILE_PAIR_OF_LEAVES 7
 #define VOILE_PAIR_OF_CANDIDATES 8
+#define VOILE_PAIR_OF_CLOTHS 9
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
 // had.
 #define VOILE_PAIR_FORCED 0
-// Those whose `entries` are the clock of the lists (PairSweep). It runs at most as fast as time, and more slowly where
-// vertices that it carries would meet. First the rates for which pairs have room and the clock at the beginning of a
-// pass, s, both as floats, for even and for odd passes.
-#define VOILE_PAIR_RATES 1
-#define VOILE_PAIR_CLOCKS 3
-// The rate and the clock of the last pass.
-#define VOILE_PAIR_RATE 5
-#define VOILE_PAIR_CLOCK 6
-// The pass, + 1, in which the clock carried vertices too near each other. For some passes nothing is carried then. 0:
-// there was none in this step.
-#define VOILE_PAIR_STOPPED 7
-#define VOILE_PAIR_STOPPED_PASSES 16
-// What gravity adds to the way of what falls freely: the square of the clock, about half, s^2. For even and for odd
-// passes, then of the last pass, and what it gains per second until the next one. Then three numbers (fall.glsl).
-#define VOILE_PAIR_FALLS 8
-#define VOILE_PAIR_FALL 10
-#define VOILE_PAIR_FALL_RATE 11
-#define VOILE_PAIR_ROUNDED_OFF 12
 // The dispatch whose `entries` count the pairs of an edge and a triangle that intersect at the step's start.
-#define VOILE_PAIR_TANGLED 13
+#define VOILE_PAIR_TANGLED 1
 // The pass, + 1, that made the last lists that left little room to a vertex which a collider pushes. For some passes,
 // sweeps are halved where they leave little room. It is kept from step to step.
-#define VOILE_PAIR_CROWDED 14
+#define VOILE_PAIR_CROWDED 10
 #define VOILE_PAIR_CROWDED_PASSES 64
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
@@ -71,9 +55,9 @@
 // Of a search, over the vertices that have near candidates, and over the candidates that are sifted.
 #define VOILE_PAIR_FIND 3
 #define VOILE_PAIR_SIFT 4
-// No dispatch: during a search the sum of the velocities of vertices that are clear of colliders, and their number.
-#define VOILE_PAIR_CLEAR 5
-#define VOILE_PAIR_PASSES 6
+#define VOILE_PAIR_PASSES 5
+// For so many passes nothing of an island is carried after the clock has carried vertices too near each other.
+#define VOILE_PAIR_STOPPED_PASSES 16
 // Velocities are summed up in this unit, as a part of the mean.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 // s: the clock of the lists ends there.
@@ -108,6 +92,39 @@ struct PairList
     uint count;
     uint cloth;
     uint mask; // the places of pairs that both sides list, if there are any
+};
+
+// What a cloth shares with others. Cloths that may come near each other until the lists are made again are an island,
+// named by its first cloth. It has a clock that runs at most as fast as time, and more slowly where vertices that it
+// carries would meet (PairSweep).
+struct PairIsland
+{
+    uint before; // the first cloth of the island is so many before this one
+    uint joined; // while islands are found: another one that it becomes a part of is so many before it
+    // Since the last lists, of the cloth; when islands are known, in the record of the first cloth, of the island.
+    uint vertices;
+    uint clear;      // of colliders
+    int velocity[3]; // the sum over those, in VOILE_PAIR_UNIT_SPEED
+    // The box around the vertices of the cloth. Ordered numbers (ordered.glsl), the lower corner's inverted; 0: no
+    // cloth.
+    uint low[3];
+    uint high[3];
+    float reach_low[3]; // m, the box until the lists are made again
+    float reach_high[3];
+    // Of the first cloth. The pass, + 1, in which the clock carried vertices too near each other; 0: there was none in
+    // this step. The rates for which pairs have room, floats, for even and for odd passes.
+    uint stopped;
+    uint rates[2];
+    // For even and for odd passes: the clock at the beginning, s, and what gravity adds to the way of what falls
+    // freely: the square of the clock, about half, s^2.
+    float clocks[2];
+    float falls[2];
+    // The same of the last pass, until the next one.
+    float rate;
+    float clock;
+    float fall;
+    float fall_rate;      // s, what `fall` gains per second
+    float rounded_off[3]; // m/s, what packing the mean velocity has rounded off
 };
 
 // Where a vertex may be until the lists are made again. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
@@ -190,7 +207,8 @@ struct PairPush
     uint capacity;        // of a list, at most VOILE_PAIRS
     uint colliders;
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
-    float lag;   // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
+    uint cloths;
+    float lag; // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
 };
 
 #ifdef __cplusplus

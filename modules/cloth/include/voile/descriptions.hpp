@@ -80,15 +80,14 @@ struct GridCloth
     // some never come free and go on moving.
     //
     // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer, relative to
-    // the mean velocity of all such cloth that is clear of colliders; beside colliders relative to the world. What it
-    // would move beyond is lost with its momentum. Cloth in free flight falls freely, in any shape and at any speed,
-    // also where layers start very near each other, or touch, as long as all such cloth flies together: of two stacks
-    // of two sheets 3.15 mm apart that flew apart at 5 and -2.5 m/s, both went on at 1.3 m/s. In solvers of their own
-    // they do not slow each other. A closed sphere of 38 vertices along a seam that is not merged drove itself to
-    // 0.8 m/s in 4 s. While two sheets nearer than a tenth of the thickness parted, they lost 0.06 m/s or a little
-    // more. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a mesh that touch where it
-    // starts, as along a seam that is not merged, do not collide with each other there, and neither does what pins hold
-    // at one point: it counts as forced.
+    // the mean velocity of the cloth that is clear of colliders; beside colliders relative to the world. What it would
+    // move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3 ms, their
+    // island: others do not matter. Cloth in free flight falls freely, in any shape and at any speed, also where layers
+    // start very near each other, or touch, as long as the island flies together. A closed sphere of 38 vertices along
+    // a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer than a tenth of the thickness
+    // parted, they lost 0.06 m/s or a little more. Layers that start nearer than a fiftieth of the thickness do not
+    // part. Parts of a mesh that touch where it starts, as along a seam that is not merged, do not collide with each
+    // other there, and neither does what pins hold at one point: it counts as forced.
     //
     // A collider that moves pushes such cloth without getting into it if it moves by less than half of the thickness in
     // a substep: at 24 m/s with a spacing of 11 mm and automatic substeps. Faster ones may get through. So may those

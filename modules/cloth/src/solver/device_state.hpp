@@ -71,6 +71,13 @@ struct BufferCounts
     [[nodiscard]] std::array<uint64_t, buffer::k_numbers> entries() const;
 };
 
+// The cloths that collide with themselves and each other.
+struct PairCloths
+{
+    uint32_t count = 0;
+    uint32_t end = 0; // of their indices
+};
+
 struct DeviceState
 {
     std::array<gpu::Buffer, buffer::k_numbers> buffers; // by name; those that uploads allocate
@@ -83,6 +90,7 @@ struct DeviceState
 
     uint32_t patch_count = 0; // in the buffer of patches
     uint32_t pair_places = 0; // in the order of pairs, those of disabled and removed cloths included
+    PairCloths pair_cloths;
     TreeCounts tree_counts{}; // in the buffer of trees
 
     const gpu::Buffer& operator[](buffer::Name name) const { return buffers[name]; }

@@ -33,6 +33,7 @@ struct Kernels
     gpu::Kernel contact_pairs_many;
     gpu::Kernel find_tangles;
     gpu::Kernel pair_clear;
+    gpu::Kernel find_islands;
     gpu::Kernel pair_sweeps;
     gpu::Kernel pair_boxes;
     gpu::Kernel find_candidates;

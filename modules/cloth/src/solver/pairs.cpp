@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace voile
@@ -105,6 +104,7 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.lanes = lanes_per_search(solver_.options.tuning, push.places);
     push.candidate_lanes = candidate_lanes(solver_.options.tuning, push.places);
     push.capacity = solver_.options.tuning.pair_capacity;
+    push.cloths = solver_.device->pair_cloths.end;
     push.colliders = solver_.passes.colliders;
     push.sifted = most_sifted(solver_.options.tuning, push.places);
     push.lag = substep > 0 ? 0.5f : 0;
@@ -120,27 +120,24 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
 // The first pass of a step wants new lists: the host may have moved anything.
 void PairRecorder::write_sizes()
 {
+    const DeviceState& device = *solver_.device;
     const RefitKernels& refit = solver_.kernels.refit;
     const uint32_t group = solver_.options.tuning.workgroup_size;
     std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(leaves_);
     sizes[VOILE_PAIR_OF_LEAVES] = {((VOILE_PAIR_LEAF << fold.bottom) + group - 1) / group, 1, 1, 0};
-    const uint32_t places = solver_.device->pair_places;
+    const uint32_t places = device.pair_places;
     sizes[VOILE_PAIR_OF_PLACES] = {(places + group - 1) / group, 1, 1, 0};
     const uint32_t candidate_threads = places * candidate_lanes(solver_.options.tuning, places);
     sizes[VOILE_PAIR_OF_CANDIDATES] = {(candidate_threads + group - 1) / group, 1, 1, 0};
+    sizes[VOILE_PAIR_OF_CLOTHS] = {1, 1, 1, 0};
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
-    for (const uint32_t parity : {0u, 1u})
-        sizes[VOILE_PAIR_RATES + parity].entries = std::bit_cast<uint32_t>(1.f);
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_bounds].handle(), 0,
+    write_dispatches(recorder_, device[buffer::pair_bounds].handle(), 0,
                      std::as_bytes(std::span(sizes).first(VOILE_PAIR_CROWDED)),
-                     (*solver_.device)[buffer::tangles].handle());
-    const shared::PairDispatch no_velocities{};
-    write_dispatches(recorder_, (*solver_.device)[buffer::pair_passes].handle(), offset_of(VOILE_PAIR_CLEAR),
-                     std::as_bytes(std::span(&no_velocities, 1)));
+                     std::array{device[buffer::tangles].handle(), device[buffer::pair_islands].handle()});
 }
 
 // Where the host, pins or colliders have put cloth into cloth.
@@ -157,6 +154,11 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
     const VkBuffer sizes = (*solver_.device)[buffer::pair_bounds].handle();
     recorder_.dispatch_indirect(solver_.kernels.pair_clear, sets.pair_clear[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
+    if (solver_.device->pair_cloths.count > 1)
+    {
+        recorder_.dispatch_indirect(solver_.kernels.find_islands, sets.find_islands, sizes,
+                                    offset_of(VOILE_PAIR_OF_CLOTHS), push);
+    }
     recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PLACES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_LEAVES),

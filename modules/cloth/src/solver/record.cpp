@@ -58,7 +58,8 @@ void record_depenetration(gpu::Recorder& recorder, const Solver::State& solver, 
     const shared::DepenetrationPush push{step.duration, solver.passes.colliders, device.near_stride,
                                          depenetration_word(next)};
     const VkBuffer depenetrations = device[buffer::depenetrations].handle();
-    clear_dispatch(recorder, depenetrations, depenetration_word(next), device[k_depenetration_votes[next]].handle());
+    clear_dispatch(recorder, depenetrations, depenetration_word(next),
+                   std::array{device[k_depenetration_votes[next]].handle()});
     if (all)
         recorder.dispatch(kernel, device.sets.depenetrate[next], solver.lists.patch_count() * group, group, push);
     else
@@ -130,20 +131,20 @@ void end_scope(gpu::Recorder& recorder, const SolverOptions& options)
 }
 
 void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
-                      VkBuffer counts)
+                      std::span<const VkBuffer> counts)
 {
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR,
                      k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
     recorder.update(sizes, offset, bytes);
-    if (counts != VK_NULL_HANDLE)
-        recorder.fill(counts, 0);
+    for (const VkBuffer buffer : counts)
+        recorder.fill(buffer, 0);
     recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                      k_compute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT_KHR,
                      k_storage | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT_KHR);
 }
 
-void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, VkBuffer counts)
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word, std::span<const VkBuffer> counts)
 {
     const VkDispatchIndirectCommand none{0, 1, 1};
     write_dispatches(recorder, size, word * sizeof(uint32_t), std::as_bytes(std::span(&none, 1)), counts);

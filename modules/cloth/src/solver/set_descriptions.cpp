@@ -264,6 +264,7 @@ void Describer::add_pairs()
                  {binding::stage_velocities, now.velocities}});
     }
     add(sets_.find_tangles, kernels_.find_tangles);
+    add(sets_.find_islands, kernels_.find_islands);
     add(sets_.pair_boxes, kernels_.pair_boxes);
     add(sets_.find_candidates, kernels_.find_candidates);
     add(sets_.sift_candidates, kernels_.sift_candidates);

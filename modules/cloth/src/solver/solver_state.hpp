@@ -183,18 +183,18 @@ struct NewDeforming
 // before it.
 void record_at_rest(gpu::Recorder& recorder, const Solver::State& solver, const NewDeforming& colliders);
 
-// Writes sizes of indirect dispatches, and clears another buffer, if any. Between barriers of its own.
+// Writes sizes of indirect dispatches, and clears other buffers. Between barriers of its own.
 void write_dispatches(gpu::Recorder& recorder, VkBuffer sizes, VkDeviceSize offset, std::span<const std::byte> bytes,
-                      VkBuffer counts = VK_NULL_HANDLE);
+                      std::span<const VkBuffer> counts = {});
 // A kernel over the hierarchies of cloths: one dispatch per depth of trees, whose threads take one triangle each.
 void record_over_trees(gpu::Recorder& recorder, const Solver::State& solver, const gpu::Kernel& kernel,
                        VkDescriptorSet set);
 // Clears the marks and numbers of intersections. Between barriers of its own.
 void clear_intersections(gpu::Recorder& recorder, const DeviceState& device);
 
-// Sets the size of an indirect dispatch, at a word of its buffer, to 0. `counts`: another buffer to clear, if any.
-// Between barriers of its own.
-void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, VkBuffer counts = VK_NULL_HANDLE);
+// Sets the size of an indirect dispatch, at a word of its buffer, to 0. `counts`: other buffers to clear. Between
+// barriers of its own.
+void clear_dispatch(gpu::Recorder& recorder, VkBuffer size, uint32_t word = 0, std::span<const VkBuffer> counts = {});
 
 // The word of the buffer of depenetrations that holds the size of depenetration's dispatch, of even and of odd steps.
 constexpr uint32_t depenetration_word(size_t step)

@@ -189,6 +189,15 @@ uint64_t count_pair_places(const Model& model)
     return places;
 }
 
+PairCloths pair_cloths(const Model& model)
+{
+    PairCloths cloths;
+    for (const auto [index, cloth] : model.cloths)
+        if (!cloth.pair_order.empty())
+            cloths = {cloths.count + 1, index + 1};
+    return cloths;
+}
+
 // Few vertices of coarse cloth may need many items each.
 uint64_t feature_item_room(const Tuning& tuning, uint64_t vertices)
 {
@@ -352,6 +361,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     const NewDeforming deforming = new_deforming(collider_models);
     mark_uploaded(*this);
     device->pair_places = static_cast<uint32_t>(count_pair_places(model));
+    device->pair_cloths = pair_cloths(model);
     update_patches();
     record_patches(recorder, *this);
     const Scope after = host_scopes(options).after;
