@@ -226,3 +226,39 @@ TEST_CASE("a curtain and its lining that hang from the same points come to rest"
     CHECK(fastest < 0.1); // measured: 0.02; with planes between what the pins hold together 88
     CHECK(harness.statistics().forced_pairs > 0);
 }
+
+// By an eighth of the thickness in a substep, 44 a frame.
+TEST_CASE("a pinned sheet that is driven at 1 m/s takes cloth along that rests or flies towards it")
+{
+    for (const auto& [speed, height] : {std::pair(0.f, 0.05f), {2.f, 0.13f}, {5.f, 0.02f}, {5.f, 0.1f}})
+    {
+        PairHarness harness;
+        voile::GridCloth sheet = tests::pair_sheet(6, 6, 0.02f);
+        auto& fabric = std::get<voile::Fabric>(sheet.material);
+        fabric.thickness = 0.003f;
+        for (float& stiffness : fabric.stretch_stiffness)
+            stiffness *= 0.1f;
+        fabric.shear_stiffness *= 0.1f;
+        harness.add(sheet);
+        const voile::AnchorId rail = take(harness.solver.add_anchor(glm::mat4(1)));
+        std::vector<voile::Attachment> pins;
+        for (uint32_t i = 0; i < 36; ++i)
+            pins.push_back(voile::pin(i, rail));
+        take(harness.solver.set_attachments(harness.cloths[0], pins));
+        sheet.width = sheet.depth = 0.105f;
+        sheet.transform = at({0.003f, height, 0.002f});
+        sheet.velocity = {0, -speed, 0};
+        harness.add(sheet);
+        harness.upload();
+        CAPTURE(speed);
+        const auto move = [&](int step) {
+            take(harness.solver.move_anchor(rail, at({0, static_cast<float>(step + 1) / 60, 0})));
+        };
+        CHECK(harness.first_intersection(voile::Step{.duration = 1.f / 60, .gravity = {0, 0, 0}, .air_density = 0}, 8,
+                                         move) == -1);
+        float mean = 0; // m, height
+        for (const glm::vec4& p : harness.positions(harness.cloths[1]))
+            mean += p.y / 36;
+        CHECK(mean > 8.f / 60); // it has not passed the pins
+    }
+}

@@ -478,7 +478,7 @@ void main()
             flags |= VOILE_VERTEX_SUPPORTED;
             pair_bounds[i].guard.support = pack_direction(drive.direction);
         }
-        if (held && COLLIDERS_MOVE != 0 && (drive.speed > 0 || impulse.speed > k_push))
+        if (held && step_input.driven != 0 && (drive.speed > 0 || impulse.speed > k_push))
             flags |= VOILE_VERTEX_PUSHED;
         if (held && hold_within_guards(hold, motion))
         {

@@ -143,7 +143,8 @@ void bound(uint i, uint cloth, float reach, bool listed)
     sweep.residual = residuals[i];
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
-    if ((uint(velocities[i].w) & VOILE_VERTEX_PUSHED) != 0 && sweep.reach < pair_interval() * length(velocities[i].xyz))
+    const bool driven = positions[i].w == 0 || (uint(velocities[i].w) & VOILE_VERTEX_PUSHED) != 0;
+    if (driven && sweep.reach < pair_interval() * length(velocities[i].xyz))
         pair_searches[VOILE_PAIR_CROWDED].entries = pair_pass() + 1;
 }
 

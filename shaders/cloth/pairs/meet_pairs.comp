@@ -228,11 +228,10 @@ void add_load(uint vertex, float weight)
 }
 
 // How far the vertices of the own side may approach, `slack` for all, and how far the clock carries the planes
-// (PairResponse::heights). Where it would carry them farther than they have room, it slows down.
+// (PairResponse::heights). Where it would carry them farther than `room_to_carry`, it slows down.
 // `own`: the first place of the side, and the first one after it.
-uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float thickness, float carry)
+uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float room_to_carry, float carry)
 {
-    const float room_to_carry = max(slack, VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness));
     vec3 heights = vec3(0);
     float rate = 1;
     for (uint k = own.x; k < own.y; ++k)
@@ -289,7 +288,9 @@ void main()
     const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
     const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(frame.carry, frame.fall));
-    response.heights = heights_of(own, vertices, separation, slack, thickness, carry);
+    const float room_to_carry = 2 * VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness);
+    response.heights = heights_of(own, vertices, separation, slack,
+                                  slack + 0.5 * max(room_to_carry - max(room, needed.x + needed.y), 0), carry);
     pair_responses[entry] = response;
     for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)
         add_load(pair.vertices[k], nearest.weights[k]);

@@ -38,7 +38,7 @@ struct StepInput
     uint first_substep;   // counted over all steps
     uint first_pair_pass; // counted over all steps
     float pair_fall;      // m: how far gravity alone may carry a vertex until lists of pairs are made again
-    uint unused;          // std140 has multiples of 16 bytes
+    uint driven;          // 1: colliders or anchors may move
 };
 
 // Push constants of the integration passes. Times are in substeps of level 0.

@@ -68,7 +68,8 @@ struct GridCloth
     // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
     // the strain limit do. A collider that presses layers together gets into them instead
     // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: if pins are driven into cloth faster
-    // than it can give way, it may intersect (Statistics::forced_pairs). So may cloth that the host puts somewhere:
+    // than it can give way, by more than an eighth of the thickness in a substep, it may intersect
+    // (Statistics::forced_pairs). So may cloth that the host puts somewhere:
     // reset, teleport, a snapshot, a pin with a position elsewhere.
     //
     // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
