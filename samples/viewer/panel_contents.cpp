@@ -48,7 +48,7 @@ void plot_passes(const FrameHistory& history)
         stack(std::max(rest, 0.f), k_rest_color);
     }
     ImGui::Dummy(size);
-    ImGui::Text("GPU time per frame, up to %.3g ms, and its mean:", static_cast<double>(most));
+    ImGui::Text("GPU time per frame, up to %.4g ms; means:", static_cast<double>(most));
     for (size_t k = 0; k < passes.size(); ++k)
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(k_colors[k]), "%.3f ms %s",
                            static_cast<double>(history.mean(passes[k])), history.names()[passes[k]].c_str());

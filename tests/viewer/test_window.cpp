@@ -213,6 +213,14 @@ TEST_CASE("a dropped mesh becomes a collider, and the saved scene is what runs")
 namespace
 {
 
+// A sheet that has fallen over a ball, right of the panel.
+constexpr const char* k_pulled_sheet = R"({
+  "cloths": [{"name": "sheet", "grid": {"vertices": [40, 40], "size": [1.9, 1.9]}, "material": "cotton",
+              "integrator": "verlet", "transform": {"translate": [0, 1.15, 0], "rotate": [0, 20, 0]}}],
+  "colliders": [{"sphere": {"center": [0, 0.55, 0], "radius": 0.5}}, {"plane": {"y": 0}}],
+  "camera": {"position": [-0.62, 1.6, 3.2], "target": [-0.62, 0.65, 0], "fov": 40}
+})";
+
 // For people who want to see what these tests see.
 void keep(const char* name, const voile::engine::Picture& picture)
 {
@@ -295,6 +303,33 @@ TEST_CASE("the panel has buttons and sliders that work")
     REQUIRE(wind != nullptr);
     CHECK(wind->find("velocity")->items[0].number > 100);
     CHECK(wind->find("velocity")->items[1].number == 0);
+    session.close();
+}
+
+// scripts/pictures.sh runs it for docs/window.png, ctest does not: ffmpeg takes the picture, which has the cursor.
+TEST_CASE("the picture of the window" * doctest::skip())
+{
+    const char* pictures = std::getenv("VOILE_WINDOW_PICTURES");
+    REQUIRE(pictures != nullptr);
+    const TestFolder folder;
+    const std::string scene = folder.write("sheet.json", k_pulled_sheet).string();
+    const XServer display;
+    REQUIRE(!display.name().empty());
+    Session session(display, folder, {scene, "--debug", "strain"}, "1280x720");
+    XWindow& window = session.window;
+    session.step(40);
+    window.move(760, 330);
+    window.button(1, true);
+    for (int i = 1; i <= 10; ++i)
+    {
+        window.move(760 + 10 * i, 330 - 18 * i);
+        session.step(1);
+    }
+    session.step(6);
+    const std::string take = "ffmpeg -loglevel error -y -f x11grab -video_size 1280x720 -i " + display.name() +
+                             " -frames:v 1 " + pictures + "/window.png </dev/null";
+    CHECK(std::system(take.c_str()) == 0);
+    window.button(1, false);
     session.close();
 }
 
