@@ -39,7 +39,8 @@ bool save_dressed(const std::filesystem::path& folder)
         if (!save(folder / ("figure_" + std::to_string(i) + ".obj"),
                   figure.at(static_cast<double>(i) / scenes::k_walk_frames)))
             return false;
-    return save(folder / "skirt.obj", scenes::make_skirt()) && save(folder / "cape.obj", scenes::make_cape());
+    return save(folder / "skirt.obj", scenes::make_skirt()) &&
+           save(folder / "cape.obj", scenes::make_cape(figure.at(0)));
 }
 
 bool save_labels(const std::filesystem::path& folder)

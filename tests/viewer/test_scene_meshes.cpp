@@ -263,7 +263,7 @@ TEST_CASE("the clothes of the figure start outside of it and do not intersect")
     // Where a thigh bends, the figure's own folds may.
     const uint64_t folds = voile::count_self_intersections(all.positions, all.triangles);
     CHECK(folds < 100);
-    for (const voile::engine::Mesh& cloth : {scenes::make_skirt(), scenes::make_cape()})
+    for (const voile::engine::Mesh& cloth : {scenes::make_skirt(), scenes::make_cape(figure.at(0))})
     {
         const auto first = static_cast<uint32_t>(all.positions.size());
         all.positions.insert(all.positions.end(), cloth.positions.begin(), cloth.positions.end());
