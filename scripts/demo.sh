@@ -37,7 +37,11 @@ if $film; then
   mkdir -p "$out"
   parts=$(mktemp -d)
   trap 'rm -rf "$parts"' EXIT
-  for part in fabrics flag curtains dressed; do # 5 seconds each
+  scenes=(fabrics flag curtains dressed) # 5 seconds each
+  number=0
+  for part in "${scenes[@]}"; do
+    number=$((number + 1))
+    echo "demo: scene $number of ${#scenes[@]}, $part"
     "$viewer" "$part" --headless --frames 300 --size 640x360 --video "$parts/$part.mp4" ${arguments[@]+"${arguments[@]}"}
     printf "file '%s'\n" "$parts/$part.mp4" >>"$parts/list"
   done

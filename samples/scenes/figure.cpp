@@ -1,4 +1,4 @@
-// The figure: its surface, its bones and its gait. The clothes: cones.
+// The figure: its surface, its bones and its gait.
 #include "figure.hpp"
 
 #include "even_mesh.hpp"

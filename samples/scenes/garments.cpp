@@ -48,7 +48,7 @@ void add_triangles(voile::engine::Mesh& mesh, uint32_t columns, uint32_t rows, u
             const uint32_t next = (column + 1) % columns;
             const uint32_t a = row * columns;
             const uint32_t b = a + columns;
-            // Diagonals alternate, but one that is much longer than the other would cut through what a skew quad lies on.
+            // Diagonals alternate. In a skew quad the longer one could cut through what the cloth lies on.
             const float down = glm::distance(mesh.positions[a + column], mesh.positions[b + next]);
             const float up = glm::distance(mesh.positions[b + column], mesh.positions[a + next]);
             constexpr float k_skew = 1.2f;
@@ -113,7 +113,8 @@ float reach(const voile::engine::Mesh& mesh, const glm::vec3& start, const glm::
     return farthest;
 }
 
-// Half of the angle that the cape takes around the figure at a height. It covers the shoulders and leaves the arms free.
+// Half of the angle that the cape takes around the figure at a height: it covers the shoulders and leaves the arms
+// free.
 float cape_angle(float height)
 {
     return glm::mix(glm::radians(62.f), glm::radians(112.f), glm::smoothstep(1.2f, 1.38f, height));

@@ -273,6 +273,26 @@ TEST_CASE("the clothes of the figure start outside of it and do not intersect")
     CHECK(voile::count_self_intersections(all.positions, all.triangles) == folds);
 }
 
+TEST_CASE("the cape lies on the shoulders of the figure")
+{
+    const voile::engine::Mesh figure = scenes::Figure().at(0);
+    const voile::engine::Mesh cape = scenes::make_cape(figure);
+    double farthest = 0; // of what the scene pins, from the figure's vertices
+    double across = 0;
+    for (const glm::vec3& p : cape.positions)
+        if (p.y > 1.4f)
+        {
+            double nearest = 1;
+            for (const glm::vec3& q : figure.positions)
+                nearest = std::min(nearest, double{glm::distance(p, q)});
+            farthest = std::max(farthest, nearest);
+            across = std::max(across, double{p.x});
+        }
+    CAPTURE(farthest);
+    CHECK(farthest < 0.025); // 0.009 from the skin, whose vertices are 0.02 apart
+    CHECK(across > 0.12); // as far as the shoulders
+}
+
 TEST_CASE("a curtain starts in pleats, upright and as wide as its fabric")
 {
     const voile::engine::Mesh curtain = scenes::make_curtain();
