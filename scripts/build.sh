@@ -23,5 +23,5 @@ targets=()
 for target in "$@"; do targets+=(--target "$target"); done
 [ -f build/release/build.ninja ] || printf 'build: configuring\n'
 quietly cmake --preset release
-printf 'build: building with %d jobs\n' "$jobs"
+printf 'build: building with %d jobs, which takes minutes the first time; its output goes to %s\n' "$jobs" "$log"
 quietly cmake --build --preset release --parallel "$jobs" ${targets[@]+"${targets[@]}"}
