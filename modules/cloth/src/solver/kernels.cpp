@@ -127,11 +127,10 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 uint32_t most_storage_buffers()
 {
     Kernels none;
-    size_t most = 0;
+    ptrdiff_t most = 0;
     for (const Request& request : requests_of(none, {.intersections = true}))
         if (const auto shader = gpu::reflect(request.description))
-            most = std::max<size_t>(most,
-                                    std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
+            most = std::max(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
 }
 
