@@ -135,7 +135,7 @@ voile::Result<voile::Attachment> follow(const PinContext& context, const PinEntr
     const auto anchor = context.solver.add_anchor(frame);
     if (!anchor)
         return error_at(context.scene, pin.location, anchor.error().message);
-    context.added.following_pins.push_back({anchor.value(), number, t, frame});
+    context.added.following_pins.push_back({anchor.value(), number, t, frame, pin.location});
     return make_attachment(pin, vertex).to(anchor.value()).at(glm::vec3(glm::inverse(frame) * glm::vec4(position, 1)));
 }
 
@@ -153,7 +153,7 @@ voile::Result<void> add_pins(const PinContext& context, const ClothEntry& entry)
             if (!id)
                 return error_at(scene, pin.location, id.error().message);
             anchor = id.value();
-            added.moving_pins.push_back({id.value(), *pin.motion});
+            added.moving_pins.push_back({id.value(), *pin.motion, pin.location});
         }
         std::optional<size_t> followed;
         if (pin.follow)

@@ -16,6 +16,7 @@ struct MovingPin
 {
     voile::AnchorId anchor; // the identity at time 0
     MotionEntry motion;
+    Location location; // of the pin, in the scene file
 };
 
 // A pinned vertex that goes with a triangle of a mesh collider.
@@ -25,6 +26,7 @@ struct FollowingPin
     size_t solid = 0;       // its number among the stage's
     glm::uvec3 triangle{0};
     glm::mat4 frame{1.f}; // at time 0
+    Location location;    // of the pin, in the scene file
 };
 
 struct AddedCloth

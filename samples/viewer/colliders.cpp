@@ -115,10 +115,9 @@ voile::Result<Solid> load_solid(const SceneFile& scene, const ColliderEntry& ent
     if (auto spin = check_spin(scene, entry); !spin)
         return spin.error();
     auto solid = entry.frames ? load_sequence(entry) : load_shape(entry);
-    if (!solid && entry.frames)
-        return error_at(scene, {entry.location.line, entry.location.path + ".frames"}, solid.error().message);
     if (!solid)
-        return solid;
+        return error_at(scene, {entry.location.line, entry.location.path + (entry.frames ? ".frames" : ".mesh")},
+                        solid.error().message);
     solid.value().friction = entry.friction;
     solid.value().motion = entry.motion;
     solid.value().sides = entry.sides;

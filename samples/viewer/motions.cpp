@@ -37,12 +37,21 @@ const std::vector<glm::vec3>* Motions::positions(size_t solid) const
     return deformed != nullptr ? &deformed->positions : nullptr;
 }
 
+void Motions::expect(const voile::Result<void>& moved, const Location& location, const char* member) const
+{
+    if (moved)
+        return;
+    const std::string& reason = moved.error().message;
+    throw voile::engine::StartupError(
+        location.line > 0 ? error_at(scene_, {location.line, location.path + member}, reason).message : reason);
+}
+
 void Motions::deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame)
 {
     if (frame.time >= solid.frames->duration()) // it rests at its last
         return;
     solid.frames->positions_at(end_of(frame), solid.positions);
-    voile::engine::take(solver_.deform_collider(solid.collider, solid.positions));
+    expect(solver_.deform_collider(solid.collider, solid.positions), solid.location, ".frames");
     solid.body->set_positions(solid.positions);
 }
 
@@ -56,7 +65,7 @@ void Motions::follow(const FollowingPin& pin)
         { return glm::vec3(solid->placed * glm::vec4(solid->positions[pin.triangle[i]], 1)); };
         frame = triangle_frame(corner(0), corner(1), corner(2));
     }
-    voile::engine::take(solver_.move_anchor(pin.anchor, pose(pin.solid) * frame));
+    expect(solver_.move_anchor(pin.anchor, pose(pin.solid) * frame), pin.location, ".follow");
 }
 
 void Motions::update(const voile::engine::FrameInfo& frame)
@@ -65,11 +74,11 @@ void Motions::update(const voile::engine::FrameInfo& frame)
         return;
     const double end = end_of(frame);
     for (const MovingPin& pin : pins)
-        voile::engine::take(solver_.move_anchor(pin.anchor, matrix(pin.motion, end)));
+        expect(solver_.move_anchor(pin.anchor, matrix(pin.motion, end)), pin.location, ".motion");
     for (MovingSolid& solid : solids)
     {
         solid.pose = matrix(solid.motion, end);
-        voile::engine::take(solver_.move_collider(solid.collider, solid.pose));
+        expect(solver_.move_collider(solid.collider, solid.pose), solid.location, ".motion");
         for (const DrawnPart& part : solid.parts)
             part.mesh->set_model(solid.pose * part.placed);
     }

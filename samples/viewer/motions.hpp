@@ -6,7 +6,9 @@
 
 #include "voile/engine/scene/deforming_mesh.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace viewer
@@ -27,6 +29,7 @@ struct MovingSolid
     MotionEntry motion;
     std::vector<DrawnPart> parts;
     glm::mat4 pose{1.f}; // from where it was added to where it is after the frames so far
+    Location location;   // of the solid, in the scene file; line 0: of the command line
 };
 
 // A solid that deforms. It may move, too.
@@ -38,14 +41,16 @@ struct DeformingSolid
     voile::engine::DeformingMesh* body = nullptr; // owned by the scene
     std::vector<glm::vec3> positions;             // m, in its mesh's space, after the frames so far
     glm::mat4 placed{1.f};                        // world from mesh, at time 0
+    Location location;                            // of the solid, in the scene file
 };
 
 // Moves pins and solids to their poses at the frame's end, in `update`. The solver moves them there during its step,
-// and the picture shows the result. Nothing moves while nothing is simulated.
+// and the picture shows the result. Nothing moves while nothing is simulated. Where the solver refuses a pose, `update`
+// throws StartupError, which names the scene file and the entry of the motion.
 class Motions : public voile::engine::Component
 {
 public:
-    explicit Motions(voile::Solver& solver) : solver_(solver) {}
+    Motions(voile::Solver& solver, std::filesystem::path scene) : solver_(solver), scene_(std::move(scene)) {}
 
     std::vector<MovingPin> pins;
     std::vector<FollowingPin> following;
@@ -62,8 +67,11 @@ public:
 private:
     void follow(const FollowingPin& pin);
     void deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame);
+    // `member` of the entry at `location` gave the pose.
+    void expect(const voile::Result<void>& moved, const Location& location, const char* member) const;
 
     voile::Solver& solver_;
+    std::filesystem::path scene_;
 };
 
 } // namespace viewer

@@ -242,10 +242,15 @@ voile::Result<SceneFile> load_scene(const fs::path& path)
     return scene;
 }
 
+voile::Error error_at(const fs::path& file, const Location& location, const std::string& reason)
+{
+    return voile::Error{voile::engine::path_text(file) + ":" + std::to_string(location.line) + ": " + location.path +
+                        ": " + reason};
+}
+
 voile::Error error_at(const SceneFile& scene, const Location& location, const std::string& reason)
 {
-    return voile::Error{voile::engine::path_text(scene.path) + ":" + std::to_string(location.line) + ": " +
-                        location.path + ": " + reason};
+    return error_at(scene.path, location, reason);
 }
 
 voile::Error step_error(const SceneFile& scene, const std::string& reason)

@@ -278,6 +278,7 @@ voile::Result<SceneFile> parse_scene(std::string_view text, const std::filesyste
 voile::Result<SceneFile> load_scene(const std::filesystem::path& path);
 
 // "FILE:LINE: PATH: REASON"
+voile::Error error_at(const std::filesystem::path& file, const Location& location, const std::string& reason);
 voile::Error error_at(const SceneFile& scene, const Location& location, const std::string& reason);
 // The same for the key that gave the member of the step that the reason begins with: "step: gravity is ...".
 voile::Error step_error(const SceneFile& scene, const std::string& reason);

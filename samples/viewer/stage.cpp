@@ -93,7 +93,8 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
                                             .frames = solid.frames,
                                             .body = &deforming,
                                             .positions = mesh.positions,
-                                            .placed = solid.transform});
+                                            .placed = solid.transform,
+                                            .location = solid.location});
         parts.push_back({&deforming, solid.transform});
     }
     else
@@ -103,8 +104,11 @@ void add_to_scene(voile::engine::App& app, const Solid& solid, SolidMeshes& mesh
             parts.push_back({&mesh, part.placed});
         }
     if (solid.motion)
-        stage.motions->solids.push_back(
-            {.solid = index, .collider = collider, .motion = *solid.motion, .parts = std::move(parts)});
+        stage.motions->solids.push_back({.solid = index,
+                                         .collider = collider,
+                                         .motion = *solid.motion,
+                                         .parts = std::move(parts),
+                                         .location = solid.location});
     stage.colliders.push_back(collider);
 }
 
@@ -188,7 +192,7 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
     if (const auto valid = voile::validate(world.step); !valid)
         return step_error(scene, valid.error().message);
     world.collect_statistics = true;
-    stage.motions = &app.scene().add("motions").add<Motions>(world.solver());
+    stage.motions = &app.scene().add("motions").add<Motions>(world.solver(), scene.path);
     for (const ClothEntry& entry : scene.cloths)
     {
         auto added = add_cloth(world.solver(), scene, entry, solids, options);

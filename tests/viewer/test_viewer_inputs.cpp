@@ -143,3 +143,30 @@ TEST_CASE("a device that is not there is named with the one that was likely mean
     tests::check_refused(run_viewer("drape --headless --frames 0 --device " + wrong),
                          {"--device: no device is called \"" + wrong + "\"; did you mean \"" + name + "\"?"});
 }
+
+TEST_CASE("what is refused while it is loaded or moves is named with its line and entry")
+{
+    const TestFolder folder;
+    folder.write("none.obj", "v 0 0 0\n");
+    folder.write("w_0.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
+    folder.write("w_1.obj", "v 3e38 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
+    const auto check = [&](const std::string& pins, const std::string& collider, const char* place, const char* reason)
+    {
+        CAPTURE(std::string(place));
+        const auto file =
+            folder.write("s.json", "{\"step\": {\"rate\": 2},\n\"cloths\": [\n{\"grid\": {\"vertices\": [3, 3], "
+                                   "\"size\": [1, 1]}, \"pins\": [" +
+                                       pins + "]}],\n\"colliders\": [\n" + collider + "]}");
+        const Run run = run_viewer(file.string() + " --headless --frames 3 --size 64x36");
+        CHECK(run.exit_code == 1);
+        CHECK(run.errors.find(file.string() + place) != std::string::npos);
+        CHECK(run.errors.find(reason) != std::string::npos);
+    };
+    const std::string plane = R"({"plane": {"y": -1}})";
+    check("", R"({"mesh": "none.obj"})", ":5: colliders[0].mesh: ", "none.obj: no faces\n");
+    check("", R"({"sphere": {"center": [999999, 0, 0], "radius": 1}, "motion": {"velocity": [10000, 0, 0]}})",
+          ":5: colliders[0].motion: ", "its center is (");
+    check("", R"({"frames": "w_%d.obj", "rate": 2})", ":5: colliders[0].frames: ", "position 0 is at (");
+    check(R"({"at": "corner:0", "motion": {"spin": [0, 3e38, 0], "velocity": [0, 0, 0]}})", plane,
+          ":3: cloths[0].pins[0].motion: ", "its transform is not finite\n");
+}
