@@ -38,7 +38,7 @@ void record_refit(gpu::Recorder& recorder, const RefitKernels& kernels, VkDescri
 // One of the dispatches of a refit.
 struct Fold
 {
-    shared::RefitPush push;
+    shared::RefitPush push{};
     uint32_t groups = 0;
 };
 

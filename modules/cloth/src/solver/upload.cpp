@@ -55,7 +55,7 @@ void stage_lists(Staging& staging, const SharedRanges<MeshLists, k_list_arrays>:
         vertex.first_spring += static_cast<uint32_t>(placement.first[k_list_springs]);
         vertex.first_corner += static_cast<uint32_t>(placement.first[k_list_corners]);
     }
-    staging.add_copy(buffer::mesh_vertices, placement.first[k_list_vertices], std::move(vertices));
+    staging.add_copy(buffer::mesh_vertices, placement.first[k_list_vertices], vertices);
     staging.add(buffer::mesh_springs, placement.first[k_list_springs], lists.springs);
     staging.add(buffer::mesh_corners, placement.first[k_list_corners], lists.corners);
     staging.add(buffer::membrane_corners, placement.first[k_list_corners], lists.membrane);
@@ -106,8 +106,8 @@ void stage_deforming(Staging& staging, const FeaturePlacement& placement)
     std::vector<uint32_t> slots = features.slots;
     for (uint32_t& slot : slots)
         slot += static_cast<uint32_t>(placement.first[k_feature_sources]) << VOILE_SLOT_FEATURE_BITS;
-    staging.add_copy(buffer::feature_sources, placement.first[k_feature_sources], std::move(sources));
-    staging.add_copy(buffer::feature_slots, placement.first[k_feature_slots], std::move(slots));
+    staging.add_copy(buffer::feature_sources, placement.first[k_feature_sources], sources);
+    staging.add_copy(buffer::feature_slots, placement.first[k_feature_slots], slots);
     staging.add(buffer::feature_hinges, placement.first[k_feature_hinges], features.hinges);
 }
 
