@@ -126,7 +126,7 @@ void PairRecorder::write_sizes()
     std::array<shared::PairDispatch, VOILE_PAIR_SEARCHES> sizes{};
     shared::RefitPush fold{{}, VOILE_TREE_IN_PUSH, 0, 0};
     fold.bottom = padded_levels(leaves_);
-    sizes[VOILE_PAIR_OF_LEAVES] = {((VOILE_PAIR_LEAF << fold.bottom) + group - 1) / group, 1, 1, 0};
+    sizes[VOILE_PAIR_OF_LEAVES] = {((uint32_t{VOILE_PAIR_LEAF} << fold.bottom) + group - 1) / group, 1, 1, 0};
     const uint32_t places = device.pair_places;
     sizes[VOILE_PAIR_OF_PLACES] = {(places + group - 1) / group, 1, 1, 0};
     const uint32_t candidate_threads = places * candidate_lanes(solver_.options.tuning, places);
