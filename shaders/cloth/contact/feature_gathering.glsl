@@ -14,7 +14,7 @@
 
 #include "shared/ordered.glsl"
 
-const uint k_most_gathered = 128; // features, of all colliders together
+const uint k_most_gathered = 184; // features, of all colliders together
 const uint k_most_nodes = 256;    // that wait to be visited
 const uint k_most_gatherings = 8; // colliders
 const uint k_parts = 16;          // of the workgroup's vertices, each with boxes of its own
@@ -30,9 +30,9 @@ struct Gathering
 
 shared Gathering gatherings[k_most_gatherings];
 shared uint gathered[k_most_gathered];       // in the order of the features, collider by collider
-shared vec4 gathered_starts[k_most_gathered]; // a, radius
-shared vec4 gathered_ends[k_most_gathered];
-shared vec4 gathered_motions[2 * k_most_gathered]; // of a and of b until the next query, in the collider's space
+shared vec4 gathered_starts[k_most_gathered];      // a, radius
+shared float gathered_ends[3 * k_most_gathered];    // b
+shared float gathered_motions[6 * k_most_gathered]; // of a and of b until the next query, in the collider's space
 shared uint found_features[k_most_gathered]; // of one collider, in no order
 shared uint found_count;
 shared uint nodes[k_most_nodes]; // that wait, a stack
@@ -264,17 +264,25 @@ void sort_features(uint first, uint c, bool deforms)
         gathered[rank] = feature;
         const NearFeature near = near_feature(c, feature, deforms);
         gathered_starts[rank] = near.a;
-        gathered_ends[rank] = vec4(near.b, 0);
-        gathered_motions[2 * rank] = vec4(near.motion_a, 0);
-        gathered_motions[2 * rank + 1] = vec4(near.motion_b, 0);
+        for (uint axis = 0; axis < 3; ++axis)
+        {
+            gathered_ends[3 * rank + axis] = near.b[axis];
+            gathered_motions[6 * rank + axis] = near.motion_a[axis];
+            gathered_motions[6 * rank + 3 + axis] = near.motion_b[axis];
+        }
     }
+}
+
+vec3 gathered_motion(uint first)
+{
+    return vec3(gathered_motions[first], gathered_motions[first + 1], gathered_motions[first + 2]);
 }
 
 // Of the features that a workgroup has gathered.
 NearFeature gathered_feature(uint i)
 {
-    return NearFeature(gathered_starts[i], gathered_ends[i].xyz, gathered_motions[2 * i].xyz,
-                       gathered_motions[2 * i + 1].xyz);
+    return NearFeature(gathered_starts[i], vec3(gathered_ends[3 * i], gathered_ends[3 * i + 1], gathered_ends[3 * i + 2]),
+                       gathered_motion(6 * i), gathered_motion(6 * i + 3));
 }
 
 // Gathers the features of the `index`-th collider near the workgroup. All of its threads call it.
