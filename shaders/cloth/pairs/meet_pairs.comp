@@ -56,10 +56,12 @@ const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
 const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
-// m: where pins hold both sides at one point, no plane separates them. A plane through it would let them part, but not
+// m: where both sides are at one point, no plane separates them. A plane through it would let them part, but not
 // come back, whatever pulls at them.
 const float k_pinned_room = 1e3;
 const float k_least_lever = 0.01;
+// m, as a part of coordinates beyond 1 m: what is so near each other is at one place, too, and has no sides.
+const float k_touch = 1e-7;
 // A collider supports a vertex that is pushed towards it by at least this part.
 const float k_least_support = 0.7;
 // The most by which that strengthens an impulse: then sides of equal mass would bounce if there was no support.
@@ -141,6 +143,13 @@ float lever_of(vec4 weights, vec4 mobilities)
 {
     const vec4 own = abs(mobilities);
     return min(dot(weights, mobilities) / max(max(max(own.x, own.y), max(own.z, own.w)), 1e-30), 1);
+}
+
+// Whether both sides are at one point, where pins or the host have put them. `near`: m, a vertex of the pair.
+bool is_at_one_place(float apart, float lever, float thickness, vec3 near)
+{
+    const float largest = max(max(abs(near.x), abs(near.y)), abs(near.z));
+    return apart < k_touch * max(largest, 1) || (lever < k_least_lever && apart < k_carry_floor * thickness);
 }
 
 // How both sides of a pair move relative to each other, at their nearest points.
@@ -282,7 +291,7 @@ void main()
     const vec2 needed = driven_approach(sides, vertices, separation);
     const float room = 2 * VOILE_PAIR_APPROACH * spare_gap(separation.gap, thickness);
     const float spare = room - needed.x - needed.y;
-    const bool pinned = lever < k_least_lever && apart < k_carry_floor * thickness;
+    const bool pinned = is_at_one_place(apart, lever, thickness, positions[pair.vertices.x].xyz);
     if ((spare < 0 || pinned) && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
     const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);

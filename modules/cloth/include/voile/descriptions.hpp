@@ -68,9 +68,9 @@ struct GridCloth
     // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
     // the strain limit do. A collider that presses layers together gets into them instead
     // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: if pins are driven into cloth faster
-    // than it can give way, by more than an eighth of the thickness in a substep, it may intersect
-    // (Statistics::forced_pairs). So may cloth that the host puts somewhere:
-    // reset, teleport, a snapshot, a pin with a position elsewhere.
+    // than it can give way, it may intersect (Statistics::forced_pairs). A free sheet gave way to a pinned one up to an
+    // eighth of the thickness in a substep, three sheets on each other up to a thirtieth. So may cloth that the host
+    // puts somewhere: reset, teleport, a snapshot, a pin with a position elsewhere.
     //
     // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
     // Vertices around an intersection do not collide with each other in that step, but with all other cloth, and are
@@ -83,12 +83,13 @@ struct GridCloth
     // Near other cloth a vertex moves at most 0.45 of the gap in 0.4 ms, or in a substep if that is longer, relative to
     // the mean velocity of the cloth that is clear of colliders; beside colliders relative to the world. What it would
     // move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3 ms, their
-    // island: others do not matter. Cloth in free flight falls freely, in any shape and at any speed, also where layers
-    // start very near each other, or touch, as long as the island flies together. A closed sphere of 38 vertices along
-    // a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer than a tenth of the thickness
-    // parted, they lost 0.06 m/s or a little more. Layers that start nearer than a fiftieth of the thickness do not
-    // part. Parts of a mesh that touch where it starts, as along a seam that is not merged, do not collide with each
-    // other there, and neither does what pins hold at one point: it counts as forced.
+    // island: others change only when near pairs are searched. Cloth in free flight falls freely, in any shape and at
+    // any speed, also where layers start very near each other, or touch, as long as the island flies together. A closed
+    // sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer than
+    // a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start nearer than a fiftieth of
+    // the thickness do not part. Parts of a mesh that touch where it starts, as along a seam that is not merged, do not
+    // collide with each other there. Neither does what pins hold at one point, nor what is within 1e-7 m of each other,
+    // or that part of the coordinates: it counts as forced.
     //
     // A collider that moves pushes such cloth without getting into it if it moves by less than half of the thickness in
     // a substep: at 24 m/s with a spacing of 11 mm and automatic substeps. Faster ones may get through. So may those
