@@ -26,6 +26,10 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 const float k_packing = 0.01;
 
 shared uint shared_joined; // whether islands have been joined in a round
+// Of as many cloths as there are threads: where they may come, and their layers and islands. No layer: no cloth.
+shared Box shared_reaches[gl_WorkGroupSize.x];
+shared uint shared_layers[gl_WorkGroupSize.x];
+shared uint shared_islands[gl_WorkGroupSize.x];
 
 void wait_for_all()
 {
@@ -33,7 +37,7 @@ void wait_for_all()
     barrier();
 }
 
-bool exists(uint cloth) { return pair_islands[cloth].high[0] != 0; }
+bool exists(uint cloth) { return cloth < push.cloths && pair_islands[cloth].high[0] != 0; }
 
 Box box_of(uint cloth)
 {
@@ -57,34 +61,35 @@ Box reach_of(uint cloth)
     return box;
 }
 
-// What the cloths of an island add up to.
-struct Total
+void clear_total(uint cloth)
 {
-    uint vertices;
-    uint clear;
-    ivec3 velocity;
-    uint stopped;
-};
+    pair_islands[cloth].joined = 0;
+    pair_islands[cloth].total_vertices = pair_islands[cloth].total_clear = pair_islands[cloth].total_stopped = 0;
+    for (uint k = 0; k < 3; ++k)
+        pair_islands[cloth].total_velocity[k] = 0;
+}
 
-Total total_of(uint island)
+void add_to_total(uint cloth)
 {
-    Total total = Total(0, 0, ivec3(0), 0);
-    for (uint c = island; c < push.cloths; ++c)
-        if (exists(c) && island_of(c) == island)
-        {
-            total.vertices += pair_islands[c].vertices;
-            total.clear += pair_islands[c].clear;
-            total.velocity += velocities_of(c);
-            total.stopped = max(total.stopped, pair_islands[c].stopped);
-        }
-    return total;
+    const uint island = island_of(cloth);
+    atomicAdd(pair_islands[island].total_vertices, pair_islands[cloth].vertices);
+    atomicAdd(pair_islands[island].total_clear, pair_islands[cloth].clear);
+    atomicMax(pair_islands[island].total_stopped, pair_islands[cloth].stopped);
+    for (uint k = 0; k < 3; ++k)
+        atomicAdd(pair_islands[island].total_velocity[k], pair_islands[cloth].velocity[k]);
+}
+
+ivec3 total_velocity(uint island)
+{
+    return ivec3(pair_islands[island].total_velocity[0], pair_islands[island].total_velocity[1],
+                 pair_islands[island].total_velocity[2]);
 }
 
 // A vertex is carried by a part of the mean way, and from there it goes as far as its sweep and its reach.
 void write_reach(uint cloth)
 {
-    const Total total = total_of(island_of(cloth));
-    const vec3 carry = VOILE_PAIR_SWEEP_TIME * mean_of(total.velocity, total.clear);
+    const uint island = island_of(cloth);
+    const vec3 carry = VOILE_PAIR_SWEEP_TIME * mean_of(total_velocity(island), pair_islands[island].total_clear);
     const Box box = box_of(cloth);
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
                          k_packing * length(carry) + rounding(box.min) + rounding(box.max);
@@ -95,21 +100,45 @@ void write_reach(uint cloth)
     }
 }
 
-// Joins the island of a cloth with those of all before it that may come near. The later island gets the earlier one's name.
-void join(uint cloth)
+void share(uint thread, uint cloth)
+{
+    shared_layers[thread] = 0;
+    if (!exists(cloth))
+        return;
+    shared_reaches[thread] = reach_of(cloth);
+    shared_layers[thread] = cloths[cloth].layers;
+    shared_islands[thread] = island_of(cloth);
+}
+
+// Joins the island of a cloth with those of the shared cloths, from `first` on, before it that it may meet. The later
+// island gets the earlier one's name.
+void join(uint cloth, uint first)
 {
     const Box reach = reach_of(cloth);
+    const uint layers = cloths[cloth].layers;
     const uint island = island_of(cloth);
-    for (uint other = 0; other < cloth; ++other)
+    const uint count = min(cloth - first, gl_WorkGroupSize.x);
+    for (uint k = 0; k < count; ++k)
     {
-        if (!exists(other) || !meets(cloth, other) || !overlap(reach, reach_of(other)))
+        const uint other = shared_islands[k];
+        if ((shared_layers[k] & layers) == 0 || !overlap(reach, shared_reaches[k]) || other == island)
             continue;
-        const uint with = island_of(other);
-        if (with == island)
-            continue;
-        const uint later = max(island, with);
-        atomicMax(pair_islands[later].joined, later - min(island, with));
+        const uint later = max(island, other);
+        atomicMax(pair_islands[later].joined, later - min(island, other));
         shared_joined = 1;
+    }
+}
+
+void join_all(uint thread)
+{
+    for (uint first = 0; first < push.cloths; first += gl_WorkGroupSize.x)
+    {
+        barrier();
+        share(thread, first + thread);
+        barrier();
+        for (uint c = first + thread; c < push.cloths; c += gl_WorkGroupSize.x)
+            if (exists(c))
+                join(c, first);
     }
 }
 
@@ -119,6 +148,18 @@ void rename(uint cloth)
     for (uint joined = pair_islands[first].joined; joined != 0; joined = pair_islands[first].joined)
         first -= joined;
     pair_islands[cloth].before = cloth - first;
+}
+
+// Sums over islands as they are called now.
+void find_totals(uint thread)
+{
+    for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
+        clear_total(c);
+    wait_for_all();
+    for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
+        if (exists(c))
+            add_to_total(c);
+    wait_for_all();
 }
 
 void main()
@@ -134,32 +175,27 @@ void main()
     while (joined)
     {
         wait_for_all();
+        find_totals(thread);
         if (thread == 0)
             shared_joined = 0;
         for (uint c = thread; c < push.cloths; c += threads)
-        {
-            pair_islands[c].joined = 0;
             if (exists(c))
                 write_reach(c);
-        }
         wait_for_all();
-        for (uint c = thread; c < push.cloths; c += threads)
-            if (exists(c))
-                join(c);
+        join_all(thread);
         wait_for_all();
         joined = shared_joined != 0;
         for (uint c = thread; c < push.cloths; c += threads)
             rename(c);
     }
-    wait_for_all();
+    // In the last round no name has changed.
     for (uint c = thread; c < push.cloths; c += threads)
         if (exists(c) && pair_islands[c].before == 0)
         {
-            const Total total = total_of(c);
-            pair_islands[c].vertices = total.vertices;
-            pair_islands[c].clear = total.clear;
+            pair_islands[c].vertices = pair_islands[c].total_vertices;
+            pair_islands[c].clear = pair_islands[c].total_clear;
             for (uint k = 0; k < 3; ++k)
-                pair_islands[c].velocity[k] = total.velocity[k];
-            pair_islands[c].stopped = total.stopped;
+                pair_islands[c].velocity[k] = pair_islands[c].total_velocity[k];
+            pair_islands[c].stopped = pair_islands[c].total_stopped;
         }
 }

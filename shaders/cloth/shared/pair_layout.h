@@ -109,8 +109,14 @@ struct PairIsland
     // cloth.
     uint low[3];
     uint high[3];
-    float reach_low[3]; // m, the box until the lists are made again
+    // While islands are found: the box until the lists are made again, m; and in the record of the first cloth, sums over
+    // the island.
+    float reach_low[3];
     float reach_high[3];
+    int total_velocity[3];
+    uint total_vertices;
+    uint total_clear;
+    uint total_stopped;
     // Of the first cloth. The pass, + 1, in which the clock carried vertices too near each other; 0: there was none in
     // this step. The rates for which pairs have room, floats, for even and for odd passes.
     uint stopped;
