@@ -290,7 +290,7 @@ TEST_CASE("the cape lies on the shoulders of the figure")
         }
     CAPTURE(farthest);
     CHECK(farthest < 0.025); // 0.009 from the skin, whose vertices are 0.02 apart
-    CHECK(across > 0.12); // as far as the shoulders
+    CHECK(across > 0.12);    // as far as the shoulders
 }
 
 TEST_CASE("a curtain starts in pleats, upright and as wide as its fabric")

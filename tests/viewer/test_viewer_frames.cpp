@@ -282,7 +282,8 @@ TEST_CASE("the dressed figure has walked for 100 frames in coarse clothes, and n
     }
     constexpr uint32_t k_coarseness = 4; // a sixteenth of the vertices, a quarter of the substeps
     voile::engine::take(voile::engine::save_obj(folder / "skirt.obj", scenes::make_skirt(k_coarseness)));
-    voile::engine::take(voile::engine::save_obj(folder / "cape.obj", scenes::make_cape(scenes::Figure().at(0), k_coarseness)));
+    voile::engine::take(
+        voile::engine::save_obj(folder / "cape.obj", scenes::make_cape(scenes::Figure().at(0), k_coarseness)));
     const Run run = run_viewer((folder / "dressed.json").string() + " --headless --size 16x16 --frames 100 --verify");
     CAPTURE(run.errors);
     CAPTURE(run.output);

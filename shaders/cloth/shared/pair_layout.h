@@ -109,8 +109,8 @@ struct PairIsland
     // cloth.
     uint low[3];
     uint high[3];
-    // While islands are found: the box until the lists are made again, m; and in the record of the first cloth, sums over
-    // the island.
+    // While islands are found: the box until the lists are made again, m; and in the record of the first cloth, sums
+    // over the island.
     float reach_low[3];
     float reach_high[3];
     int total_velocity[3];

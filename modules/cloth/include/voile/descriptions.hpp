@@ -85,11 +85,11 @@ struct GridCloth
     // move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3 ms, their
     // island: others change only when near pairs are searched. Cloth in free flight falls freely, in any shape and at
     // any speed, also where layers start very near each other, or touch, as long as the island flies together. A closed
-    // sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer than
-    // a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start nearer than a fiftieth of
-    // the thickness do not part. Parts of a mesh that touch where it starts, as along a seam that is not merged, do not
-    // collide with each other there. Neither does what pins hold at one point, nor what is within 1e-7 m of each other,
-    // or that part of the coordinates: it counts as forced.
+    // sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer
+    // than a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start nearer than a
+    // fiftieth of the thickness do not part. Parts of a mesh that touch where it starts, as along a seam that is not
+    // merged, do not collide with each other there. Neither does what pins hold at one point, nor what is within 1e-7 m
+    // of each other, or that part of the coordinates: it counts as forced.
     //
     // A collider that moves pushes such cloth without getting into it if it moves by less than half of the thickness in
     // a substep: at 24 m/s with a spacing of 11 mm and automatic substeps. Faster ones may get through. So may those
