@@ -99,6 +99,7 @@ std::vector<uint32_t> components(uint32_t count, const AreNear& are_near)
 
 } // namespace
 
+// With one clock for all, both end at 1.3 m/s.
 TEST_CASE("stacks of sheets that fly apart keep their velocities")
 {
     PairHarness harness;
@@ -107,7 +108,7 @@ TEST_CASE("stacks of sheets that fly apart keep their velocities")
     harness.upload();
     harness.step(k_floating, 8);
     for (size_t i = 0; i < 4; ++i)
-        CHECK(deviation(harness, harness.cloths[i], {0, i < 2 ? 5 : -2.5f, 0}) < 1e-3f); // 3.7 m/s with one clock
+        CHECK(deviation(harness, harness.cloths[i], {0, i < 2 ? 5 : -2.5f, 0}) < 1e-3f);
     CHECK(harness.intersections() == 0);
 }
 
@@ -126,7 +127,7 @@ TEST_CASE("sheets near each other fall freely while other cloth hangs from pins 
     harness.upload();
     harness.step(k_vacuum, 30);
     for (size_t i = 0; i < 2; ++i)
-        CHECK(deviation(harness, harness.cloths[i], {0, -9.81f / 2, 0}) < 1e-3f); // 1.6 m/s with one clock
+        CHECK(deviation(harness, harness.cloths[i], {0, -9.81f / 2, 0}) < 1e-3f);
 }
 
 // Where lists have no room, the clock stops.

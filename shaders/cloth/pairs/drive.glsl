@@ -11,7 +11,7 @@ struct Drive
 
 const Drive k_no_drive = Drive(vec3(0), 0);
 
-// m/s: what cloth that a moving collider pushes gives other cloth in a pass. Cloth at rest gives less.
+// m/s: what cloth that a moving collider or pin pushes gives other cloth in a pass. Cloth at rest gives less.
 const float k_push = 0.5;
 
 // What of an impulse is in a velocity.

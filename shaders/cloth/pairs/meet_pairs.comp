@@ -58,7 +58,7 @@ const float k_undo_slip = 0.15;
 const float k_unbounded = 1e30;
 // m: where both sides are at one point, no plane separates them. A plane through it would let them part, but not
 // come back, whatever pulls at them.
-const float k_pinned_room = 1e3;
+const float k_sideless_room = 1e3;
 const float k_least_lever = 0.01;
 // m, as a part of coordinates beyond 1 m: what is so near each other is at one place, too, and has no sides.
 const float k_touch = 1e-7;
@@ -291,10 +291,10 @@ void main()
     const vec2 needed = driven_approach(sides, vertices, separation);
     const float room = 2 * VOILE_PAIR_APPROACH * spare_gap(separation.gap, thickness);
     const float spare = room - needed.x - needed.y;
-    const bool pinned = is_at_one_place(apart, lever, thickness, positions[pair.vertices.x].xyz);
-    if ((spare < 0 || pinned) && first)
+    const bool sideless = is_at_one_place(apart, lever, thickness, positions[pair.vertices.x].xyz);
+    if ((spare < 0 || sideless) && first)
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
-    const float slack = pinned ? k_pinned_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
+    const float slack = sideless ? k_sideless_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
     const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(frame.carry, frame.fall));
     const float room_to_carry = 2 * VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness);

@@ -26,8 +26,8 @@
 #define VOILE_PAIR_FORCED 0
 // The dispatch whose `entries` count the pairs of an edge and a triangle that intersect at the step's start.
 #define VOILE_PAIR_TANGLED 1
-// The pass, + 1, that made the last lists that left little room to a vertex which a collider pushes. For some passes,
-// sweeps are halved where they leave little room. It is kept from step to step.
+// The pass, + 1, that made the last lists that left little room to a pin, or to a vertex that is pushed. For some
+// passes, sweeps are halved where they leave little room. It is kept from step to step.
 #define VOILE_PAIR_CROWDED 10
 #define VOILE_PAIR_CROWDED_PASSES 64
 // Directions out of tangles are summed up in this unit.
