@@ -364,18 +364,11 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
-// The impulses of pairs act in the first substep after their pass. Whether the motion changes. `impulse`: what they give.
-bool respond_to_pairs(Hold hold, inout Motion motion, out Drive impulse)
+// Whether the motion changes.
+bool slide_along_planes(Hold hold, inout Motion motion)
 {
     const vec3 before = motion.displacement;
-    const vec3 change = hold.bound.impulse;
-    if (push.after_pairs != 0)
-    {
-        motion.v += change;
-        motion.displacement += seconds(push.substeps) * change;
-    }
-    impulse = drive_of(change, motion.v - hold.carry);
-    const vec3 along = along_planes(hold, motion.displacement);
+    const vec3 along = along_planes(hold, before);
     if (push.substeps > 0)
         motion.v += (along - motion.displacement) / seconds(push.substeps);
     motion.displacement = along;
@@ -447,7 +440,8 @@ void main()
         if (held)
         {
             hold = hold_of(i, cloth, motion.from);
-            changed = respond_to_pairs(hold, motion, impulse) || changed;
+            impulse = drive_of(hold.bound.impulse, motion.v - hold.carry);
+            changed = slide_along_planes(hold, motion) || changed;
             changed = untangle(i, motion) || changed;
         }
         ClothContact contact;

@@ -11,7 +11,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
-layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(stage_velocities)) buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(pairs)) readonly buffer Pairs { uvec4 pairs[]; };
 layout(VOILE_BINDING(pair_references)) readonly buffer PairReferences { uint pair_references[]; };
 layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairResponse pair_responses[]; };
@@ -178,11 +178,12 @@ Gather gather(Self self, uint lane)
     return sum;
 }
 
-PairMemory remembered(uint i, uint cloth, Gather sum)
+// `v`: m/s, after the pass.
+PairMemory remembered(uint i, uint cloth, vec3 v, Gather sum)
 {
     const PairMemory before = pair_memories[i];
     PairMemory memory;
-    memory.velocity = velocities[i].xyz + sum.change;
+    memory.velocity = v;
     memory.pass = memory_word(halvings_of(before.pass));
     const vec3 kept = is_of_last_pass(before.pass) ? k_keep_slip * before.slip : vec3(0);
     const vec3 slip = kept + sum.drift / max(sum.touching, 1e-30);
@@ -240,8 +241,12 @@ void main()
     if (!exists || lane != 0)
         return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
+    // Integration begins with the impulses, so that springs respond to what they leave.
+    const vec4 before = velocities[i];
+    const vec3 v = before.xyz + sum.change;
+    velocities[i] = vec4(v, before.w);
     pair_bounds[i].impulse = sum.change;
-    pair_memories[i] = remembered(i, self.y, sum);
+    pair_memories[i] = remembered(i, self.y, v, sum);
     pair_bounds[i].guard.planes = sum.guard.planes;
     pair_bounds[i].guard.reach = sum.guard.reach;
     pair_bounds[i].guard.from = positions[i].xyz;

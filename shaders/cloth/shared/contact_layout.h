@@ -75,7 +75,6 @@ struct ContactPush
     uint result;        // VOILE_CONTACT_...
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
-    uint after_pairs;   // 1: the impulses of pairs are new
     float pair_ahead;   // substeps from one pass over pairs to the next
     float pair_from;    // from the last pass over pairs to the start of the motion
     float pair_lasts;   // of the motion
@@ -95,7 +94,7 @@ struct DepenetrationPush
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
 static_assert(sizeof(ContactPlane) == 32);
-static_assert(sizeof(ContactPush) == 88);
+static_assert(sizeof(ContactPush) == 84);
 #endif
 
 VOILE_SHARED_END

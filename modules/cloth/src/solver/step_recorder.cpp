@@ -56,12 +56,11 @@ void StepRecorder::record()
     PairRecorder pairs(recorder_, solver_, context_.lists, context_.plan);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
-        const bool after_pairs = context_.passes.pairs && pairs.begins(substep);
-        if (after_pairs)
+        if (context_.passes.pairs && pairs.begins(substep))
             pairs.record(substep, in_stage_b(substep));
         for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
             if (const uint32_t level = batch_at(i).level; batches_[i] && substep % (1u << level) == 0)
-                batches_[i]->record_substep(substep >> level, after_pairs);
+                batches_[i]->record_substep(substep >> level);
     }
     for_each_batch([](BatchRecorder& batch) { batch.finish(); });
     if (context_.passes.strain_spacing > 0)

@@ -52,7 +52,7 @@ BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
 {
 }
 
-void BatchRecorder::record_substep(uint32_t substep, bool after_pairs)
+void BatchRecorder::record_substep(uint32_t substep)
 {
     const gpu::GroupScope group(recorder_, k_group_names[level_], substep + 1, substeps_);
     if (substep > 0 && substep % list_period_ == 0)
@@ -68,7 +68,7 @@ void BatchRecorder::record_substep(uint32_t substep, bool after_pairs)
         return;
     if (solver_.passes.features)
         record_features(substep);
-    record_contact(substep, after_pairs);
+    record_contact(substep);
 }
 
 bool BatchRecorder::contact_is_due(uint32_t substep) const
@@ -245,7 +245,7 @@ void BatchRecorder::record_features(uint32_t substep)
                                 (word + VOILE_DISPATCH_PATCHES) * sizeof(uint32_t), push);
 }
 
-void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
+void BatchRecorder::record_contact(uint32_t substep)
 {
     shared::ContactPush push{};
     const ContactInterval interval = contact_interval(substep);
@@ -264,7 +264,6 @@ void BatchRecorder::record_contact(uint32_t substep, bool after_pairs)
     push.near_stride = device_.near_stride;
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
-    push.after_pairs = after_pairs ? 1 : 0;
     const uint32_t period = context_.plan.pair_period;
     push.pair_ahead = static_cast<float>(period);
     // After the last substep no time passes.

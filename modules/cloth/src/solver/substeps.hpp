@@ -28,7 +28,7 @@ public:
     // comes before all other passes of the step that read colliders.
     void record_near_colliders(uint32_t substep);
     // Integration, attachments, tethers, and contact if a contact pass is due.
-    void record_substep(uint32_t substep, bool after_pairs);
+    void record_substep(uint32_t substep);
     // The number of substeps from one contact pass to the next. The last ones of a step may be closer.
     [[nodiscard]] uint32_t contact_period() const { return contact_period_; }
     // Whether a substep begins in stage B: state and stage B exchange roles. With contact the last substep ends in the
@@ -66,7 +66,7 @@ private:
         uint32_t count;
     };
     [[nodiscard]] ItemRange feature_items() const;
-    void record_contact(uint32_t substep, bool after_pairs = false);
+    void record_contact(uint32_t substep);
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     // Substeps from one contact pass to the next: `first`, and so many more.
     struct ContactInterval
