@@ -74,7 +74,8 @@ const float k_half_rounding = 1e-3;
 struct Vertices
 {
     vec3 x[4]; // m, from the first
-    vec3 v[4]; // m/s, predicted for the middle of the coming interval
+    vec3 v[4]; // m/s
+    vec3 gain[4]; // m/s, until the middle of the coming interval, if what acted since the last pass goes on
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
@@ -90,17 +91,16 @@ struct Frame
     vec3 fall; // of the island (free_fall_until_next)
 };
 
-// What acted since the last pass is expected to go on.
 void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
 {
     const vec4 position = positions[i];
     const PairMemory memory = pair_memories[i];
     const bool known = is_of_last_pass(memory.pass);
     const vec4 velocity = velocities[i];
-    const vec3 v = velocity.xyz;
     vertices.supported[k] = (uint(velocity.w) & VOILE_VERTEX_SUPPORTED) != 0;
     vertices.x[k] = displacement(frame.origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
-    vertices.v[k] = known && position.w > 0 ? v + 0.5 * (v - memory.velocity) : v;
+    vertices.v[k] = velocity.xyz;
+    vertices.gain[k] = known && position.w > 0 ? 0.5 * (velocity.xyz - memory.velocity) : vec3(0);
     vertices.slip[k] = known ? memory.slip : vec3(0);
     vertices.carry[k] = carry_until_next(pair_carries[i], frame.carry, frame.fall);
     vertices.inverse_masses[k] = position.w;
@@ -143,6 +143,14 @@ float lever_of(vec4 weights, vec4 mobilities)
 {
     const vec4 own = abs(mobilities);
     return min(dot(weights, mobilities) / max(max(max(own.x, own.y), max(own.z, own.w)), 1e-30), 1);
+}
+
+// m/s, predicted for the middle of the coming interval, of the first side relative to the other. What presses the sides
+// together goes on. Along them it does not: springs pull back what friction has moved, and to expect more of that makes
+// layers shake.
+vec3 relative_velocity(vec4 weights, Vertices vertices, vec3 n)
+{
+    return weighted(weights, vertices.v) + dot(weighted(weights, vertices.gain), n) * n;
 }
 
 // Whether both sides are at one point, where pins or the host have put them. `near`: m, a vertex of the pair.
@@ -279,8 +287,8 @@ void main()
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
     const Approach approach =
-        Approach(weighted(nearest.weights, vertices.v), weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
-                 support_of(pair, nearest.weights, vertices, n));
+        Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.slip), n, thickness - apart,
+                 thickness, support_of(pair, nearest.weights, vertices, n));
     response.mobilities = nearest.weights * vertices.inverse_masses;
     const float lever = lever_of(nearest.weights, response.mobilities);
     response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
