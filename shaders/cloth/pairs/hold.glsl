@@ -57,7 +57,8 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
                           (sweep.fall > 0 ? rounded_off(cloth) : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
     const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity;
-    const float now = clock + rate * mix(pair_from(), pair_to(), sweep.fall);
+    const float last_substep = seconds(push.pair_lasts) / float(push.kicks);
+    const float now = clock + rate * (pair_to() - (1 - sweep.fall) * last_substep);
     hold.carry = rate * (velocity + now * gravity);
     hold.carried = (pair_to() - pair_from()) * mean;
     hold.at -= pair_from() * mean;

@@ -75,7 +75,7 @@ struct ContactPush
     uint result;        // VOILE_CONTACT_...
     float mesh_extent;  // m, the largest extent of a mesh from its origin along an axis
     uint first_patch;   // of the dispatch
-    float pair_ahead;   // substeps from one pass over pairs to the next
+    float pair_ahead;   // from one pass over pairs to the next, of the time since the last contact pass
     float pair_from;    // from the last pass over pairs to the start of the motion
     float pair_lasts;   // of the motion
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part

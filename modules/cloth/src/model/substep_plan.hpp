@@ -30,10 +30,39 @@ struct SubstepLimits
     uint32_t levels = VOILE_SUBSTEP_LEVELS; // at most
 };
 
+// The passes over pairs of near primitives of cloths: before the first substep of level 0, and then every `period`
+// substeps. If that is even, they come after odd numbers of substeps, where contact that two substeps share has ended.
+struct PairSchedule
+{
+    uint32_t period = 1;
+
+    [[nodiscard]] uint32_t second() const { return period % 2 == 0 ? 1 : period; }
+    [[nodiscard]] bool begins(uint32_t substep) const
+    {
+        return substep == 0 || (substep >= second() && (substep - second()) % period == 0);
+    }
+    // The substep before which the last pass was. A pass before this one counts.
+    [[nodiscard]] uint32_t last(uint32_t substep) const
+    {
+        return substep < second() ? 0 : substep - (substep - second()) % period;
+    }
+    [[nodiscard]] uint32_t next(uint32_t substep) const
+    {
+        return substep < second() ? second() : last(substep) + period;
+    }
+    // Passes before that substep.
+    [[nodiscard]] uint32_t passes(uint32_t substep) const
+    {
+        if (substep == 0)
+            return 0;
+        return substep <= second() ? 1 : (substep - second() - 1) / period + 2;
+    }
+};
+
 struct SubstepPlan
 {
-    uint32_t substeps = 1;      // of level 0
-    uint32_t pair_period = 1;   // of these from one pass over pairs to the next
+    uint32_t substeps = 1; // of level 0
+    PairSchedule pairs{};
     uint32_t levels = 1;        // that may be used
     double fraction = 1;        // of the needed substeps that the budget leaves, 0..1
     uint32_t most = UINT32_MAX; // of a cloth: a need above it counts as this

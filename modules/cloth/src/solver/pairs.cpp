@@ -53,6 +53,12 @@ uint32_t most_sifted(const Tuning& tuning, uint32_t vertices)
     return vertices >= (tuning.sifting_vertices > 0 ? tuning.sifting_vertices : k_many) ? k_most : 0;
 }
 
+// Even, unless it is 1, so that two substeps can share contact.
+uint32_t usual_period(float substeps)
+{
+    return substeps < 1.5f ? 1 : 2 * std::max<uint32_t>(1, static_cast<uint32_t>(std::lround(0.5f * substeps)));
+}
+
 VkDeviceSize offset_of(uint32_t dispatch)
 {
     return dispatch * sizeof(shared::PairDispatch);
@@ -63,7 +69,7 @@ VkDeviceSize offset_of(uint32_t dispatch)
 uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32_t substeps, float farthest)
 {
     const float substep = step.duration / static_cast<float>(substeps);
-    const auto usual = static_cast<uint32_t>(std::lround(k_interval / substep));
+    const uint32_t usual = usual_period(k_interval / substep);
     const float pushed = k_pushed_part * solver.passes.pair_reach * static_cast<float>(substeps);
     const uint32_t period =
         pushed < farthest * static_cast<float>(usual) ? static_cast<uint32_t>(pushed / farthest) : usual;
@@ -79,7 +85,7 @@ PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver,
                            const SubstepPlan& plan)
     : recorder_(recorder), solver_(solver), threads_(lists.patch_count() * solver.options.tuning.workgroup_size),
       leaves_((solver.device->pair_places + VOILE_PAIR_LEAF - 1) / VOILE_PAIR_LEAF), substeps_(plan.substeps),
-      period_(plan.pair_period)
+      schedule_(plan.pairs)
 {
 }
 
@@ -95,10 +101,10 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     const size_t from = in_stage_b ? 1 : 0;
     const auto& sets = solver_.device->sets;
     shared::PairPush push{};
-    push.substeps = static_cast<float>(std::min(period_, substeps_ - substep));
+    push.substeps = static_cast<float>(std::min(schedule_.next(substep), substeps_) - substep);
     push.places = solver_.device->pair_places;
     push.leaves = leaves_;
-    push.pass = substep / period_;
+    push.pass = schedule_.passes(substep);
     push.vertices = static_cast<uint32_t>(solver_.device->capacities.pair_vertices);
     push.threads = threads_per_vertex(solver_.options.tuning);
     push.lanes = lanes_per_search(solver_.options.tuning, push.places);

@@ -22,10 +22,8 @@ public:
     PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
                  const SubstepPlan& plan);
 
-    // Whether a substep begins with a pass. The first one of a step does.
-    [[nodiscard]] bool begins(uint32_t substep) const { return substep % period_ == 0; }
-    // `in_stage_b`: where the substep begins. The first pass of a step makes new lists, later ones only if a vertex
-    // has asked for them.
+    // The pass before a substep. `in_stage_b`: where the substep begins. The first pass of a step makes new lists, later
+    // ones only if a vertex has asked for them.
     void record(uint32_t substep, bool in_stage_b);
 
 private:
@@ -38,7 +36,7 @@ private:
     uint32_t threads_; // for all patches
     uint32_t leaves_;  // of the hierarchy
     uint32_t substeps_;
-    uint32_t period_; // substeps from one pass to the next
+    PairSchedule schedule_;
 };
 
 } // namespace voile

@@ -94,7 +94,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
         commands->end(recorder);
     history.pairs_met = solver.passes.pairs;
     if (solver.passes.pairs)
-        history.next_pair_pass += (plan.substeps + plan.pair_period - 1) / plan.pair_period;
+        history.next_pair_pass += plan.pairs.passes(plan.substeps);
 }
 
 } // namespace
@@ -196,7 +196,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     state_->history.depenetration_due |= state_->changes_due();
     SubstepPlan plan = state_->plan(step, state_->needs, nullptr);
     state_->farthest_motion = farthest_motion(*state_);
-    plan.pair_period = substeps_per_pass(*state_, step, plan.substeps, state_->farthest_motion);
+    plan.pairs.period = substeps_per_pass(*state_, step, plan.substeps, state_->farthest_motion);
     state_->assign_levels(plan, step);
     record_edits(recorder, *state_, step);
     record_passes(recorder, *state_, state_->lists, state_->history, step, plan, state_->passes);
@@ -221,7 +221,7 @@ uint32_t Solver::dispatches(const Step& step) const
     history.normals_due = false; // passes after an upload are not counted
     std::vector<SubstepNeed> needs;
     SubstepPlan plan = state_->plan(step, needs, nullptr);
-    plan.pair_period = substeps_per_pass(*state_, step, plan.substeps, farthest_motion(*state_));
+    plan.pairs.period = substeps_per_pass(*state_, step, plan.substeps, farthest_motion(*state_));
     const LevelOf level_of = [&](const ClothModel& cloth)
     { return plan.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration))); };
     ActiveLists lists;

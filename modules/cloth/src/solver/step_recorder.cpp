@@ -56,7 +56,7 @@ void StepRecorder::record()
     PairRecorder pairs(recorder_, solver_, context_.lists, context_.plan);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)
     {
-        if (context_.passes.pairs && pairs.begins(substep))
+        if (context_.passes.pairs && context_.plan.pairs.begins(substep))
             pairs.record(substep, in_stage_b(substep));
         for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
             if (const uint32_t level = batch_at(i).level; batches_[i] && substep % (1u << level) == 0)

@@ -27,12 +27,12 @@ uint32_t substeps_per_list(float substep, uint32_t contact_period)
 
 // Between contact passes nothing holds what features have pushed. Within two substeps springs hardly respond; within
 // more they would carry part of the load, and friction would lose its hold (bench/NOTES.md). Without features more
-// would do, but then a cloth would move differently beside one that has features. Guards of pairs hold vertices in
-// every substep.
-uint32_t substeps_per_contact(const Solver::State& solver, float substep)
+// would do, but then a cloth would move differently beside one that has features. Passes over pairs need all contact
+// of the substeps before.
+uint32_t substeps_per_contact(const Solver::State& solver, const PairSchedule& pairs, float substep)
 {
     constexpr float k_rounding = 1e-3f;
-    const float most = solver.passes.pairs ? 1.f : 2.f;
+    const float most = solver.passes.pairs && pairs.period % 2 == 1 ? 1.f : 2.f;
     const float interval = solver.options.tuning.contact_interval;
     return std::max(1u, static_cast<uint32_t>(std::min(interval / substep + k_rounding, most)));
 }
@@ -47,7 +47,7 @@ BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
       has_contact_(context.passes.contact),
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
-      contact_period_(swaps_ && verlet_ ? substeps_per_contact(solver_, h_) : 1),
+      contact_period_(swaps_ && verlet_ ? substeps_per_contact(solver_, context.plan.pairs, h_) : 1),
       list_period_(substeps_per_list(h_, contact_period_))
 {
 }
@@ -264,11 +264,12 @@ void BatchRecorder::record_contact(uint32_t substep)
     push.near_stride = device_.near_stride;
     push.dispatch_word = depenetration_word(context_.history.depenetration_step);
     push.mesh_extent = solver_.passes.mesh_extent;
-    const uint32_t period = context_.plan.pair_period;
-    push.pair_ahead = static_cast<float>(period);
+    const PairSchedule& pairs = context_.plan.pairs;
+    push.pair_ahead = static_cast<float>(pairs.period) / static_cast<float>(interval.count);
     // After the last substep no time passes.
-    push.pair_from = of_level_0(substep < substeps_ ? substep % period : (substeps_ - 1) % period + 1);
-    push.pair_lasts = of_level_0(substep < substeps_ ? 1u : 0u);
+    const bool ended = substep == substeps_;
+    push.pair_from = of_level_0(ended ? substeps_ - pairs.last(substeps_ - 1) : interval.first - pairs.last(interval.first));
+    push.pair_lasts = of_level_0(ended ? 0 : interval.count);
     push.limited_only = substep == substeps_ ? 1 : 0;
     if (keeps_contact_start(substep))
         push.result = VOILE_CONTACT_KEEPS_START;
