@@ -101,7 +101,7 @@ struct Tuning
 
     // s: two substeps of Verlet within this time share one query of contact with colliders. Between two queries a
     // vertex stays above the plane of the surface that it last touched, with friction. 0: a query in every substep, as
-    // for RK4, with normal_ray, and with self-collision.
+    // for RK4, with normal_ray, and where near pairs of cloths are answered in every substep.
     float contact_interval = 0.5e-3f;
 
     ContactMethod contact_method = ContactMethod::nearest_point;
