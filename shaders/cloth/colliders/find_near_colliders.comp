@@ -29,11 +29,10 @@ layout(push_constant, std430) uniform Push { NearCollidersPush push; };
 #include "shared/patch.glsl"
 #include "shared/step_input.glsl"
 #include "colliders/collider_pose.glsl"
+#include "colliders/swept_box.glsl"
 
 // In thicknesses: room for the lists of candidates and for rounding beyond the thickness.
 const float k_near_room = 2.0;
-// Relative rounding of coordinates.
-const float k_near_rounding = 2e-6;
 // The largest rate of a rotation along the chord of two quaternions over an even rotation.
 const float k_chord_rate = 1.3;
 
@@ -62,20 +61,6 @@ Box box_of_patch(PatchVertex self)
     return boxes[0];
 }
 
-// Of any collider but a plane, in its own space.
-Box local_box(ColliderRecord collider)
-{
-    if (collider.kind == VOILE_COLLIDER_SPHERE)
-        return Box(-collider.shape.www, collider.shape.www);
-    if (collider.kind == VOILE_COLLIDER_CAPSULE)
-        return Box(-abs(collider.shape.xyz) - collider.shape.w, abs(collider.shape.xyz) + collider.shape.w);
-    if (collider.kind == VOILE_COLLIDER_BOX)
-        return Box(-collider.shape.xyz, collider.shape.xyz);
-    if (!is_deforming(collider.flags))
-        return Box(collider.box_min, collider.box_max);
-    return Box(padded_boxes[collider.first_node].min, padded_boxes[collider.first_node].max);
-}
-
 // m: contact treats the path of a vertex within a substep as straight in the collider's space. A rotating collider can
 // come closer than its radius says to a vertex `distance` away by this.
 float turning_margin(ColliderMotion motion, float distance)
@@ -89,17 +74,11 @@ bool touches(uint c, ColliderRecord collider, Box box)
 {
     if (collider.kind == VOILE_COLLIDER_PLANE)
         return true;
-    Box around = local_box(collider);
-    if (!is_moved(collider.flags))
-        around = shifted(around, collider.origin);
-    else
+    Box around = swept_box(c, collider);
+    if (is_moved(collider.flags))
     {
-        const ColliderMotion motion = collider_motions[c];
-        const float radius = length(max(abs(around.min), abs(around.max)));
-        const Box sweep = box_around(motion.offset_from, motion.offset_to);
-        around = grown(shifted(sweep, motion.origin), radius);
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
-        around = grown(around, turning_margin(motion, length(farthest)));
+        around = grown(around, turning_margin(collider_motions[c], length(farthest)));
     }
     return overlap(around, box);
 }
@@ -140,8 +119,13 @@ void main()
         end_word = 0;
     }
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    const Box box = box_of_patch(self);
     const uint header = (push.first_patch + gl_WorkGroupID.x) * push.near_stride;
+    if (self.asleep)
+    {
+        write_corner(header + VOILE_NEAR_MIN, vec3(3e38)); // a list for no position: statistics visit all colliders
+        return;
+    }
+    const Box box = box_of_patch(self);
     for (uint word = thread; word < words; word += gl_WorkGroupSize.x)
     {
         const uint bits = bits_of(word, self.cloth, box);

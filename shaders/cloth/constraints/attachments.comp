@@ -44,7 +44,7 @@ void main()
         return;
     const AttachmentRecord attachment = attachments[push.first + gl_GlobalInvocationID.x];
     const vec4 position = positions[attachment.vertex];
-    if (position.w == 0)
+    if (position.w == 0 || (cloths[attachment.cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
         return;
     const AnchorRecord anchor = anchors[attachment.anchor];
     const vec3 from = (anchor.from * vec4(attachment.position, 1)).xyz;

@@ -207,6 +207,8 @@ void main()
 {
     const uint patch_index = gl_WorkGroupID.x;
     const PatchVertex self = patch_vertex(patch_index);
+    if (self.asleep)
+        return;
     const bool limited = cloths[self.cloth].strain_limit > 0 && self.columns > 0;
     const Grid g = grid_of(self);
     if (self.exists && !(limited && on_level(self.column_row, g.lines, 1 << g.shift)))

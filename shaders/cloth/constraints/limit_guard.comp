@@ -24,7 +24,7 @@ layout(VOILE_BINDING(residuals)) buffer Residuals { uvec2 residuals[]; };
 void main()
 {
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
-    if (!self.exists || cloths[self.cloth].strain_limit == 0)
+    if (!self.exists || self.asleep || cloths[self.cloth].strain_limit == 0)
         return;
     const LimitScale scale = scales[self.cloth];
     const uint i = self.index;

@@ -131,7 +131,8 @@ void main()
 {
     const uint first = gl_WorkGroupID.x;
     const uint cloth = patches[first].cloth;
-    if (first > 0 && patches[first - 1].cloth == cloth)
+    const bool asleep = (patches[first].tile_shift & VOILE_PATCH_ASLEEP) != 0;
+    if (asleep || (first > 0 && patches[first - 1].cloth == cloth))
         return;
     const uint thread = gl_LocalInvocationID.x;
     const LimitScale scale = scales[cloth];

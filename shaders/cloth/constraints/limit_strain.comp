@@ -145,7 +145,7 @@ Correction limit_mesh(PatchVertex self, float inverse_mass)
 void main()
 {
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
-    if (!self.exists)
+    if (!self.exists || self.asleep)
         return;
     const uint i = self.index;
     const vec4 x = positions[i];

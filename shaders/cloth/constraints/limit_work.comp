@@ -67,7 +67,7 @@ LimitWork add(LimitWork a, LimitWork b)
 LimitWork work_of(PatchVertex self)
 {
     const uint i = self.index;
-    if (!self.exists || cloths[self.cloth].strain_limit == 0)
+    if (!self.exists || self.asleep || cloths[self.cloth].strain_limit == 0)
         return LimitWork(0, 0, 0, 0, 0, 0, 0, 0, 0);
     const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
     const FinePosition to = FinePosition(after[i].xyz, unpack_residual(residuals_after[i]));

@@ -50,7 +50,7 @@ void main()
     const TetherRecord tether = tethers[push.first + gl_GlobalInvocationID.x];
     const vec3 start = positions[tether.vertex].xyz;
     const vec4 before = velocities[tether.vertex];
-    if (positions[tether.vertex].w == 0)
+    if (positions[tether.vertex].w == 0 || (cloths[tether.cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
         return;
     vec3 shift = vec3(0); // m
     vec3 v = before.xyz;

@@ -420,7 +420,7 @@ void watch_driven(uint i, uint cloth, Motion motion)
 void main()
 {
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists)
+    if (!self.exists || self.asleep)
         return;
     const uint i = self.index;
     const uint cloth = self.cloth;

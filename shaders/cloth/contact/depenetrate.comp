@@ -311,7 +311,7 @@ Depenetration find_depenetration(uint i, uint cloth)
 void main()
 {
     const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
-    if (!self.exists)
+    if (!self.exists || self.asleep)
         return;
     const Depenetration depenetration = find_depenetration(self.index, self.cloth);
     depenetrations[self.index] = depenetration;

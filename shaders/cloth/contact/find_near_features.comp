@@ -386,6 +386,8 @@ void main()
     const uint thread = gl_LocalInvocationID.x;
     const uint lane = thread % push.lanes;
     const uint in_group = thread / push.lanes;
+    if ((patches[patch_of_group()].tile_shift & VOILE_PATCH_ASLEEP) != 0)
+        return;
     for (uint i = 0; i < k_margins; ++i)
         counts[k_margins * thread + i] = 0;
     if (thread == 0)

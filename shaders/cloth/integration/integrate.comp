@@ -50,7 +50,7 @@ void write_position(uint i, FinePosition x, float inverse_mass)
 void main()
 {
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists)
+    if (!self.exists || self.asleep)
         return;
     const uint i = self.index;
     const vec4 stage_x = stage_positions[i];

@@ -67,7 +67,7 @@ void respond_to_plane(uint i, inout Motion motion)
 void main()
 {
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists)
+    if (!self.exists || self.asleep)
         return;
     const uint i = self.index;
     // No branch around the gather: all loads are issued together.

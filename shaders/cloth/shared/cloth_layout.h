@@ -29,6 +29,8 @@
 #define VOILE_CLOTH_ISOMETRIC 2u       // isometric bending; a Fabric then has no bend springs
 #define VOILE_CLOTH_UNIFORM_SPRINGS 4u // a mesh whose springs all have their class's constants; weights do not count
 #define VOILE_CLOTH_SELF_COLLISION 8u  // it collides with itself, and with other cloths of its layers that do
+// Set by the GPU: the cloth sleeps in this step (wake_cloths.comp).
+#define VOILE_CLOTH_ASLEEP 16u
 // Set in MeshSpring.neighbor: the spring joins the two vertices opposite to an edge.
 #define VOILE_OPPOSITE_BIT 0x80000000u
 
@@ -80,7 +82,7 @@ struct ClothRecord
     float pair_sweep;         // m, the longest motion along which they are
     float pair_slide;         // m, the longest part of it along the surface
     uint strain_passes;       // of the strain limit on each level
-    float padding;
+    float sleep_speed;    // m/s; 0: it never sleeps
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;
@@ -125,6 +127,9 @@ struct MembraneCorner
     uint corner;     // the number of the vertex in the triangle: 0..2, counter-clockwise
 };
 
+// Set in Patch.tile_shift by the GPU: the cloth of the patch sleeps in this step (wake_cloths.comp).
+#define VOILE_PATCH_ASLEEP 0x80000000u
+
 // The vertices of one workgroup. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
 // columns from column `first` on, and of as many rows from `row` on as fill the group, so that a workgroup's vertices
 // are near each other. Members of the cloth are copied here to save a dependent load.
@@ -136,7 +141,7 @@ struct Patch
     uint rows;         // of the cloth; of a mesh its vertices
     uint first;        // counted within the cloth
     uint row;
-    uint tile_shift;
+    uint tile_shift;    // VOILE_PATCH_ASLEEP
     uint near_features; // 1: it may touch features of colliders before the next query (find_near_features.comp)
 };
 

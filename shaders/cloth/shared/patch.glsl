@@ -13,9 +13,11 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
     vertex.cloth = c.cloth;
     vertex.columns = c.columns;
     vertex.rows = c.rows;
+    vertex.asleep = (c.tile_shift & VOILE_PATCH_ASLEEP) != 0;
+    const uint tile_shift = c.tile_shift & ~VOILE_PATCH_ASLEEP;
     if (c.columns > 0)
     {
-        vertex.column_row = ivec2(c.first + (thread & ((1u << c.tile_shift) - 1)), c.row + (thread >> c.tile_shift));
+        vertex.column_row = ivec2(c.first + (thread & ((1u << tile_shift) - 1)), c.row + (thread >> tile_shift));
         vertex.exists = in_grid(vertex.column_row, c.columns, c.rows);
         vertex.local = uint(vertex.column_row.y) * c.columns + uint(vertex.column_row.x);
     }

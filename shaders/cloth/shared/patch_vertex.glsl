@@ -7,6 +7,7 @@
 struct PatchVertex
 {
     bool exists; // false for threads beyond the cloth's border
+    bool asleep; // the cloth sleeps in this step: passes that change the state leave it alone
     uint cloth;
     uint local; // counted within the cloth
     uint index; // in the solver's buffers

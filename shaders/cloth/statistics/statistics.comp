@@ -10,6 +10,7 @@
 #include "shared/collider_layout.h"
 #include "shared/contact_layout.h"
 #include "shared/padded_layout.h"
+#include "shared/sleep_layout.h"
 #include "shared/statistics_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
@@ -31,6 +32,7 @@ layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padd
 layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
 layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(sleeps)) readonly buffer Sleeps { SleepRecord sleeps[]; };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
@@ -43,6 +45,7 @@ layout(push_constant, std430) uniform Push { StatisticsPush push; };
 #include "contact/solid_query.glsl"
 #include "shared/grid.glsl"
 #include "shared/mesh.glsl"
+#include "sleep/sleep.glsl"
 #include "statistics/statistics_merge.glsl"
 
 bool finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
@@ -139,6 +142,7 @@ void main()
     StatisticsRecord record = no_statistics();
     if (self.exists)
     {
+        record.sleeping_cloths = self.local == 0 && is_asleep(cloth) ? 1 : 0;
         const uint i = self.index;
         const vec4 x = positions[i];
         const vec4 v = velocities[i];

@@ -106,6 +106,27 @@ struct GridCloth
     // tilted ones up to 1.7 % at 4 m/s and 12 % at 10 m/s. Very fine cloth that slides fast along a collider is slowed:
     // of 3 mm spacing from 3 m/s on.
     bool self_collision = false;
+
+    // m/s, 0..10. The cloth falls asleep when none of its vertices has been faster than this for 0.5 s of simulated
+    // time, by its velocity at the end of each step and by its displacement in the step. Vertices without mass do not
+    // count. 0: it never sleeps. The GPU decides; Statistics::sleeping_cloths counts those that sleep.
+    //
+    // A cloth that sleeps keeps its positions to the bit, and its velocities are 0. Passes of a step leave it alone. It
+    // wakes at the beginning of a step
+    // - after a change of the cloth by the host: material, attachments, tethers, layers, reset, teleport, velocity,
+    //   enabled, sleep_speed, Solver::wake;
+    // - in which one of its anchors moves;
+    // - if gravity changed since the last step, or wind, gusts or the air's density, and they act on it;
+    // - after a collider of its layers was added, removed, enabled or disabled, or got other friction, layers or size;
+    // - in which such a collider moves or deforms and may come near: the box that it sweeps in the step is within twice
+    //   the thickness of the box around the cloth. A plane that moves is near all cloths. A collider that rotates
+    //   sweeps a ball around its origin.
+    // - with `self_collision`, if a cloth of its island is awake: cloths whose boxes may meet within 3 ms fall asleep
+    //   and wake together, and so do not sleep near one whose sleep_speed is 0. In the step in which another cloth
+    //   first comes near, a cloth that sleeps does not give way. Removing, enabling and disabling a cloth with
+    //   self_collision wakes all others.
+    // Cloth on which gusts act does not fall asleep. Neither does one beside a collider that moves.
+    float sleep_speed = 0;
 };
 
 // A cloth of triangles. The mesh may be open or closed, in one piece or several. Vertices keep their order.
@@ -164,6 +185,9 @@ struct MeshCloth
 
     // The cloth collides with itself, and with other such cloths (GridCloth::self_collision).
     bool self_collision = false;
+
+    // m/s, 0..10: below this speed the cloth falls asleep (GridCloth::sleep_speed). 0: never.
+    float sleep_speed = 0;
 
     // Replaces positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest is
     // that of the transform at cooking. This transform may differ from that one by a rotation and a translation. With

@@ -22,6 +22,9 @@ constexpr float k_most_coordinate = 1e6f; // m, either way
 // The velocity of a cloth, at its start or as it is set, along each axis.
 constexpr float k_most_speed = 1e4f; // m/s, either way
 
+// The speed below which a cloth may fall asleep (GridCloth::sleep_speed).
+constexpr float k_most_sleep_speed = 10; // m/s
+
 // Inverse mass of a vertex (GridCloth::inverse_masses).
 constexpr float k_most_inverse_mass = 1e9f; // 1/kg
 

@@ -365,6 +365,11 @@ public:
     // Sets the velocity of every vertex, m/s. Errors: beyond 1e4 along an axis.
     Result<void> set_velocity(ClothId cloth, const Vec3& velocity);
 
+    // m/s, 0..10; 0: the cloth never sleeps (GridCloth::sleep_speed). Wakes the cloth. Errors: a speed out of range.
+    Result<void> set_sleep_speed(ClothId cloth, float speed);
+    // The cloth is awake in the next step, and for 0.5 s at least. Changes of what it feels wake it anyway.
+    Result<void> wake(ClothId cloth);
+
     // True if something was added since the last upload, or if a change above needs an upload.
     [[nodiscard]] bool needs_upload() const;
 
@@ -390,7 +395,9 @@ public:
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
     // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of
     // the solver when it restores, and a vertex that is heavier than it was keeps its momentum, as in set_material.
-    // Changes that wait for the next record, such as reset, are made after it. Errors: nothing uploaded yet, out of
+    // Changes that wait for the next record, such as reset, are made after it. Cloths that slept when it was saved sleep
+    // on if nothing that may wake cloths has changed or moved since, and the bytes are this snapshot's own; else all
+    // cloths wake, and then bits differ. Errors: nothing uploaded yet, out of
     // memory; a snapshot of another solver; cloths were uploaded or removed since create_snapshot; nothing saved to
     // restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;

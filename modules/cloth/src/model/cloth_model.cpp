@@ -329,6 +329,11 @@ void apply_material(ClothModel& cloth)
     }
 }
 
+Result<void> check_sleep_speed(const std::string& cloth, float speed)
+{
+    return check(subject("cloth", cloth), {"sleep_speed", speed, 0, k_most_sleep_speed, " m/s"});
+}
+
 Result<void> validate(const ClothInput& cloth, uint64_t vertices)
 {
     const auto bad = [&](const std::string& reason) { return invalid("cloth", cloth.name, reason); };
@@ -337,6 +342,8 @@ Result<void> validate(const ClothInput& cloth, uint64_t vertices)
     if (auto velocity = check(subject("cloth", cloth.name), "velocity", cloth.velocity, k_most_speed, " m/s");
         !velocity)
         return velocity;
+    if (auto speed = check_sleep_speed(cloth.name, cloth.sleep_speed); !speed)
+        return speed;
     if (auto integrator = check_enumerator(subject("cloth", cloth.name), "integrator",
                                            static_cast<int>(cloth.integrator), {"rk4", "verlet"});
         !integrator)

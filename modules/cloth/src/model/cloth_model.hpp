@@ -45,6 +45,7 @@ struct ClothModel
     uint32_t level = 0;     // of its substeps (substep_plan.hpp)
     bool jumped = false;    // reset or teleported in the step that is recorded
     bool limit_due = false; // the strain limit in the record changed with the substeps
+    bool wake_due = false;  // it must not sleep in the next step
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it
@@ -81,8 +82,12 @@ struct ClothInput
     Integrator integrator;
     std::span<const uint32_t> pins;
     std::span<const float> inverse_masses;
+    float sleep_speed;
 };
 Result<void> validate(const ClothInput& cloth, uint64_t vertices);
+
+// Errors: out of its range.
+Result<void> check_sleep_speed(const std::string& cloth, float speed);
 
 // Errors: the transform of the cloth takes one of them out of range.
 Result<void> check_world_positions(const std::string& cloth, std::span<const glm::dvec3> world);

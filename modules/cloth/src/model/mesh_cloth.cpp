@@ -124,7 +124,7 @@ Result<void> validate_cooked(const MeshCloth& cloth)
 ClothInput input_of(const MeshCloth& cloth)
 {
     return {cloth.name,       cloth.transform, cloth.velocity,      cloth.material,
-            cloth.integrator, cloth.pins,      cloth.inverse_masses};
+            cloth.integrator, cloth.pins,      cloth.inverse_masses, cloth.sleep_speed};
 }
 
 // The mesh with its topology, cooked or made now.

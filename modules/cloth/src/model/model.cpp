@@ -77,6 +77,7 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
     }
     if (indices)
         cloth.first_triangle = triangles.allocate(count_triangles(cloth));
+    record.sleep_speed = input.sleep_speed;
     apply_material(cloth);
     set_start(cloth, input, world_positions);
     if (cloth.self_collision)

@@ -8,6 +8,7 @@
 #include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 #include "shared/pair_layout.h"
+#include "shared/sleep_layout.h"
 #include "shared/statistics_layout.h"
 #include "shared/step_layout.h"
 #include "shared/strain_layout.h"

@@ -71,6 +71,10 @@ struct DescriptorSets
     VkDescriptorSet refit_cloths{};
     VkDescriptorSet count_cloth_pairs{}; // with SolverOptions::intersections, as the next one
     VkDescriptorSet count_collider_pairs{};
+    VkDescriptorSet wake_cloths{};
+    VkDescriptorSet find_speeds{};
+    VkDescriptorSet decide_sleep{};
+    VkDescriptorSet fall_asleep{};
     VkDescriptorSet normals{};
     VkDescriptorSet statistics{};
     VkDescriptorSet statistics_reduce{};

@@ -1,5 +1,5 @@
 // Edits: changes by the host, recorded at the beginning of the next step.
-#include "solver/solver_state.hpp"
+#include "solver/sleep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +97,7 @@ void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved&
 {
     const DeviceState& device = *solver.device;
     update_records(recorder, solver);
+    record_woken(recorder, solver);
     if (solver.edits.patches)
         record_patches(recorder, solver);
     if (solver.edits.attachments)
@@ -213,7 +214,7 @@ void Edits::forget(ClothId cloth)
 
 bool Solver::State::changes_due() const
 {
-    return edits.softened || edits.attachments || edits.patches || edits.pins || edits.candidates ||
+    return edits.softened || edits.attachments || edits.woken || edits.patches || edits.pins || edits.candidates ||
            !edits.records.empty() || !edits.colliders.empty() ||
            std::ranges::any_of(edits.state_edits,
                                [&](const shared::EditPush& edit) { return is_uploaded(*this, edit); });

@@ -55,6 +55,10 @@ struct Kernels
     gpu::Kernel deform;
     gpu::Kernel face_features;
     RefitKernels refit;
+    gpu::Kernel wake_cloths;
+    gpu::Kernel find_speeds;
+    gpu::Kernel decide_sleep;
+    gpu::Kernel fall_asleep;
     gpu::Kernel normals;
     gpu::Kernel output;
     gpu::Kernel count_cloth_pairs;    // only with SolverOptions::intersections

@@ -117,6 +117,7 @@ Passes Solver::State::passes_with(const StrainLimitOf& limit_of) const
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
             next.strain_passes = std::max(next.strain_passes, limit.passes);
         }
+        next.sleep |= cloth.record.sleep_speed > 0;
         if (!cloth.self_collision)
             continue;
         const float reach = VOILE_PAIR_APPROACH * cloth.record.pair_range;
@@ -133,6 +134,8 @@ void Solver::State::update_collider(ColliderId collider, bool meets_others)
     edits.colliders.insert(collider.index);
     edits.candidates |= meets_others;
     const ColliderModel* model_of = find(collider);
+    if (model_of != nullptr)
+        wake_near(model_of->record.layers);
     if (options.feature_contact && model_of != nullptr && needs_features(*model_of, model))
         dirty = true;
     update_passes();

@@ -1,6 +1,7 @@
 // Records a step: the passes that ARCHITECTURE.md lists.
 #include "model/stability.hpp"
 #include "solver/pairs.hpp"
+#include "solver/sleep.hpp"
 #include "solver/solver_state.hpp"
 #include "solver/step_input.hpp"
 #include "solver/substeps.hpp"
@@ -82,6 +83,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
     record_step_input(recorder, *solver.device, make_step_input(solver, history, step, plan.substeps, first_substep));
     const StepContext context{recorder, solver, lists, history, step, plan, with_limits};
+    record_wake(recorder, solver, lists.patch_count());
     StepRecorder passes(context);
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);
@@ -89,6 +91,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     if (commands != nullptr)
         commands->begin(recorder);
     passes.record();
+    record_sleep(recorder, solver, lists.patch_count());
     record_normals(recorder, solver);
     if (commands != nullptr)
         commands->end(recorder);
@@ -198,6 +201,7 @@ Result<void> Solver::record(gpu::Recorder& recorder, const Step& step)
     state_->farthest_motion = farthest_motion(*state_);
     plan.pairs.period = substeps_per_pass(*state_, step, plan.substeps, state_->farthest_motion);
     state_->assign_levels(plan, step);
+    mark_woken(*state_, step);
     record_edits(recorder, *state_, step);
     record_passes(recorder, *state_, state_->lists, state_->history, step, plan, state_->passes);
     record_jumps(recorder, *state_);

@@ -310,6 +310,10 @@ std::vector<SetDescription> Describer::describe()
     add(sets_.face_features, kernels_.face_features);
     add_refit();
     add_intersections();
+    add(sets_.wake_cloths, kernels_.wake_cloths);
+    add(sets_.find_speeds, kernels_.find_speeds);
+    add(sets_.decide_sleep, kernels_.decide_sleep);
+    add(sets_.fall_asleep, kernels_.fall_asleep);
     add(sets_.normals, kernels_.normals);
     add(sets_.statistics, kernels_.statistics);
     add(sets_.statistics_reduce, kernels_.statistics_reduce);

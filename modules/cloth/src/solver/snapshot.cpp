@@ -1,6 +1,8 @@
 // Snapshot: a copy of the state of all cloths.
 #include "solver/solver_state.hpp"
 
+#include "shared/sleep_layout.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,6 +19,7 @@ struct Snapshot::Contents
     std::vector<ClothId> cloths;
     uint32_t vertices = 0;           // of these
     uint32_t depenetration_step = 0; // modulo its period
+    std::optional<uint64_t> changes; // of what may wake cloths, when it was saved; none: not known
     bool filled = false;
 };
 
@@ -76,6 +79,7 @@ Result<void> Snapshot::assign(std::span<const std::byte> bytes)
     contents_->buffer.flush();
     std::memcpy(&contents_->depenetration_step, bytes.data() + bytes.size() - sizeof(uint32_t), sizeof(uint32_t));
     contents_->depenetration_step %= k_depenetration_period;
+    contents_->changes.reset();
     contents_->filled = true;
     return {};
 }
@@ -92,13 +96,14 @@ struct Stream
 };
 
 // The streams of all vertices, and the data of depenetration and the strain limit that the next step needs.
-std::array<Stream, 6> streams_of(uint32_t depenetration_step)
+std::array<Stream, 7> streams_of(uint32_t depenetration_step)
 {
     return {{{buffer::positions, sizeof(glm::vec4), true},
              {buffer::residuals, sizeof(glm::uvec2), true},
              {buffer::velocities, sizeof(glm::vec4), true},
              {buffer::normals, sizeof(glm::vec4), true},
              {k_depenetration_votes[depenetration_step % 2], votes_bytes(1), false},
+             {buffer::sleeps, sizeof(shared::SleepRecord), false},
              {buffer::limit_scales, scales_bytes(1), false}}};
 }
 
@@ -213,6 +218,7 @@ Result<void> Solver::record_save(VkCommandBuffer cmd, const Snapshot& snapshot) 
     const VkBuffer buffer = snapshot.contents_->buffer.handle();
     snapshot.contents_->filled = true;
     snapshot.contents_->depenetration_step = step;
+    snapshot.contents_->changes = state_->changes;
     state_->lifetime.begin(cmd);
     barrier(state_->context, state_->options, cmd, true);
     VkDeviceSize end = 0;
@@ -253,6 +259,9 @@ Result<void> Solver::record_restore(VkCommandBuffer cmd, const Snapshot& snapsho
     state_->history.depenetration_step = snapshot.contents_->depenetration_step;
     state_->history.depenetration_due = true;
     state_->history.forget_pairs();
+    if (snapshot.contents_->changes != state_->changes)
+        for (auto [index, cloth] : state_->model.cloths)
+            state_->wake(cloth);
     state_->edits.masses = state_->edits.pins = true; // materials and pins may have changed since it was saved
     return {};
 }

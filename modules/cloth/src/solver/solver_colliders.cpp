@@ -134,6 +134,7 @@ Result<void> Solver::set_layers(ColliderId collider, uint32_t layers)
     State& s = *state_;
     if (auto exists = s.check(collider); !exists)
         return exists;
+    s.wake_near(s.find(collider)->record.layers); // of the former ones, too
     s.collider_models.colliders.find(collider)->record.layers = layers;
     s.update_collider(collider, true);
     return {};

@@ -128,6 +128,7 @@ Result<void> Solver::State::apply_attachments(ClothId id)
     if (auto room = reserve_attachments(); !room)
         return room;
     cloth.tethers = std::move(tethers);
+    wake(cloth);
     update_attachments();
     return {};
 }

@@ -12,6 +12,8 @@ Result<void> Solver::remove(ClothId cloth)
     if (auto exists = s.check(cloth); !exists)
         return exists;
     s.remove_outputs(cloth);
+    if (s.find(cloth)->self_collision)
+        s.wake_paired(); // it may have held others
     s.model.remove(cloth);
     s.edits.forget(cloth);
     s.update_patches();
@@ -24,6 +26,7 @@ Result<void> Solver::remove(ColliderId collider)
     if (auto exists = s.check(collider); !exists)
         return exists;
     const std::optional<AnchorId> anchor = s.find(collider)->pose.anchor;
+    s.wake_near(s.find(collider)->record.layers);
     s.collider_models.remove(collider);
     s.update_collider(collider, true);
     if (anchor)
@@ -65,6 +68,9 @@ Result<void> Solver::set_enabled(ClothId cloth, bool enabled)
     if (model.enabled == enabled)
         return {};
     model.enabled = enabled;
+    s.wake(model);
+    if (model.self_collision)
+        s.wake_paired();
     s.update_patches();
     return {};
 }

@@ -36,6 +36,7 @@ struct Edits
     bool pins = false;        // they must be set again
     bool masses = false;      // of all cloths: they must be set again
     bool candidates = false;  // lists of near triangles must be cleared
+    bool woken = false;       // cloths must be woken (wake_due)
 
     // Drops the edits of a cloth that was removed.
     void forget(ClothId cloth);
@@ -56,8 +57,21 @@ struct Passes
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's
     bool pairs = false;          // cloths that collide with themselves
+    bool sleep = false;          // cloths that may sleep
     float pair_reach = 0;        // m, how far the finest of those may be from where its lists expect it
     float mesh_extent = 0;       // m, the largest of a collider's mesh along an axis from its origin
+};
+
+// What accelerates cloths in a step.
+struct Forces
+{
+    Vec3 gravity{0.f};
+    Vec3 wind{0.f};
+    float gust = 0;
+    float gust_length = 0;
+    float air_density = 0;
+
+    bool operator==(const Forces&) const = default;
 };
 
 // The anchor as the GPU reads it.
@@ -99,6 +113,8 @@ struct Solver::State
     bool anchors_moved = false;   // in the last step
     bool colliders_moved = false; // in the last step
     float farthest_motion = 0;    // m, of anchors and colliders in the step that is recorded
+    Forces forces;                // of the last step
+    uint64_t changes = 0;         // by the host, of what may wake cloths
     StepHistory history;
     ActiveLists lists;
     std::vector<SubstepNeed> needs; // of the active cloths, in no order; kept so that recording does not allocate
@@ -154,6 +170,10 @@ struct Solver::State
     void update_attachments();
     // After materials or colliders changed, and at the end of update_attachments.
     void update_passes();
+    // Wakes a cloth, those of layers, those that collide with themselves, in the next step, and counts it as a change.
+    void wake(ClothModel& cloth);
+    void wake_near(uint32_t layers);
+    void wake_paired();
     // With the strain limits of a step.
     [[nodiscard]] Passes passes_with(const StrainLimitOf& limit_of) const;
     // What an upload records after its copies.

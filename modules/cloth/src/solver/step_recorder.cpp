@@ -50,8 +50,11 @@ void StepRecorder::keep_contact_start()
 // A batch takes its substep at the beginning of the time that the substep covers.
 void StepRecorder::record()
 {
-    if (context_.passes.strain_spacing > 0)
-        keep_state(k_step_start);
+    const bool limits = context_.passes.strain_spacing > 0;
+    if (limits || context_.passes.sleep)
+        keep_state(k_step_start, limits);
+    if (context_.passes.sleep && context_.passes.pairs)
+        keep_state(k_stage_b); // passes over pairs read it of cloths that sleep, which no other pass writes
     keep_contact_start();
     PairRecorder pairs(recorder_, solver_, context_.lists, context_.plan);
     for (uint32_t substep = 0; substep < context_.plan.substeps; ++substep)

@@ -5,6 +5,8 @@
 #include "solver/solver_state.hpp"
 #include "solver/staging.hpp"
 
+#include "shared/sleep_layout.h"
+
 #include <utility>
 
 namespace voile
@@ -41,6 +43,7 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index, cons
         staging.add_copy(buffer::indices, cloth.first_triangle, cloth_triangles(cloth));
     staging.add_copy(buffer::cloths, index, std::vector{cloth.record});
     staging.add_copy(buffer::limit_scales, index, std::vector{k_first_scale});
+    staging.add_copy(buffer::sleeps, index, std::vector{shared::SleepRecord{}});
     for (const buffer::Name votes : k_depenetration_votes)
         staging.add_copy(votes, index * uint64_t{VOILE_VOTE_WORDS}, std::vector<uint32_t>(VOILE_VOTE_WORDS));
 }
@@ -273,6 +276,8 @@ void mark_uploaded(Solver::State& solver)
     }
     for (auto [index, collider] : solver.collider_models.colliders)
     {
+        if (!collider.uploaded || collider.features_new)
+            solver.wake_near(collider.record.layers);
         collider.uploaded = true;
         collider.features_new = false;
     }

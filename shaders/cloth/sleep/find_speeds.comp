@@ -1,0 +1,75 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How fast the fastest vertex of each cloth was in the step, and where the cloth is if it may sleep. One thread per
+// vertex.
+//
+// Contact, depenetration and the strain limit move vertices without giving them a velocity. So the displacement in the
+// step counts, too.
+#include "shared/bindings.h"
+#include "shared/cloth_layout.h"
+#include "shared/sleep_layout.h"
+
+layout(local_size_x_id = k_constant_workgroup_size) in;
+
+layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
+layout(VOILE_BINDING(sleeps)) buffer Sleeps { SleepRecord sleeps[]; };
+layout(VOILE_BINDING(positions)) readonly buffer Positions { vec4 positions[]; };
+layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
+layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]; };
+layout(VOILE_BINDING(step_start_positions)) readonly buffer StepStartPositions { vec4 step_start[]; };
+layout(VOILE_BINDING(step_start_residuals)) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
+
+#include "shared/fine_position.glsl"
+#include "shared/ordered.glsl"
+#include "shared/patch.glsl"
+#include "shared/step_input.glsl"
+#include "sleep/sleep.glsl"
+
+shared uint shared_speed;
+shared uint shared_low[3];
+shared uint shared_high[3];
+
+// m/s; of a vertex without mass 0
+float speed_of(uint i)
+{
+    const vec4 x = positions[i];
+    if (x.w == 0)
+        return 0;
+    const FinePosition from = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
+    const FinePosition to = FinePosition(x.xyz, unpack_residual(residuals[i]));
+    return max(length(velocities[i].xyz), step_input.rate * length(displacement(from, to)));
+}
+
+void main()
+{
+    const PatchVertex self = patch_vertex(gl_WorkGroupID.x);
+    const uint thread = gl_LocalInvocationID.x;
+    if (thread == 0 && self.local == 0)
+        sleeps[self.cloth].restless = 0; // decide_sleep.comp sets it again
+    if (self.asleep || cloths[self.cloth].sleep_speed == 0)
+        return;
+    const bool may_sleep = is_long(sleeps[self.cloth].calm + 1 / step_input.rate);
+    if (thread < 3)
+        shared_low[thread] = shared_high[thread] = 0;
+    if (thread == 0)
+        shared_speed = 0;
+    barrier();
+    if (self.exists)
+        atomicMax(shared_speed, floatBitsToUint(speed_of(self.index))); // NaN is the largest
+    if (self.exists && may_sleep)
+        for (uint axis = 0; axis < 3; ++axis)
+        {
+            const uint x = ordered(positions[self.index][axis]);
+            atomicMax(shared_low[axis], ~x);
+            atomicMax(shared_high[axis], x);
+        }
+    barrier();
+    if (thread == 0)
+        atomicMax(sleeps[self.cloth].speed, shared_speed);
+    if (may_sleep && thread < 3)
+    {
+        atomicMax(sleeps[self.cloth].low[thread], shared_low[thread]);
+        atomicMax(sleeps[self.cloth].high[thread], shared_high[thread]);
+    }
+}
