@@ -61,7 +61,8 @@ Cloths add_reference_scene(voile::Solver& solver)
 }
 
 // A field of along x along cloths of side x side vertices, a spacing apart.
-Cloths add_field(voile::Solver& solver, uint32_t along, uint32_t side, voile::Integrator integrator)
+Cloths add_field(voile::Solver& solver, uint32_t along, uint32_t side, voile::Integrator integrator,
+                 float sleep_speed = 0)
 {
     Cloths cloths;
     for (uint32_t row = 0; row < along; ++row)
@@ -72,6 +73,7 @@ Cloths add_field(voile::Solver& solver, uint32_t along, uint32_t side, voile::In
                 reference_grid(side, pitch * static_cast<float>(column), pitch * static_cast<float>(row));
             grid.name = "cloth " + std::to_string(cloths.size());
             grid.integrator = integrator;
+            grid.sleep_speed = sleep_speed;
             cloths.push_back(voile::engine::take(solver.add_cloth(grid)));
         }
     return cloths;
@@ -89,6 +91,13 @@ Cloths add_verlet_field(voile::Solver& solver)
     if (ground)
         (void)voile::engine::take(solver.add_collider(voile::PlaneCollider{}));
     return add_field(solver, along, 512 / along, voile::Integrator::verlet);
+}
+
+Cloths add_sleeping_field(voile::Solver& solver)
+{
+    constexpr float k_sleep_speed = 0.05f; // m/s
+    (void)voile::engine::take(solver.add_collider(voile::PlaneCollider{}));
+    return add_field(solver, 32, 16, voile::Integrator::verlet, k_sleep_speed);
 }
 
 template <uint32_t side>
@@ -226,6 +235,7 @@ constexpr uint32_t k_contact_frames = 42; // 0.7 s: the cloth lies on the heart,
 constexpr uint32_t k_draped_frames = 150; // 2.5 s: most of it touches the heart or the ground
 
 constexpr uint32_t k_sphere_frames = 90; // 1.5 s
+constexpr uint32_t k_sleep_frames = 150; // 2.5 s: they have lain on the ground for half a second
 constexpr uint32_t k_fallen_frames = 30; // 0.5 s: 4.9 m/s
 constexpr uint32_t k_heap_frames = 90;
 
@@ -365,6 +375,20 @@ constexpr Case k_cases[] = {
      k_interleaved, 0, 0, true},
     {"thousand-on-ground", "the 1,024 cloths lie on a plane", add_verlet_field<32, true>, k_nearest, k_sphere_frames,
      true, k_interleaved, 0, 0, true},
+    {"sleeping-1000",
+     "they sleep there",
+     add_sleeping_field,
+     k_nearest,
+     k_sleep_frames,
+     true,
+     k_interleaved,
+     0,
+     0,
+     true,
+     0,
+     {},
+     nullptr,
+     true},
     {"one-on-ground", "the one cloth lies on it", add_verlet_field<1, true>, k_nearest, k_sphere_frames, true,
      k_interleaved, 0, 0, true},
 };

@@ -31,6 +31,7 @@ struct Case
     // Where the vertices of the only cloth begin. No cloth may intersect itself at the measurement then; the case is an
     // error otherwise. Such cases run on a GPU or by their name.
     std::vector<glm::vec4> (*arrange)() = nullptr;
+    bool asleep = false; // all cloths sleep at the measurement; the case is an error otherwise
 };
 
 // The icosphere of a case, radius 0.8 m.

@@ -170,6 +170,8 @@ uint32_t advance(TimedQueue& queue, voile::Solver& solver, const Case& item)
     check_finite(item, state, "before the measurement");
     if (item.in_contact && state.contacts == 0)
         throw voile::engine::StartupError("case " + std::string(item.name) + ": no vertex touches a collider");
+    if (item.asleep && state.sleeping_cloths == 0)
+        throw voile::engine::StartupError("case " + std::string(item.name) + ": no cloth sleeps");
     return state.contacts;
 }
 

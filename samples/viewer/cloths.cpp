@@ -214,6 +214,7 @@ voile::Result<voile::ClothId> add_grid(voile::Solver& solver, const SceneFile& s
     grid.layers = entry.layers;
     grid.integrator = entry.integrator;
     grid.self_collision = entry.self_collision;
+    grid.sleep_speed = entry.sleep_speed;
     auto material = make_cloth_material(
         scene, entry.material,
         glm::vec2(grid.width / static_cast<float>(grid.columns - 1), grid.depth / static_cast<float>(grid.rows - 1)));
@@ -318,6 +319,7 @@ voile::Result<voile::ClothId> add_mesh(voile::Solver& solver, const SceneFile& s
     cloth.layers = entry.layers;
     cloth.integrator = entry.integrator;
     cloth.self_collision = entry.self_collision;
+    cloth.sleep_speed = entry.sleep_speed;
     cloth.material = material.value();
     start.surface = mesh_surface(mesh, cloth.transform);
     const std::vector<glm::vec2> coordinates = fabric_coordinates(start.surface);

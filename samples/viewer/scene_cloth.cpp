@@ -176,7 +176,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     ClothEntry cloth;
     cloth.location = location_of(field);
     if (!reader.object(field, {"name", "grid", "mesh", "transform", "material", "pins", "tethers", "velocity",
-                               "integrator", "self_collision", "layers", "look"}))
+                               "integrator", "self_collision", "sleep_speed", "layers", "look"}))
         return cloth;
     cloth.name = "cloth_" + std::to_string(index);
     const Field name = SceneReader::child(field, "name");
@@ -210,6 +210,7 @@ ClothEntry parse_cloth(ParseContext& context, const Field& field, size_t index)
     if (const auto word = reader.read_word(SceneReader::child(field, "integrator"), "an integrator", {"rk4", "verlet"}))
         cloth.integrator = static_cast<voile::Integrator>(*word);
     reader.read(SceneReader::child(field, "self_collision"), cloth.self_collision);
+    reader.read(SceneReader::child(field, "sleep_speed"), Range{0, voile::k_most_sleep_speed}, cloth.sleep_speed);
     parse_layers(reader, SceneReader::child(field, "layers"), cloth.layers);
     return cloth;
 }

@@ -188,6 +188,7 @@ Json cloth(const ClothEntry& entry, const fs::path& folder)
     add(json, "velocity", entry.velocity, plain.velocity);
     add(json, "integrator", entry.integrator, plain.integrator, "verlet");
     add(json, "self_collision", entry.self_collision, plain.self_collision, entry.self_collision);
+    add(json, "sleep_speed", entry.sleep_speed, plain.sleep_speed);
     add(json, "layers", entry.layers, plain.layers, layers(entry.layers));
     if (const Json drawn = look(entry.look); !drawn.empty())
         json["look"] = drawn;

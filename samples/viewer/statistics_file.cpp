@@ -46,7 +46,8 @@ Json measurements_json(const Measurements& values)
             {"candidates", count(values.candidates)},
             {"contact_overflows", count(values.contact_overflows)},
             {"forced_pairs", count(values.forced_pairs)},
-            {"tangled_pairs", count(values.tangled_pairs)}};
+            {"tangled_pairs", count(values.tangled_pairs)},
+            {"sleeping_cloths", count(values.sleeping_cloths)}};
 }
 
 Json summary_json(const StatisticsSummary& summary)
@@ -130,7 +131,8 @@ Measurements larger_of(const Measurements& a, const Measurements& b)
             std::max(a.candidates, b.candidates),
             std::max(a.contact_overflows, b.contact_overflows),
             std::max(a.forced_pairs, b.forced_pairs),
-            std::max(a.tangled_pairs, b.tangled_pairs)};
+            std::max(a.tangled_pairs, b.tangled_pairs),
+            std::max(a.sleeping_cloths, b.sleeping_cloths)};
 }
 
 Percentiles percentiles(std::span<const double> values)

@@ -60,6 +60,8 @@ TEST_CASE("numbers that are not finite, out of range or of the wrong kind are re
           "dir/s.json:1: cloths[0].material.areal_density is 1e-300; it must be within 0.001 to 1000");
     CHECK(cloth_message("\"transform\": {\"scale\": -1}") ==
           "dir/s.json:1: cloths[0].transform.scale is -1; it must be larger than 0 and at most 1000000");
+    CHECK(cloth_message("\"sleep_speed\": 11") ==
+          "dir/s.json:1: cloths[0].sleep_speed is 11; it must be within 0 to 10");
     CHECK(cloth_message("\"self_collision\": 1") ==
           "dir/s.json:1: cloths[0].self_collision is a number; expected true or false");
 }

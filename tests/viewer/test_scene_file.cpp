@@ -43,6 +43,7 @@ constexpr const char* k_full_scene = R"({
     "velocity": [0, 0, -1],
     "integrator": "verlet",
     "self_collision": true,
+    "sleep_speed": 0.05,
     "layers": [0, 3]
   }, {"mesh": "m/shirt.PLY", "material": "silk"}],
   "colliders": [
@@ -99,6 +100,7 @@ TEST_CASE("every key of a cloth is read")
     CHECK(sheet.velocity == glm::vec3(0, 0, -1));
     CHECK(sheet.integrator == voile::Integrator::verlet);
     CHECK(sheet.self_collision);
+    CHECK(sheet.sleep_speed == 0.05f);
     CHECK(sheet.layers == 9u);
     CHECK(scene.cloths[1].layers == 1u);
 
@@ -235,6 +237,7 @@ TEST_CASE("missing keys have the defaults of the format")
     CHECK_FALSE(result.value().camera.has_value());
     CHECK(result.value().cloths[0].integrator == voile::Integrator::rk4);
     CHECK_FALSE(result.value().cloths[0].self_collision);
+    CHECK(result.value().cloths[0].sleep_speed == 0.f);
     CHECK_FALSE(result.value().cloths[0].material.preset.has_value());
     CHECK(parse("{\"step\": {\"substeps\": \"auto\"}, \"cloths\": [{" + k_grid + "}]}").has_value());
 }

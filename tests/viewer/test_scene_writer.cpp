@@ -35,6 +35,7 @@ constexpr const char* k_all = R"({
     "velocity": [0, 0, -1],
     "integrator": "verlet",
     "self_collision": true,
+    "sleep_speed": 0.05,
     "layers": [0, 3],
     "look": {"color": [0.5, 0.25, 0.125], "back_color": [0, 0, 1], "weave": "twill", "pattern": "stripes", "threads": 250,
              "roughness": 0.5, "sheen": 0.25, "translucency": 0.75}

@@ -74,7 +74,8 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                             "candidates",
                             "contact_overflows",
                             "forced_pairs",
-                            "tangled_pairs"};
+                            "tangled_pairs",
+                            "sleeping_cloths"};
     CHECK(keys(json["summary"]["maxima"]) == measurements);
     Keys last = measurements;
     last.insert(last.end(), {"self_intersections", "verified"});
@@ -89,7 +90,7 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                                              "penetrating_vertices", "deepest_penetration", "intersecting_cloth_pairs",
                                              "intersecting_collider_pairs", "uncertain_pairs", "nan_vertices",
                                              "contacts", "candidates", "contact_overflows", "forced_pairs",
-                                             "tangled_pairs", "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
+                                             "tangled_pairs", "sleeping_cloths", "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
 }
 
 TEST_CASE("values survive a round trip, and unmeasured ones are null")
