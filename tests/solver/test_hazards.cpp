@@ -310,6 +310,35 @@ TEST_CASE("steps in which cloths collide with each other have no hazard, each di
     CHECK(run_one_by_one(harness.solver, {step, step}) > 2 * dispatches);
 }
 
+TEST_CASE("steps in which cloths fall asleep and wake have no hazard, each dispatch in its own command buffer")
+{
+    ClothHarness harness;
+    for (const float height : {0.002f, 0.03f})
+    {
+        voile::GridCloth grid;
+        grid.columns = grid.rows = 10;
+        grid.width = grid.depth = 0.2f;
+        grid.transform[3] = {0, height, 0, 1};
+        grid.integrator = voile::Integrator::verlet;
+        grid.self_collision = true;
+        grid.sleep_speed = 10;
+        (void)voile::engine::take(harness.solver.add_cloth(grid));
+    }
+    const voile::ColliderId ball =
+        voile::engine::take(harness.solver.add_collider(voile::SphereCollider{.center = {0, -1, 0}, .radius = 0.99f}));
+    harness.upload();
+    voile::Step step{.substeps = 2};
+    harness.step(step, 28);
+    glm::mat4 motion(1.f);
+    motion[3].y = 0.001f;
+    for (const bool moves : {false, true})
+    {
+        if (moves)
+            voile::engine::take(harness.solver.move_collider(ball, motion));
+        CHECK(run_one_by_one(harness.solver, {step, step, step}) > 3 * 20);
+    }
+}
+
 TEST_CASE_FIXTURE(tests::GpuFixture, "a refit has no hazard, each dispatch in its own command buffer")
 {
     const voile::RefitKernels kernels = voile::engine::take(voile::create_refit_kernels(context(), 16));

@@ -9,16 +9,19 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// All 0: the cloth is awake and has not been calm yet.
 struct SleepRecord
 {
-    float calm;    // s, up to VOILE_SLEEP_TIME: how long no vertex has been faster than the cloth's sleep_speed
+    float calm;    // s, 0 after the host woke the cloth, up to VOILE_SLEEP_TIME: how long no vertex has been faster than the cloth's sleep_speed
     uint speed;    // m/s, the bits of a float: of the fastest vertex in the step
-    uint island;   // the first of the cloths that sleep and wake with it (PairIsland)
-    uint restless; // in the record of an island's first cloth. 1: not all of its cloths have been calm for long enough
+    uint island;   // the first of the cloths that sleep and wake with it (PairIsland); alone, the cloth itself
+    uint restless; // in the record of an island's first cloth. 1: some of its cloths must not sleep
     // The box around the vertices, once they may sleep. Ordered numbers (ordered.glsl), the lower corner's inverted.
     uint low[3];
     uint high[3];
+    // Of a cloth that collides with others and is awake at the beginning of a step: the box that it may reach in it. The
+    // same numbers; 0 at the end of the step.
+    uint reach_low[3];
+    uint reach_high[3];
 };
 
 // Push constants of the passes that put cloths to sleep and wake them.
@@ -26,11 +29,11 @@ struct SleepPush
 {
     uint patches;
     uint colliders; // 0: none moves
-    uint islands;   // 1: cloths that collide with each other have islands
+    uint cloths;    // the end of the indices of those that collide with each other; 0: at most one does
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SleepRecord) == 40);
+static_assert(sizeof(SleepRecord) == 64);
 #endif
 
 VOILE_SHARED_END

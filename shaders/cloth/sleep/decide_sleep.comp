@@ -46,15 +46,17 @@ float calm_of(uint cloth)
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= push.patches || patches[index].first != 0 || patches[index].row != 0)
+    if (index >= push.patches || !is_first_patch(patches[index]))
         return;
     const uint cloth = patches[index].cloth;
     const bool collides = (cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) != 0;
-    const uint island = collides && push.islands != 0 ? island_of(cloth) : cloth;
+    const uint island = collides && push.cloths > 0 ? island_of(cloth) : cloth;
     const float calm = calm_of(cloth);
     sleeps[cloth].calm = calm;
     sleeps[cloth].speed = 0;
     sleeps[cloth].island = island;
+    for (uint axis = 0; axis < 3; ++axis)
+        sleeps[cloth].reach_low[axis] = sleeps[cloth].reach_high[axis] = 0;
     if (is_long(calm))
         return;
     atomicOr(sleeps[island].restless, 1);

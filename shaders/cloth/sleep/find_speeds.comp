@@ -21,14 +21,12 @@ layout(VOILE_BINDING(step_start_positions)) readonly buffer StepStartPositions {
 layout(VOILE_BINDING(step_start_residuals)) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
 
 #include "shared/fine_position.glsl"
-#include "shared/ordered.glsl"
 #include "shared/patch.glsl"
 #include "shared/step_input.glsl"
+#include "sleep/bounds.glsl"
 #include "sleep/sleep.glsl"
 
 shared uint shared_speed;
-shared uint shared_low[3];
-shared uint shared_high[3];
 
 // m/s; of a vertex without mass 0
 float speed_of(uint i)
@@ -50,20 +48,14 @@ void main()
     if (self.asleep || cloths[self.cloth].sleep_speed == 0)
         return;
     const bool may_sleep = is_long(sleeps[self.cloth].calm + 1 / step_input.rate);
-    if (thread < 3)
-        shared_low[thread] = shared_high[thread] = 0;
+    clear_bounds(thread);
     if (thread == 0)
         shared_speed = 0;
     barrier();
     if (self.exists)
         atomicMax(shared_speed, floatBitsToUint(speed_of(self.index))); // NaN is the largest
     if (self.exists && may_sleep)
-        for (uint axis = 0; axis < 3; ++axis)
-        {
-            const uint x = ordered(positions[self.index][axis]);
-            atomicMax(shared_low[axis], ~x);
-            atomicMax(shared_high[axis], x);
-        }
+        add_to_bounds(Box(positions[self.index].xyz, positions[self.index].xyz));
     barrier();
     if (thread == 0)
         atomicMax(sleeps[self.cloth].speed, shared_speed);

@@ -9,16 +9,15 @@
 #include "shared/ordered.glsl"
 #include "sleep/sleep.glsl"
 
-const float k_wake_room = 2; // in thicknesses: the least distance of a collider that moves from a cloth that sleeps
+Box box_of(uint low[3], uint high[3])
+{
+    return Box(vec3(from_ordered(~low[0]), from_ordered(~low[1]), from_ordered(~low[2])),
+               vec3(from_ordered(high[0]), from_ordered(high[1]), from_ordered(high[2])));
+}
 
 Box sleeping_box(uint cloth)
 {
-    Box box;
-    for (uint axis = 0; axis < 3; ++axis)
-    {
-        box.min[axis] = from_ordered(~sleeps[cloth].low[axis]);
-        box.max[axis] = from_ordered(sleeps[cloth].high[axis]);
-    }
+    const Box box = box_of(sleeps[cloth].low, sleeps[cloth].high);
     const float farthest = length(max(abs(box.min), abs(box.max)));
     return grown(box, k_wake_room * cloths[cloth].thickness + k_near_rounding * farthest);
 }

@@ -122,9 +122,9 @@ struct GridCloth
     //   the thickness of the box around the cloth. A plane that moves is near all cloths. A collider that rotates
     //   sweeps a ball around its origin.
     // - with `self_collision`, if a cloth of its island is awake: cloths whose boxes may meet within 3 ms fall asleep
-    //   and wake together, and so do not sleep near one whose sleep_speed is 0. In the step in which another cloth
-    //   first comes near, a cloth that sleeps does not give way. Removing, enabling and disabling a cloth with
-    //   self_collision wakes all others.
+    //   and wake together, and so do not sleep near one whose sleep_speed is 0. So does a cloth whose velocities lead
+    //   near it within the step. One that is accelerated towards it in the step, as by a fast collider, finds it at
+    //   rest until the next step. Removing, enabling and disabling a cloth with self_collision wakes all others.
     // Cloth on which gusts act does not fall asleep. Neither does one beside a collider that moves.
     float sleep_speed = 0;
 };

@@ -71,6 +71,8 @@ struct DescriptorSets
     VkDescriptorSet refit_cloths{};
     VkDescriptorSet count_cloth_pairs{}; // with SolverOptions::intersections, as the next one
     VkDescriptorSet count_collider_pairs{};
+    VkDescriptorSet find_reaches{};
+    VkDescriptorSet find_restless{};
     VkDescriptorSet wake_cloths{};
     VkDescriptorSet find_speeds{};
     VkDescriptorSet decide_sleep{};

@@ -110,6 +110,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);
     add(kernels.face_features, "cloth face features", shaders::k_face_features_comp, plain);
+    add(kernels.find_reaches, "cloth reaches", shaders::k_find_reaches_comp, plain);
+    add(kernels.find_restless, "cloth restless", shaders::k_find_restless_comp, plain);
     add(kernels.wake_cloths, "cloth wake", shaders::k_wake_cloths_comp, plain);
     add(kernels.find_speeds, "cloth speeds", shaders::k_find_speeds_comp, plain);
     add(kernels.decide_sleep, "cloth sleep", shaders::k_decide_sleep_comp, plain);

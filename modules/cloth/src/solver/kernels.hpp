@@ -55,6 +55,8 @@ struct Kernels
     gpu::Kernel deform;
     gpu::Kernel face_features;
     RefitKernels refit;
+    gpu::Kernel find_reaches;
+    gpu::Kernel find_restless;
     gpu::Kernel wake_cloths;
     gpu::Kernel find_speeds;
     gpu::Kernel decide_sleep;

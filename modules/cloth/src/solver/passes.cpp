@@ -67,7 +67,7 @@ SubstepPlan Solver::State::plan(const Step& step, std::vector<SubstepNeed>& need
 
 void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
 {
-    bool changes = false;
+    bool levels_change = false;
     for (auto [index, cloth] : model.cloths)
     {
         if (!is_active(cloth))
@@ -75,7 +75,7 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
         uint32_t level = 0;
         if (next.levels > 1)
             level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
-        changes |= std::exchange(cloth.level, level) != level;
+        levels_change |= std::exchange(cloth.level, level) != level;
         if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
         {
             cloth.record.strain_limit = limit.most;
@@ -85,7 +85,7 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
     }
     if (edits.softened)
         update_passes();
-    if (!changes)
+    if (!levels_change)
         return;
     list_patches(model, assigned_level, options.tuning.workgroup_size, lists);
     list_attachments(model, assigned_level, lists);

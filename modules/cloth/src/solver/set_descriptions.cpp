@@ -310,6 +310,8 @@ std::vector<SetDescription> Describer::describe()
     add(sets_.face_features, kernels_.face_features);
     add_refit();
     add_intersections();
+    add(sets_.find_reaches, kernels_.find_reaches);
+    add(sets_.find_restless, kernels_.find_restless);
     add(sets_.wake_cloths, kernels_.wake_cloths);
     add(sets_.find_speeds, kernels_.find_speeds);
     add(sets_.decide_sleep, kernels_.decide_sleep);

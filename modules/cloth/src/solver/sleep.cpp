@@ -3,6 +3,7 @@
 #include "shared/sleep_layout.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace voile
@@ -27,17 +28,16 @@ bool uses_moved_anchor(const Model& model, const ClothModel& cloth)
     return std::ranges::any_of(cloth.attachments, moves);
 }
 
-bool is_edited(const Edits& edits, uint32_t index, const ClothModel& cloth)
+bool anchors_move(const Model& model)
 {
-    return cloth.limit_due || edits.records.contains(index) ||
-           std::ranges::any_of(edits.state_edits, [&](const shared::EditPush& edit) { return edit.cloth == index; });
-}
-
-bool anything_moves(const Solver::State& solver)
-{
-    for (const auto [index, anchor] : solver.model.anchors)
+    for (const auto [index, anchor] : model.anchors)
         if (anchor.from != anchor.to)
             return true;
+    return false;
+}
+
+bool colliders_move(const Solver::State& solver)
+{
     for (const auto [index, collider] : solver.collider_models.colliders)
         if (collider.pose.from != collider.pose.to || (collider.deforming && collider.deforming->due))
             return true;
@@ -47,7 +47,8 @@ bool anything_moves(const Solver::State& solver)
 shared::SleepPush make_push(const Solver::State& solver, uint32_t patches)
 {
     const bool islands = solver.passes.pairs && solver.device->pair_cloths.count > 1;
-    return {patches, solver.passes.moving ? solver.passes.colliders : 0, islands ? 1u : 0u};
+    return {patches, solver.passes.moving ? solver.passes.colliders : 0,
+            islands ? solver.device->pair_cloths.end : 0};
 }
 
 } // namespace
@@ -79,35 +80,50 @@ void mark_woken(Solver::State& solver, const Step& step)
 {
     const Forces forces{step.gravity, step.wind, step.gust, step.gust_length, step.air_density};
     const Forces before = std::exchange(solver.forces, forces);
-    if (anything_moves(solver) || forces != before)
+    const bool anchors = anchors_move(solver.model);
+    if (anchors || colliders_move(solver) || forces != before)
         ++solver.changes;
-    if (!solver.passes.sleep)
-        return;
+    const auto wake_edited = [&](uint32_t index)
+    {
+        if (ClothModel* cloth = solver.model.cloths.at(index))
+            solver.wake(*cloth);
+    };
+    for (const uint32_t index : solver.edits.records)
+        wake_edited(index);
+    for (const shared::EditPush& edit : solver.edits.state_edits)
+        wake_edited(edit.cloth);
     const bool falls_otherwise = forces.gravity != before.gravity;
     const bool other_air = forces.wind != before.wind || forces.gust != before.gust ||
                            forces.gust_length != before.gust_length || forces.air_density != before.air_density;
     for (auto [index, cloth] : solver.model.cloths)
         if ((falls_otherwise && cloth.record.gravity_scale != 0) || (other_air && has_drag(cloth)) ||
-            is_edited(solver.edits, index, cloth) || uses_moved_anchor(solver.model, cloth))
+            cloth.limit_due || (anchors && uses_moved_anchor(solver.model, cloth)))
             solver.wake(cloth);
 }
 
 void record_woken(gpu::Recorder& recorder, Solver::State& solver)
 {
-    constexpr shared::SleepRecord k_awake{};
+    constexpr float k_not_calm = 0;
     if (!std::exchange(solver.edits.woken, false))
         return;
     for (auto [index, cloth] : solver.model.cloths)
         if (cloth.uploaded && std::exchange(cloth.wake_due, false))
-            recorder.update((*solver.device)[buffer::sleeps].handle(), index * sizeof(k_awake),
-                            std::as_bytes(std::span(&k_awake, 1)));
+            recorder.update((*solver.device)[buffer::sleeps].handle(),
+                            index * sizeof(shared::SleepRecord) + offsetof(shared::SleepRecord, calm),
+                            std::as_bytes(std::span(&k_not_calm, 1)));
 }
 
 void record_wake(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches)
 {
-    if (solver.passes.sleep)
-        recorder.dispatch(solver.kernels.wake_cloths, solver.device->sets.wake_cloths, patches,
-                          solver.options.tuning.workgroup_size, make_push(solver, patches));
+    if (!solver.passes.sleep)
+        return;
+    const uint32_t group = solver.options.tuning.workgroup_size;
+    const shared::SleepPush push = make_push(solver, patches);
+    if (push.cloths > 0)
+        recorder.dispatch(solver.kernels.find_reaches, solver.device->sets.find_reaches, patches * group, group,
+                          std::span<const std::byte>{});
+    recorder.dispatch(solver.kernels.find_restless, solver.device->sets.find_restless, patches, group, push);
+    recorder.dispatch(solver.kernels.wake_cloths, solver.device->sets.wake_cloths, patches, group, push);
 }
 
 void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches)

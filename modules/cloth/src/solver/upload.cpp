@@ -43,7 +43,9 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index, cons
         staging.add_copy(buffer::indices, cloth.first_triangle, cloth_triangles(cloth));
     staging.add_copy(buffer::cloths, index, std::vector{cloth.record});
     staging.add_copy(buffer::limit_scales, index, std::vector{k_first_scale});
-    staging.add_copy(buffer::sleeps, index, std::vector{shared::SleepRecord{}});
+    shared::SleepRecord awake{};
+    awake.island = index;
+    staging.add_copy(buffer::sleeps, index, std::vector{awake});
     for (const buffer::Name votes : k_depenetration_votes)
         staging.add_copy(votes, index * uint64_t{VOILE_VOTE_WORDS}, std::vector<uint32_t>(VOILE_VOTE_WORDS));
 }
