@@ -178,8 +178,8 @@ struct ClothEntry
     voile::Integrator integrator = voile::Integrator::rk4;
     bool self_collision = false;
     float sleep_speed = 0; // m/s, below which it falls asleep; 0: never
-    uint32_t layers = 1; // bits; it collides with colliders that share one, and with cloths that do if both have
-                         // self_collision
+    uint32_t layers = 1;   // bits; it collides with colliders that share one, and with cloths that do if both have
+                           // self_collision
     Location location;
 };
 

@@ -109,7 +109,8 @@ TEST_CASE("cloth that contact moves without a velocity does not fall asleep")
     CHECK(steps_to_sleep(harness, k_step, 180) > 0);
 }
 
-TEST_CASE("no pass moves cloth that sleeps: strain limit, attachments, tethers, features, depenetration, many colliders")
+TEST_CASE(
+    "no pass moves cloth that sleeps: strain limit, attachments, tethers, features, depenetration, many colliders")
 {
     // So fast that all sleep after half a second, wherever they are: whatever a pass does shows.
     constexpr float k_any_speed = 10;
@@ -233,7 +234,9 @@ TEST_CASE("a hanging cloth sleeps once it is calm, and wakes when its anchor mov
     REQUIRE(steps > 30);
     float height = 0;
     check_rests(harness, cloth, k_step, 30,
-                [&] { REQUIRE(harness.solver.move_anchor(other, moved({0, height += 0.01f, 0}))); });
+                [&] {
+                    REQUIRE(harness.solver.move_anchor(other, moved({0, height += 0.01f, 0})));
+                });
     REQUIRE(harness.solver.move_anchor(own, moved({0, 0.001f, 0})));
     harness.step(k_step);
     CHECK(sleeping(harness) == 0);
@@ -302,7 +305,8 @@ struct Struck
     int woken = 0; // the first frame in which the sheet does not sleep
 };
 
-// The collider touches in the third of six frames. `woken`: the frame in which the host wakes the sheet, 0: it does not.
+// The collider touches in the third of six frames. `woken`: the frame in which the host wakes the sheet, 0: it does
+// not.
 Struck strike(const voile::GridCloth& grid, int kind, float speed, int woken)
 {
     ClothHarness harness;
@@ -390,8 +394,8 @@ TEST_CASE("cloth on a collider that moves more slowly than its sleep_speed stays
 {
     ClothHarness harness;
     const voile::ClothId cloth = take(harness.solver.add_cloth(sheet(0.05f, 0.005f)));
-    const voile::ColliderId table = take(
-        harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
+    const voile::ColliderId table =
+        take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
     harness.upload();
     for (int frame = 1; frame <= 120; ++frame)
     {

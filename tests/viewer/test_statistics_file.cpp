@@ -86,11 +86,26 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
     CHECK(keys(json["summary"]["gpu_ms"]["passes"]) == Keys{"springs", "contacts"});
     CHECK(keys(json["summary"]["cpu_record_ms"]) == Keys{"median", "p95"});
     REQUIRE(json["per_frame"].size() == 2);
-    CHECK(keys(json["per_frame"][0]) == Keys{"frame", "substeps", "max_stretch", "mean_stretch", "kinetic_energy",
-                                             "penetrating_vertices", "deepest_penetration", "intersecting_cloth_pairs",
-                                             "intersecting_collider_pairs", "uncertain_pairs", "nan_vertices",
-                                             "contacts", "candidates", "contact_overflows", "forced_pairs",
-                                             "tangled_pairs", "sleeping_cloths", "gpu_frame_ms", "gpu_cloth_ms", "cpu_record_ms"});
+    CHECK(keys(json["per_frame"][0]) == Keys{"frame",
+                                             "substeps",
+                                             "max_stretch",
+                                             "mean_stretch",
+                                             "kinetic_energy",
+                                             "penetrating_vertices",
+                                             "deepest_penetration",
+                                             "intersecting_cloth_pairs",
+                                             "intersecting_collider_pairs",
+                                             "uncertain_pairs",
+                                             "nan_vertices",
+                                             "contacts",
+                                             "candidates",
+                                             "contact_overflows",
+                                             "forced_pairs",
+                                             "tangled_pairs",
+                                             "sleeping_cloths",
+                                             "gpu_frame_ms",
+                                             "gpu_cloth_ms",
+                                             "cpu_record_ms"});
 }
 
 TEST_CASE("values survive a round trip, and unmeasured ones are null")

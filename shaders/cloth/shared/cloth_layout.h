@@ -82,7 +82,7 @@ struct ClothRecord
     float pair_sweep;         // m, the longest motion along which they are
     float pair_slide;         // m, the longest part of it along the surface
     uint strain_passes;       // of the strain limit on each level
-    float sleep_speed;    // m/s; 0: it never sleeps
+    float sleep_speed;        // m/s; 0: it never sleeps
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;

@@ -395,11 +395,10 @@ public:
     // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
     // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of
     // the solver when it restores, and a vertex that is heavier than it was keeps its momentum, as in set_material.
-    // Changes that wait for the next record, such as reset, are made after it. Cloths that slept when it was saved sleep
-    // on if nothing that may wake cloths has changed or moved since, and the bytes are this snapshot's own; else all
-    // cloths wake, and then bits differ. Errors: nothing uploaded yet, out of
-    // memory; a snapshot of another solver; cloths were uploaded or removed since create_snapshot; nothing saved to
-    // restore.
+    // Changes that wait for the next record, such as reset, are made after it. Cloths that slept when it was saved
+    // sleep on if nothing that may wake cloths has changed or moved since, and the bytes are this snapshot's own; else
+    // all cloths wake, and then bits differ. Errors: nothing uploaded yet, out of memory; a snapshot of another solver;
+    // cloths were uploaded or removed since create_snapshot; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);

@@ -71,7 +71,7 @@ struct Statistics
     uint32_t tangled_pairs = 0; // of cloths that collide with themselves: pairs of an edge and a triangle that
                                 // intersected when the last step started, as IntersectionCounts::cloth_pairs has
                                 // them, but for parts of a mesh that touch where it starts; the solver pulls them apart
-    uint32_t sleeping_cloths = 0; // at the end of the last step (GridCloth::sleep_speed)
+    uint32_t sleeping_cloths = 0;                      // at the end of the last step (GridCloth::sleep_speed)
     std::optional<IntersectionCounts> intersections{}; // none: not counted
 };
 

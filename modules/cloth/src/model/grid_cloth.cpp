@@ -66,7 +66,7 @@ Result<ClothId> Model::add(const GridCloth& grid)
 {
     if (auto valid = validate_shape(grid); !valid)
         return valid.error();
-    const ClothInput input{grid.name,       grid.transform, grid.velocity,      grid.material,
+    const ClothInput input{grid.name,       grid.transform, grid.velocity,       grid.material,
                            grid.integrator, grid.pins,      grid.inverse_masses, grid.sleep_speed};
     const size_t count = size_t{grid.columns} * grid.rows;
     if (auto valid = validate(input, count); !valid)

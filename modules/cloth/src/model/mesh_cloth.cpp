@@ -123,7 +123,7 @@ Result<void> validate_cooked(const MeshCloth& cloth)
 
 ClothInput input_of(const MeshCloth& cloth)
 {
-    return {cloth.name,       cloth.transform, cloth.velocity,      cloth.material,
+    return {cloth.name,       cloth.transform, cloth.velocity,       cloth.material,
             cloth.integrator, cloth.pins,      cloth.inverse_masses, cloth.sleep_speed};
 }
 

@@ -47,8 +47,7 @@ bool colliders_move(const Solver::State& solver)
 shared::SleepPush make_push(const Solver::State& solver, uint32_t patches)
 {
     const bool islands = solver.passes.pairs && solver.device->pair_cloths.count > 1;
-    return {patches, solver.passes.moving ? solver.passes.colliders : 0,
-            islands ? solver.device->pair_cloths.end : 0};
+    return {patches, solver.passes.moving ? solver.passes.colliders : 0, islands ? solver.device->pair_cloths.end : 0};
 }
 
 } // namespace
@@ -96,8 +95,8 @@ void mark_woken(Solver::State& solver, const Step& step)
     const bool other_air = forces.wind != before.wind || forces.gust != before.gust ||
                            forces.gust_length != before.gust_length || forces.air_density != before.air_density;
     for (auto [index, cloth] : solver.model.cloths)
-        if ((falls_otherwise && cloth.record.gravity_scale != 0) || (other_air && has_drag(cloth)) ||
-            cloth.limit_due || (anchors && uses_moved_anchor(solver.model, cloth)))
+        if ((falls_otherwise && cloth.record.gravity_scale != 0) || (other_air && has_drag(cloth)) || cloth.limit_due ||
+            (anchors && uses_moved_anchor(solver.model, cloth)))
             solver.wake(cloth);
 }
 
