@@ -57,6 +57,15 @@ quick(test_edits
     "a snapshot restores the state to the bit, also through the host"
     "a cloth at its strain limit hangs still")
 quick(test_energy "the center of mass of a crumpled free cloth stays at rest")
+quick(test_sleep
+    "a cloth falls asleep after half a second below its sleep_speed, and not above"
+    "cloth that contact moves without a velocity does not fall asleep"
+    "a hanging cloth sleeps once it is calm, and wakes when its anchor moves, not when another one does"
+    "a collider that moves far away, or of other layers, does not wake cloth"
+    "a snapshot of cloth that sleeps: it sleeps on if nothing changed, and wakes if anything did"
+    "commands that are used again are used as cloths fall asleep, sleep and wake"
+    "a cloth that flies at one that sleeps meets it as if it had never slept"
+    "a sleep_speed out of range is an error, and nothing changes")
 quick(test_softened_limit "cloth gets and loses the limit of softened cloth with the substeps of a step")
 quick(test_fabric
     "air drags and lifts a tilted plate by 1/2 rho C |u| u along and across its normal"
