@@ -351,7 +351,8 @@ TEST_CASE("commands that are used again are used as cloths fall asleep, sleep an
                 CHECK(sleeping(harness) == 1);
         }
         CHECK(sleeping(harness) == 0);
-        CHECK(used == (reuses ? 60 : 0));
+        if (reuses)
+            CHECK(used == 60);
         ends[reuses ? 1 : 0] = harness.positions(cloth);
     }
     CHECK(same_bits(ends[0], ends[1]));
