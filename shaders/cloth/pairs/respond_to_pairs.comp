@@ -243,7 +243,8 @@ void main()
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
     // Integration begins with the impulses, so that springs respond to what they leave.
     const vec4 before = velocities[i];
-    const vec3 v = before.xyz + sum.change;
+    const bool asleep = (cloths[self.y].flags & VOILE_CLOTH_ASLEEP) != 0; // it does not move in this step
+    const vec3 v = asleep ? vec3(0) : before.xyz + sum.change;
     velocities[i] = vec4(v, before.w);
     pair_bounds[i].impulse = sum.change;
     pair_memories[i] = remembered(i, self.y, v, sum);
