@@ -112,7 +112,7 @@ TEST_CASE("cloth slides down on cloth as Coulomb's law says")
 TEST_CASE("cloth sticks on cloth up to nine tenths of static friction")
 {
     for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
-        for (const float slope : {0.1f, 0.4f, 0.45f})
+        for (const float slope : {0.1f, 0.45f})
         {
             CAPTURE(integrator);
             CAPTURE(slope);

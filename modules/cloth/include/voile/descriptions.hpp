@@ -80,16 +80,16 @@ struct GridCloth
     // cloth stays there, and so do sheets at exactly the same place. Of crumples that run through each other many times
     // some never come free and go on moving.
     //
-    // Near other cloth a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer, relative to
-    // the mean velocity of the cloth that is clear of colliders; beside colliders relative to the world. What it would
-    // move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3 ms, their
-    // island: others change only when near pairs are searched. Cloth in free flight falls freely, in any shape and at
-    // any speed, also where layers start very near each other, or touch, as long as the island flies together. A closed
-    // sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While two sheets nearer
-    // than a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start nearer than a
-    // fiftieth of the thickness do not part. Parts of a mesh that touch where it starts, as along a seam that is not
-    // merged, do not collide with each other there. Neither does what pins hold at one point, nor what is within 1e-7 m
-    // of each other, or that part of the coordinates: it counts as forced.
+    // Near other cloth a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer,
+    // relative to the mean velocity of the cloth that is clear of colliders; beside colliders relative to the world.
+    // What it would move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3
+    // ms, their island: others change only when near pairs are searched. Cloth in free flight falls freely, in any
+    // shape and at any speed, also where layers start very near each other, or touch, as long as the island flies
+    // together. A closed sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While
+    // two sheets nearer than a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start
+    // nearer than a fiftieth of the thickness do not part. Parts of a mesh that touch where it starts, as along a seam
+    // that is not merged, do not collide with each other there. Neither does what pins hold at one point, nor what is
+    // within 1e-7 m of each other, or that part of the coordinates: it counts as forced.
     //
     // A collider that moves pushes such cloth without getting into it if it moves by less than half of the thickness in
     // a substep: at 24 m/s with a spacing of 11 mm and automatic substeps. Faster ones may get through. So may those
@@ -98,9 +98,9 @@ struct GridCloth
     // faster colliders or anchors move, the more often near pairs are searched, down to every substep; of vertices in a
     // buffer of the GPU (DeviceVertices) the speed is not known.
     //
-    // Cloth sticks on cloth up to nine tenths of static friction. Then it creeps by less than 0.1 mm/s, and so do layers
-    // that lie on each other. Pins that gather cloth to a twentieth of its width keep single vertices beside them in
-    // motion.
+    // Cloth sticks on cloth up to nine tenths of static friction, and creeps there by less than 0.1 mm/s. Layers that
+    // lie on each other on a plane come to rest; the uppermost of six moved by 0.1 to 0.4 mm/s. Pins that gather cloth
+    // to a twentieth of its width keep single vertices beside them in motion.
     //
     // Two parallel sheets that met at 1.5 m/s each lost 1.2 % of their momentum at most, at 4 m/s 0.2 %; turned and
     // tilted ones up to 1.7 % at 4 m/s and 12 % at 10 m/s. Very fine cloth that slides fast along a collider is slowed:
