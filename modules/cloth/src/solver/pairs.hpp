@@ -22,8 +22,8 @@ public:
     PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,
                  const SubstepPlan& plan);
 
-    // The pass before a substep. `in_stage_b`: where the substep begins. The first pass of a step makes new lists, later
-    // ones only if a vertex has asked for them.
+    // The pass before a substep. `in_stage_b`: where the substep begins. The first pass of a step makes new lists,
+    // later ones only if a vertex has asked for them.
     void record(uint32_t substep, bool in_stage_b);
 
 private:
