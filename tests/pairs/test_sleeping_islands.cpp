@@ -203,3 +203,27 @@ TEST_CASE("cloth with self_collision does not sleep beside a cloth that never do
     CHECK(fastest(harness.velocities(far)) == 0);
     CHECK(fastest(harness.velocities(near)) < 1);
 }
+
+// In weak gravity the upper sheet is slower than its sleep_speed when it wakes.
+TEST_CASE("cloth falls when the cloth under it leaves while both sleep")
+{
+    tests::PairHarness harness;
+    const voile::Step moon{.duration = 1.f / 60, .substeps = 8, .gravity = {0, -1.6f, 0}};
+    voile::GridCloth grid = tests::pair_sheet(6, 6, 0.02f);
+    grid.integrator = voile::Integrator::verlet;
+    grid.sleep_speed = 0.05f;
+    for (uint32_t i = 0; i < 36; ++i)
+        grid.pins.push_back(i);
+    grid.transform = moved({0, 0.5f, 0});
+    const voile::ClothId lower = harness.add(grid);
+    grid.pins.clear();
+    grid.transform = moved({0.004f, 0.5031f, 0.003f});
+    const voile::ClothId upper = harness.add(grid);
+    harness.upload();
+    REQUIRE(steps_to_sleep(harness, moon, 120, 2) > 0);
+    const float before = harness.positions(upper)[14].y;
+    take(harness.solver.teleport(lower, moved({5, 0, 0})));
+    harness.step(moon, 15);
+    CHECK(sleeping(harness) < 2);
+    CHECK(before - harness.positions(upper)[14].y > 0.04f); // 0.05 m in free fall; 0.2 mm if it fell asleep again
+}

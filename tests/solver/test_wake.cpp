@@ -377,3 +377,18 @@ TEST_CASE("a sleep_speed out of range is an error, and nothing changes")
     CHECK_FALSE(harness.solver.set_sleep_speed(cloth, 1).has_value());
     CHECK_FALSE(harness.solver.wake(cloth).has_value());
 }
+
+// The support jumps away in the last of the steps after which the cloth would have slept.
+TEST_CASE("cloth that loses its support just before it would sleep falls")
+{
+    tests::ClothHarness harness;
+    const voile::ClothId cloth = take(harness.solver.add_cloth(tests::sleepy_sheet(0.4f)));
+    const voile::ColliderId ground = take(harness.solver.add_collider(voile::PlaneCollider{}));
+    harness.upload();
+    harness.step(tests::k_sleep_step, tests::k_sleep_frames - 1);
+    REQUIRE(tests::sleeping(harness) == 0);
+    take(harness.solver.move_collider(ground, tests::moved({0, -5, 0})));
+    harness.step(tests::k_sleep_step, 15);
+    CHECK(tests::sleeping(harness) == 0);
+    CHECK(harness.positions(cloth)[24].y < -0.2f); // 0.31 m in free fall
+}

@@ -6,17 +6,19 @@
 
 // s: a cloth sleeps once it has been calm for so long.
 #define VOILE_SLEEP_TIME 0.5f
+// SleepRecord::calm of a cloth that sleeps.
+#define VOILE_SLEEPING (2 * VOILE_SLEEP_TIME)
 
 VOILE_SHARED_BEGIN(voile)
 
 struct SleepRecord
 {
-    float calm;  // s, 0 after the host woke the cloth, up to VOILE_SLEEP_TIME: how long no vertex has been faster than
-                 // the cloth's sleep_speed
-    uint speed;  // m/s, the bits of a float: of the fastest vertex in the step
-    uint island; // the first of the cloths that sleep and wake with it (PairIsland); alone, the cloth itself
+    float calm;    // s, 0 after it was woken, up to VOILE_SLEEP_TIME: how long no vertex has been faster than the
+                   // cloth's sleep_speed; VOILE_SLEEPING while it sleeps
+    uint speed;    // m/s, the bits of a float: of the fastest vertex in the step
+    uint island;   // the first of the cloths that sleep and wake with it (PairIsland); alone, the cloth itself
     uint restless; // in the record of an island's first cloth. 1: some of its cloths must not sleep
-    // The box around the vertices, once they may sleep. Ordered numbers (ordered.glsl), the lower corner's inverted.
+    // The box around the vertices at the end of the step. Ordered numbers (ordered.glsl), the lower corner's inverted.
     uint low[3];
     uint high[3];
     // Of a cloth that collides with others and is awake at the beginning of a step: the box that it may reach in it.

@@ -39,8 +39,9 @@ float calm_of(uint cloth)
     const bool slow = uintBitsToFloat(sleeps[cloth].speed) <= limit; // false for NaN
     if (limit == 0 || !slow || is_gusty(cloth))
         return 0;
-    const float calm = min(sleeps[cloth].calm + 1 / step_input.rate, VOILE_SLEEP_TIME);
-    return is_long(calm) && is_near_motion(cloth) ? 0 : calm;
+    const float before = sleeps[cloth].calm;
+    const float calm = min(before + 1 / step_input.rate, max(VOILE_SLEEP_TIME, before));
+    return is_near_motion(cloth) ? 0 : calm;
 }
 
 void main()

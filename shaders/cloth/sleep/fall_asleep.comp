@@ -9,7 +9,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
-layout(VOILE_BINDING(sleeps)) readonly buffer Sleeps { SleepRecord sleeps[]; };
+layout(VOILE_BINDING(sleeps)) buffer Sleeps { SleepRecord sleeps[]; };
 layout(VOILE_BINDING(velocities)) buffer Velocities { vec4 velocities[]; };
 
 #include "shared/patch.glsl"
@@ -21,4 +21,6 @@ void main()
     if (!self.exists || self.asleep || !is_asleep(self.cloth))
         return;
     velocities[self.index].xyz = vec3(0); // its contacts stay
+    if (self.local == 0)
+        sleeps[self.cloth].calm = VOILE_SLEEPING; // it is long for other threads before and after
 }

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How fast the fastest vertex of each cloth was in the step, and where the cloth is if it may sleep. One thread per
-// vertex.
+// How fast the fastest vertex of each cloth was in the step, and where the cloth is. One thread per vertex.
 //
 // Contact, depenetration and the strain limit move vertices without giving them a velocity. So the displacement in the
 // step counts, too.
@@ -47,19 +46,19 @@ void main()
         sleeps[self.cloth].restless = 0; // decide_sleep.comp sets it again
     if (self.asleep || cloths[self.cloth].sleep_speed == 0)
         return;
-    const bool may_sleep = is_long(sleeps[self.cloth].calm + 1 / step_input.rate);
     clear_bounds(thread);
     if (thread == 0)
         shared_speed = 0;
     barrier();
     if (self.exists)
+    {
         atomicMax(shared_speed, floatBitsToUint(speed_of(self.index))); // NaN is the largest
-    if (self.exists && may_sleep)
         add_to_bounds(Box(positions[self.index].xyz, positions[self.index].xyz));
+    }
     barrier();
     if (thread == 0)
         atomicMax(sleeps[self.cloth].speed, shared_speed);
-    if (may_sleep && thread < 3)
+    if (thread < 3)
     {
         atomicMax(sleeps[self.cloth].low[thread], shared_low[thread]);
         atomicMax(sleeps[self.cloth].high[thread], shared_high[thread]);

@@ -9,7 +9,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) buffer Patches { Patch patches[]; };
-layout(VOILE_BINDING(sleeps)) readonly buffer Sleeps { SleepRecord sleeps[]; };
+layout(VOILE_BINDING(sleeps)) buffer Sleeps { SleepRecord sleeps[]; };
 
 layout(push_constant, std430) uniform Push { SleepPush push; };
 
@@ -23,6 +23,10 @@ void main()
     const Patch self = patches[index];
     const bool asleep = is_asleep(self.cloth);
     patches[index].tile_shift = (self.tile_shift & ~VOILE_PATCH_ASLEEP) | (asleep ? VOILE_PATCH_ASLEEP : 0);
-    if (is_first_patch(self))
-        cloths[self.cloth].flags = (cloths[self.cloth].flags & ~VOILE_CLOTH_ASLEEP) | (asleep ? VOILE_CLOTH_ASLEEP : 0);
+    if (!is_first_patch(self))
+        return;
+    // What woke it may leave it slow at first. Other patches read the same with and without this.
+    if (!asleep && sleeps[self.cloth].calm > VOILE_SLEEP_TIME)
+        sleeps[self.cloth].calm = 0;
+    cloths[self.cloth].flags = (cloths[self.cloth].flags & ~VOILE_CLOTH_ASLEEP) | (asleep ? VOILE_CLOTH_ASLEEP : 0);
 }

@@ -268,7 +268,8 @@ void BatchRecorder::record_contact(uint32_t substep)
     push.pair_ahead = static_cast<float>(pairs.period) / static_cast<float>(interval.count);
     // After the last substep no time passes.
     const bool ended = substep == substeps_;
-    push.pair_from = of_level_0(ended ? substeps_ - pairs.last(substeps_ - 1) : interval.first - pairs.last(interval.first));
+    push.pair_from =
+        of_level_0(ended ? substeps_ - pairs.last(substeps_ - 1) : interval.first - pairs.last(interval.first));
     push.pair_lasts = of_level_0(ended ? 0 : interval.count);
     push.limited_only = substep == substeps_ ? 1 : 0;
     if (keeps_contact_start(substep))
