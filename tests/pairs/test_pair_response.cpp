@@ -124,41 +124,81 @@ TEST_CASE("cloth sticks on cloth up to nine tenths of static friction")
         }
 }
 
+namespace
+{
+
+// Sheets on a plane. Each is shifted and turned against the one below, by 5 mm and 0.2 rad for a shift of 1.
+class Stack : public PairHarness
+{
+public:
+    Stack(const voile::GridCloth& sheet, int layers, float shift)
+    {
+        (void)take(solver.add_collider(voile::PlaneCollider{}));
+        const float thickness = std::get<voile::Fabric>(sheet.material).thickness;
+        for (int layer = 0; layer < layers; ++layer)
+        {
+            const auto above = static_cast<float>(layer);
+            voile::GridCloth next = sheet;
+            next.transform = at({0.004f * shift * above, thickness * (1 + 1.0005f * above), 0.003f * shift * above}) *
+                             turned(0.2f * shift * above, {0, 1, 0});
+            add(next);
+        }
+        upload();
+    }
+
+    // J/kg; vertices have equal masses.
+    double energy()
+    {
+        double sum = 0;
+        size_t count = 0;
+        for (const voile::ClothId cloth : cloths)
+            for (const glm::vec4& velocity : velocities(cloth))
+            {
+                const glm::dvec3 v(velocity);
+                sum += 0.5 * glm::dot(v, v);
+                ++count;
+            }
+        return sum / static_cast<double>(count);
+    }
+};
+
+} // namespace
+
 // Its substeps of 1 ms take up all of RK4's stability region: springs reverse fast motion within one, and impulses that
 // came after the substep would drive what they should stop.
 TEST_CASE("layers of cloth on a plane come to rest, and do not creep")
 {
+    voile::Fabric fabric = voile::leather();
+    fabric.thickness = 0.008f;
+    for (float* stiffness : {&fabric.stretch_stiffness[0], &fabric.stretch_stiffness[1], &fabric.shear_stiffness})
+        *stiffness *= 0.1f;
+    voile::GridCloth sheet = tests::pair_sheet(10, 10, 0.02f);
+    sheet.material = fabric;
     for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
     {
         CAPTURE(integrator);
-        PairHarness harness;
-        (void)take(harness.solver.add_collider(voile::PlaneCollider{}));
-        voile::Fabric fabric = voile::leather();
-        fabric.thickness = 0.008f;
-        for (float* stiffness : {&fabric.stretch_stiffness[0], &fabric.stretch_stiffness[1], &fabric.shear_stiffness})
-            *stiffness *= 0.1f;
-        for (int layer = 0; layer < 4; ++layer)
-        {
-            const auto above = static_cast<float>(layer);
-            voile::GridCloth sheet = tests::pair_sheet(10, 10, 0.02f);
-            sheet.material = fabric;
-            sheet.integrator = integrator;
-            sheet.transform = at({0.004f * above, fabric.thickness * (1 + 1.0001f * above), 0.003f * above}) *
-                              turned(0.2f * above, {0, 1, 0});
-            harness.add(sheet);
-        }
-        harness.upload();
-        harness.step({.duration = 1.f / 60}, 15);
-        const glm::dvec3 start = mean(harness.positions(harness.cloths.back()));
-        harness.step({.duration = 1.f / 60}, 15);
-        const glm::dvec3 way = mean(harness.positions(harness.cloths.back())) - start;
-        double energy = 0; // J/kg; vertices have equal masses
-        for (const voile::ClothId cloth : harness.cloths)
-            for (const glm::vec4& velocity : harness.velocities(cloth))
-                energy += 0.5 * glm::dot(glm::dvec3(velocity), glm::dvec3(velocity)) / 400;
-        CHECK(energy < 1e-4);
+        sheet.integrator = integrator;
+        Stack stack(sheet, 4, 1);
+        stack.step({.duration = 1.f / 60}, 15);
+        const glm::dvec3 start = mean(stack.positions(stack.cloths.back()));
+        stack.step({.duration = 1.f / 60}, 15);
+        const glm::dvec3 way = mean(stack.positions(stack.cloths.back())) - start;
+        CHECK(stack.energy() < 1e-4);
         CHECK(glm::length(glm::dvec2(way.x, way.z)) < 1.5e-4);
     }
+}
+
+// Vertices above vertices are in more pairs than lists have room for.
+TEST_CASE("equal sheets exactly above each other come to rest")
+{
+    voile::Fabric fabric = voile::wool();
+    fabric.thickness = 0.004f;
+    voile::GridCloth sheet = tests::pair_sheet(8, 8, 0.024f);
+    sheet.material = fabric;
+    sheet.integrator = voile::Integrator::verlet;
+    Stack stack(sheet, 3, 0);
+    stack.step({.duration = 1.f / 60}, 30);
+    CHECK(stack.energy() < 1e-4); // 3e-4 if lists prefer no kind of pairs
 }
 
 TEST_CASE("steps after restoring a snapshot equal those after saving it, while sheets collide")

@@ -71,10 +71,17 @@ struct Found
 
 const uint k_kinds = 8;
 
+// Where a list is full, edges count as farther by this factor. Between layers that lie on each other, vertices and triangles
+// carry the load. All pairs are equally near there, so that a list would keep any of them: what it left out sank until the
+// next lists, was parted from what it had sunk towards, and layers bounced.
+const float k_edges_later = 1.2;
+
+float order_of(Found pair) { return pair.distance * (pair.code % k_kinds > k_own_triangle ? k_edges_later : 1); }
+
 shared Found found[VOILE_PAIR_FOUND * gl_WorkGroupSize.x];
 shared uint found_counts[gl_WorkGroupSize.x];
 shared float found_ranges[gl_WorkGroupSize.x];
-shared float left_out[gl_WorkGroupSize.x]; // m, per search: the nearest pair for which the list has no room
+shared uint left_out[gl_WorkGroupSize.x]; // m, per search: the nearest pair for which the list has no room; the bits of a float
 
 void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at)
 {
@@ -82,24 +89,23 @@ void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at
         return;
     const uint first = gl_LocalInvocationID.x * VOILE_PAIR_FOUND;
     const uint capacity = min(push.capacity, VOILE_PAIR_FOUND);
-    uint place = search.count;
+    const Found pair = Found(at, (search.combination * VOILE_PAIR_CANDIDATES + search.candidate) * k_kinds + kind);
     if (search.count < capacity)
-        ++search.count;
-    else
     {
-        float farthest = at;
-        for (uint k = 0; k < capacity; ++k)
-            if (found[first + k].distance > farthest)
-            {
-                farthest = found[first + k].distance;
-                place = k;
-            }
-        search.range = min(search.range, farthest);
-        if (place == capacity)
-            return;
+        found[first + search.count++] = pair;
+        return;
     }
-    found[first + place] =
-        Found(at, (search.combination * VOILE_PAIR_CANDIDATES + search.candidate) * k_kinds + kind);
+    uint place = capacity;
+    Found last = pair;
+    for (uint k = 0; k < capacity; ++k)
+        if (order_of(found[first + k]) > order_of(last))
+        {
+            last = found[first + k];
+            place = k;
+        }
+    search.range = min(search.range, last.distance);
+    if (place < capacity)
+        found[first + place] = pair;
 }
 
 bool goes_on(Search search) { return true; }
@@ -146,7 +152,7 @@ uint rank_of(Found pair, uint first_thread)
         for (uint k = 0; k < found_counts[thread]; ++k)
         {
             const Found other = found[thread * VOILE_PAIR_FOUND + k];
-            if (other.distance < pair.distance || (other.distance == pair.distance && other.code < pair.code))
+            if (order_of(other) < order_of(pair) || (order_of(other) == order_of(pair) && other.code < pair.code))
                 ++rank;
         }
     return rank;
@@ -159,10 +165,11 @@ void list_found(Search search, uint thread, uint first_thread)
     {
         const Found pair = found[thread * VOILE_PAIR_FOUND + k];
         const uint rank = rank_of(pair, first_thread);
-        if (rank == push.capacity)
-            left_out[first_thread] = pair.distance;
         if (rank >= push.capacity)
+        {
+            atomicMin(left_out[first_thread], floatBitsToUint(pair.distance));
             continue;
+        }
         const uint entry = search.fan.center * VOILE_PAIRS + rank;
         pairs[entry] = packed(pair_of(search, pair.code));
         pair_distances[entry] = pair.distance;
@@ -173,7 +180,7 @@ void list_found(Search search, uint thread, uint first_thread)
 void end_list(uint vertex, uint thread)
 {
     uint count = 0;
-    float range = left_out[thread];
+    float range = uintBitsToFloat(left_out[thread]);
     for (uint k = thread; k < thread + push.lanes; ++k)
     {
         count += found_counts[k];
@@ -201,7 +208,7 @@ void main()
     }
     found_counts[thread] = search.count;
     found_ranges[thread] = search.range;
-    left_out[thread] = k_unbounded_range;
+    left_out[thread] = floatBitsToUint(k_unbounded_range);
     barrier();
     list_found(search, thread, thread - lane);
     barrier();

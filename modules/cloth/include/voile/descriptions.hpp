@@ -99,11 +99,11 @@ struct GridCloth
     // buffer of the GPU (DeviceVertices) the speed is not known.
     //
     // Cloth sticks on cloth up to nine tenths of static friction, and creeps there by less than 0.1 mm/s; a second
-    // sheet on it by up to 0.6. Layers that lie on each other on a plane come to rest; the uppermost of six moved by
-    // 0.1 to 0.4 mm/s. Neither holds where vertices lie above vertices, as in equal grids that are stacked without a
-    // turn: three to five such sheets kept 2e-4 to 2e-3 J/kg, and on a slope one slid from 0.6 of static friction on. A
-    // sheet of 12 mm spacing on one of 37 mm shook at 0.25 m/s. Pins that gather cloth to a twentieth of its width keep
-    // single vertices beside them in motion.
+    // sheet on it by up to 0.6. That does not hold where vertices lie above vertices, as in equal grids without a turn:
+    // on a slope one slid from 0.6 of static friction on. Layers that lie on each other on a plane or a sphere come to
+    // rest: three to six sheets kept less than 1e-4 J/kg, and the uppermost of six moved by 0.1 to 0.4 mm/s. A sheet of
+    // 12 mm spacing on one of 37 mm shook at 0.3 m/s. Pins that gather cloth to a twentieth of its width keep single
+    // vertices beside them in motion.
     //
     // Two parallel sheets that met at 1.5 m/s each lost 1.2 % of their momentum at most; of 40 random pairs of sheets
     // that closed at 0.5 to 4 m/s, eight lost 2 to 8 %, and tilted ones 12 % at 20 m/s. Sheets that start nearer than
