@@ -7,6 +7,8 @@
 #include "solver/buffer_declarations.hpp"
 #include "solver/descriptor_sets.hpp"
 
+#include "shared/contact_layout.h"
+
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
@@ -133,7 +135,7 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
     REQUIRE(stripped.size() < description.spirv.size());
     description.spirv = stripped;
     const auto nameless = voile::engine::take(voile::gpu::reflect(description));
-    CHECK(named.push_bytes == 88);
+    CHECK(named.push_bytes == sizeof(voile::shared::ContactPush));
     CHECK(nameless.push_bytes == named.push_bytes);
     CHECK(nameless.shared_bytes == named.shared_bytes);
     REQUIRE(nameless.bindings.size() == named.bindings.size());
