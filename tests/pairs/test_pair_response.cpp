@@ -182,9 +182,9 @@ TEST_CASE("layers of cloth on a plane come to rest, and do not creep")
         stack.step({.duration = 1.f / 60}, 15);
         const glm::dvec3 start = mean(stack.positions(stack.cloths.back()));
         stack.step({.duration = 1.f / 60}, 15);
-        const glm::dvec3 way = mean(stack.positions(stack.cloths.back())) - start;
+        const glm::dvec3 moved = mean(stack.positions(stack.cloths.back())) - start;
         CHECK(stack.energy() < 1e-4);
-        CHECK(glm::length(glm::dvec2(way.x, way.z)) < 1.5e-4);
+        CHECK(glm::length(glm::dvec2(moved.x, moved.z)) < 1.5e-4);
     }
 }
 

@@ -76,7 +76,7 @@ struct Vertices
     vec3 x[4]; // m, from the first
     vec3 v[4]; // m/s
     vec3 gain[4]; // m/s, until the middle of the coming interval, if what acted since the last pass goes on
-    vec3 way[4]; // m, since the last pass
+    vec3 moved[4]; // m, since the last pass
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
@@ -104,7 +104,7 @@ void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
     vertices.gain[k] = known && position.w > 0 ? 0.5 * (velocity.xyz - memory.velocity) : vec3(0);
     const PairGuard guard = pair_bounds[i].guard;
     const FinePosition last = FinePosition(guard.from, unpack_residual(guard.residual));
-    vertices.way[k] = known ? displacement(last, FinePosition(position.xyz, unpack_residual(residuals[i]))) : vec3(0);
+    vertices.moved[k] = known ? displacement(last, FinePosition(position.xyz, unpack_residual(residuals[i]))) : vec3(0);
     vertices.slip[k] = known ? memory.slip : vec3(0);
     vertices.carry[k] = carry_until_next(pair_carries[i], frame.carry, frame.fall);
     vertices.inverse_masses[k] = position.w;
@@ -168,7 +168,7 @@ bool is_at_one_place(float apart, float lever, float thickness, vec3 near)
 struct Approach
 {
     vec3 velocity; // m/s, of the first side
-    vec3 way;      // m, since the last pass, of the first side
+    vec3 moved;    // m, since the last pass, of the first side
     vec3 slip;     // m, along the sides, that has not been undone
     vec3 n;        // unit, towards the first side
     float missing; // m, of the thickness; below 0: so far apart
@@ -185,11 +185,11 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - along;
     const vec3 sliding = approach.velocity - along * approach.n;
     // Packed as halfs: beyond their range it would be infinite, and the slip it adds up to not a number.
-    const vec3 way = clamp(approach.way - dot(approach.way, approach.n) * approach.n, vec3(-k_most_half), vec3(k_most_half));
+    const vec3 slid = clamp(approach.moved - dot(approach.moved, approach.n) * approach.n, vec3(-k_most_half), vec3(k_most_half));
     if (wanted <= 0)
     {
         if (approach.missing > -k_near * approach.thickness)
-            drift = way;
+            drift = slid;
         return vec3(0);
     }
     const vec3 slip = approach.slip - dot(approach.slip, approach.n) * approach.n;
@@ -199,7 +199,7 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     const float spare = friction.x * pressure - speed;
     if (spare >= 0) // it sticks; taking back what has drifted must not make it slide
     {
-        drift = way;
+        drift = slid;
         return pressure * approach.n - sliding - min(1, spare / max(length(undo), 1e-30)) * undo;
     }
     const float left = slip_speed(speed, pressure, friction.x, friction.y);
@@ -296,7 +296,7 @@ void main()
     const vec3 n = unpack_direction(response.normal);
     vec3 drift;
     const Approach approach =
-        Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.way),
+        Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.moved),
                  weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness, support_of(pair, nearest.weights, vertices, n));
     response.mobilities = nearest.weights * vertices.inverse_masses;
     const float lever = lever_of(nearest.weights, response.mobilities);
