@@ -290,18 +290,28 @@ TEST_CASE("a step with several levels of substeps has no hazard, each dispatch i
     CHECK(run_one_by_one(harness.solver, {step}) >= dispatches);
 }
 
+namespace
+{
+
+voile::GridCloth colliding_sheet(float height)
+{
+    voile::GridCloth grid;
+    grid.columns = grid.rows = 10;
+    grid.width = grid.depth = 0.2f;
+    grid.transform[3] = {0, height, 0, 1};
+    grid.integrator = voile::Integrator::verlet;
+    grid.self_collision = true;
+    return grid;
+}
+
+} // namespace
+
 TEST_CASE("steps in which cloths collide with each other have no hazard, each dispatch in its own command buffer")
 {
     ClothHarness harness;
     for (const float height : {0.f, 0.003f})
     {
-        voile::GridCloth grid;
-        grid.columns = grid.rows = 10;
-        grid.width = grid.depth = 0.2f;
-        grid.transform[3] = {0, height, 0, 1};
-        grid.integrator = voile::Integrator::verlet;
-        grid.self_collision = true;
-        const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(grid));
+        const voile::ClothId cloth = voile::engine::take(harness.solver.add_cloth(colliding_sheet(height)));
         voile::engine::take(harness.solver.set_attachments(cloth, {voile::pin(0)}));
     }
     harness.upload();
@@ -315,12 +325,7 @@ TEST_CASE("steps in which cloths fall asleep and wake have no hazard, each dispa
     ClothHarness harness;
     for (const float height : {0.002f, 0.03f})
     {
-        voile::GridCloth grid;
-        grid.columns = grid.rows = 10;
-        grid.width = grid.depth = 0.2f;
-        grid.transform[3] = {0, height, 0, 1};
-        grid.integrator = voile::Integrator::verlet;
-        grid.self_collision = true;
+        voile::GridCloth grid = colliding_sheet(height);
         grid.sleep_speed = 10;
         (void)voile::engine::take(harness.solver.add_cloth(grid));
     }
