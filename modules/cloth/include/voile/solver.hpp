@@ -12,10 +12,10 @@
 //
 // docs/integration.md is the contract: threads, lifetimes, queues, scopes, memory. In short:
 // - one thread at a time uses a solver; different solvers are independent of each other;
-// - the solver submits nothing and waits for nothing. Destroy a Solver, an Upload or a Snapshot, or assign to it, when
-//   no command buffer that it recorded into, or that uses it, is pending. Uploads and Snapshots may outlive the Solver;
-//   the handles outlive all of them;
-// - a Solver, an Upload or a Snapshot that was moved from may only be destroyed or assigned to.
+// - the solver submits nothing and waits for nothing. Destroy a Solver, an Upload or a Snapshot, or assign to it, only
+//   when no command buffer that it recorded into, or that uses it, is pending. Uploads and Snapshots may outlive the
+//   Solver; the handles outlive all of them;
+// - a moved-from Solver, Upload or Snapshot may only be destroyed or assigned to.
 #pragma once
 
 #include "voile/attachments.hpp"
@@ -37,15 +37,15 @@
 namespace voile
 {
 
-namespace gpu // <voile/gpu/...>: only for hosts that use these, too
+namespace gpu // <voile/gpu/...>: only for hosts that also use these
 {
 struct Context;
 class Recorder;
 class Timestamps;
 } // namespace gpu
 
-// What the host must enable when it creates its device, and what the device must have. With the default options
-// everything else is within the limits that Vulkan guarantees.
+// What the host must enable when it creates its device, and what the device must have. With the default options, all
+// other needs are within the limits that Vulkan guarantees.
 struct Requirements
 {
     uint32_t api_version = 0;                   // VK_API_VERSION_1_2
@@ -62,104 +62,107 @@ enum class ContactMethod
     nearest_point, // the nearest point of the mesh
 };
 
-// How the lists of mesh vertices lie in memory.
+// How the lists of mesh vertices are laid out in memory.
 enum class MeshLayout
 {
     compact,     // list by list
-    interleaved, // the lists of a workgroup's vertices entry by entry, so that reads of the workgroup coalesce
+    interleaved, // the lists of a workgroup's vertices entry by entry, so that its reads coalesce
 };
 
 // Parameters of the implementation, for measurements and comparisons. Hosts keep the defaults.
 struct Tuning
 {
-    // Invocations per workgroup. A power of two, from 1 to the device's limits of invocations and shared memory; an
-    // invocation takes 125 bytes. A dispatch has at most maxComputeWorkGroupCount workgroups.
+    // Invocations per workgroup. A power of two, from 1 to what the device's limits on invocations and shared memory
+    // allow; each invocation takes 125 bytes of shared memory. A dispatch has at most maxComputeWorkGroupCount
+    // workgroups.
     uint32_t workgroup_size = 128;
 
-    // Invocations per vertex in feature contact, which divide its triangles among them. A power of two up to
-    // workgroup_size. 0: eight, on CPU devices one.
+    // Invocations per vertex in feature contact. They share the triangles of the vertex. A power of two up to
+    // workgroup_size. 0: eight, or one on CPU devices.
     uint32_t feature_threads = 0;
 
-    // The mean number of features near the cloth that there is room for per vertex, 128 bytes each, at most 64. None:
-    // 8, and room for 65,536 more but no more than 64 per vertex. Where there is no room for all, they are listed again
-    // for a shorter time or for fewer vertices. The others find theirs in every substep, which is slower and merges
-    // contacts in another order. Two equal runs are equal to the bit.
+    // The room for features near the cloth, as a mean number per vertex, at most 64, 128 bytes each. None: 8 per vertex
+    // and 65,536 more in total, but no more than 64 per vertex. If the room does not suffice, features are listed again
+    // for a shorter time or for fewer vertices. The other vertices find their features in every substep, which is
+    // slower and merges contacts in another order. Two equal runs are bit-identical.
     std::optional<uint32_t> feature_items{};
 
-    // The number of vertices whose substep takes as long as the dispatches of a substep without vertices. Cloths that
-    // need fewer substeps than others get dispatches of their own where these cost less than the substeps that they
-    // save. 0: 100,000, on CPU devices 256.
+    // The cost of a substep's dispatches without any vertices, as the number of vertices whose substep takes as long.
+    // Cloths that need fewer substeps than others get their own dispatches if these cost less than the substeps that
+    // they save. 0: 100,000, or 256 on CPU devices.
     uint32_t dispatch_vertices = 0;
 
-    // Near pairs that a vertex lists for the primitives that it owns, if its cloth collides with itself, 1..32. A
-    // vertex with more near pairs keeps the nearest, and moves less from one search to the next.
+    // The most near pairs that a vertex lists for the primitives that it owns, if its cloth collides with itself,
+    // 1..32. A vertex with more near pairs keeps the nearest, and its moves from one search to the next are limited to
+    // shorter ones.
     uint32_t pair_capacity = 32;
 
-    // With so many vertices that collide with themselves, a search for near pairs first sifts the neighbors of vertices
-    // that have few, in a pass of its own. Results are equal. 0: 32,768, on CPU devices none are sifted.
+    // From this number of vertices with self-collision on, a separate pass sifts candidates before each search for near
+    // pairs, for vertices that have few. Results are equal. 0: 32,768, or no sifting on CPU devices.
     uint32_t sifting_vertices = 0;
 
-    // s: two substeps of Verlet within this time share one query of contact with colliders. Between two queries a
-    // vertex stays above the plane of the surface that it last touched, with friction. 0: a query in every substep, as
-    // for RK4, with normal_ray, and where near pairs of cloths are answered in every substep.
+    // s. Two Verlet substeps within this time share one query for contact with colliders. Between two queries a vertex
+    // stays above the plane of the surface that it last touched, with friction. 0: a query in every substep. RK4,
+    // normal_ray, and cloths whose near pairs are resolved in every substep always query in every substep.
     float contact_interval = 0.5e-3f;
 
     ContactMethod contact_method = ContactMethod::nearest_point;
     MeshLayout mesh_layout = MeshLayout::interleaved;
 };
 
-// SPIR-V in place of the module's own, for work on its shaders. Bindings, push constants, specialization constants and
-// structs must stay those of the file.
+// SPIR-V that replaces the module's own, for work on its shaders. It must keep the file's bindings, push constants,
+// specialization constants and structs.
 struct ShaderReplacement
 {
     std::string_view file;           // of shaders/cloth, without folders: "contact.comp"
     std::span<const uint32_t> spirv; // read during Solver::create
 };
 
-// Steps with the same passes use the same commands again, so that recording takes the host a few microseconds. The
-// solver keeps them in secondary command buffers. Results are equal to the bit.
+// Steps with the same passes reuse the same commands, so recording takes the host a few microseconds. The solver keeps
+// the commands in secondary command buffers. Results are bit-identical.
 //
-// Changes of gravity, wind, time, motions and vertices of deforming meshes keep the passes. Cloths and colliders that
-// come, go or move for the first time, numbers of substeps, gusts that begin or end, and growing buffers change them.
-// So do materials and durations that lead to other substeps or other intervals between queries. After a change,
-// commands are used again from the third step of each command buffer on.
+// The passes stay the same when gravity, wind, time, motions or vertices of deforming meshes change. They change when
+// cloths or colliders come, go or move for the first time, when the number of substeps changes, when gusts begin or
+// end, and when buffers grow. Materials and durations change them if they lead to a different number of substeps or
+// different intervals between queries. After a change, commands are reused from the third step of each command buffer
+// on.
 //
 // record then
-// - takes primary command buffers of the queue family, with no query and no conditional rendering active. Each is
-//   submitted at most once: later calls make those of earlier ones invalid;
+// - takes primary command buffers of the queue family, with no query and no conditional rendering active. Submit each
+//   at most once: later calls of record invalidate it;
 // - allocates when passes change.
-// Steps with timestamps, or recorded through a Recorder with a split, are recorded one by one.
+// Steps with timestamps, and steps through a Recorder with a split, are each recorded anew.
 struct CommandReuse
 {
     uint32_t queue_family = 0; // of the command buffers that record takes
 
-    // How many calls of record may be in flight, 1..16: with two frames in flight, two for one call per frame, four for
-    // two calls. The call that is made counts: when record is called for the step n, the command buffer of the step
-    // n - steps_in_flight has completed, or is never submitted. With lifetime_checks, record returns an error if the
-    // GPU executes it; validation layers also report one that waits in a queue.
+    // How many calls of record may be in flight, 1..16. With two frames in flight, that is two for one call per frame
+    // and four for two calls per frame. The current call counts: when record is called for step n, the command buffer
+    // of step n - steps_in_flight has completed, or is never submitted. With lifetime_checks, record returns an error
+    // if the GPU still executes that command buffer; validation layers also report one that still waits in a queue.
     uint32_t steps_in_flight = 2;
 };
 
 struct SolverOptions
 {
-    uint32_t statistics_slots = 2; // frames in flight whose statistics can be waited for, 1..16
+    uint32_t statistics_slots = 2; // slots for the statistics of frames in flight, 1..16
 
     // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
-    // with features that can protrude between the vertices of a cloth costs two passes more per substep, and 672 bytes
+    // with features that can protrude between the vertices of a cloth costs two more passes per substep and 672 bytes
     // of device memory per vertex.
     bool feature_contact = true;
 
-    // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this they
-    // are moved straight to the nearest surface, and stay inside of meshes.
+    // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this, they
+    // are moved straight to the nearest surface, and those inside a mesh stay there.
     bool depenetration = true;
 
-    // Cloths that collide with themselves are pulled out of each other, and out of themselves, where they intersect
-    // when a step starts (descriptions.hpp). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a
-    // query per step. Without this, what intersects is held as it is.
+    // Cloths with self_collision that intersect each other or themselves when a step starts are pulled apart
+    // (descriptions.hpp). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query per step.
+    // Without this, the parts that intersect are held as they are.
     bool untangling = true;
 
-    // None: vertex input reads the streams. A queue without graphics has no vertex input: name the host's own stages on
-    // that queue, or HostScopes{} for none. Semaphores order other queues.
+    // None: vertex input reads the streams. A queue without graphics has no vertex input: on such a queue, name the
+    // host's own stages, or HostScopes{} for none. Semaphores order other queues.
     std::optional<HostScopes> host_scopes{};
 
     // Keeps hierarchies of cloths, so that record_statistics can count intersections. Costs 80 to 160 bytes of device
@@ -167,7 +170,7 @@ struct SolverOptions
     // same.
     bool intersections = false;
 
-    OutputOptions output{}; // what the vertex streams have on request
+    OutputOptions output{}; // optional contents of the vertex streams
     // Destroying a Solver or an Upload while the GPU executes its commands ends the program with a line on stderr.
     // None: on if the module was compiled without NDEBUG.
     std::optional<bool> lifetime_checks{};
@@ -214,8 +217,8 @@ public:
 
     // What record_save copied, once its command buffer has completed.
     [[nodiscard]] std::span<const std::byte> bytes() const;
-    // Takes the bytes() of another snapshot of cloths with as many vertices. Whether they are the same cloths cannot be
-    // checked. Errors: another number of bytes; a position or velocity that is not finite.
+    // Takes the bytes() of another snapshot of cloths with as many vertices. It cannot check whether they are the same
+    // cloths. Errors: a different number of bytes; a position or velocity that is not finite.
     Result<void> assign(std::span<const std::byte> bytes);
 
 private:
@@ -228,7 +231,7 @@ private:
 // The last call of Solver::record.
 struct RecordReport
 {
-    uint32_t commands = 0; // of Vulkan that it recorded, without labels, timestamps and lifetime checks
+    uint32_t commands = 0; // Vulkan commands that it recorded, without labels, timestamps and lifetime checks
     bool reused = false;   // it executed the commands of an earlier step (SolverOptions::command_reuse)
 };
 
@@ -249,15 +252,15 @@ public:
     // than the device's buffers or dispatches can hold.
     Result<ClothId> add_cloth(const GridCloth& grid);
     Result<ClothId> add_cloth(const MeshCloth& mesh);
-    // A vertex that touches several colliders meets them in the order of their ids' indices. A new collider takes the
-    // smallest index that is free.
+    // Contacts of a vertex with several colliders are resolved in the order of the indices of their ids. A new collider
+    // takes the smallest free index.
     Result<ColliderId> add_collider(const Collider& collider);
 
-    // Remove something, at any time. It takes no part from the next record on; no upload is needed. Later additions use
-    // its range of the buffers. Its id stays invalid, even if a later addition gets the same index. Pending command
-    // buffers can read its vertices until the next record_upload. Removing an anchor also removes the attachments to
-    // it, and removing a collider those on its surface: their vertices become free, and tethers to them end. Removing a
-    // cloth removes its outputs. Errors: an id that is not valid.
+    // Remove a cloth, a collider or an anchor at any time. It takes no part from the next record on; no upload is
+    // needed. Later additions reuse its range of the buffers. Its id stays invalid, even if a later addition gets the
+    // same index. Pending command buffers can read its vertices until the next record_upload. Removing an anchor also
+    // removes the attachments to it. Removing a collider also removes the attachments on its surface. Their vertices
+    // become free, and tethers to them end. Removing a cloth removes its outputs. Errors: an id that is not valid.
     Result<void> remove(ClothId cloth);
     Result<void> remove(ColliderId collider);
     Result<void> remove(AnchorId anchor);
@@ -269,15 +272,16 @@ public:
     // positions that the solver does not keep, vertices beyond the end of the buffer or beyond what a shader can bind,
     // out of memory.
     Result<OutputId> add_output(ClothId cloth, const VertexLayout& layout);
-    // When no command buffer that writes the output is pending. Errors: an id that is not valid.
+    // Removes an output. Call it when no command buffer that writes the output is pending. Errors: an id that is not
+    // valid.
     Result<void> remove(OutputId output);
 
     // A disabled cloth keeps its state: no pass runs over it, and stable_substeps, budgets and statistics leave it out.
-    // It can still be drawn. When it is enabled again it continues with its former velocities. Pins with a position are
-    // then at their anchors' new poses; pins without one have not followed (attachments.hpp). set_material, reset,
-    // teleport and set_velocity act on a disabled cloth, too. A disabled collider collides with no cloth. It can be
-    // moved meanwhile, and has its new pose when it is enabled again. Everything is enabled when it is added. Errors:
-    // an id that is not valid.
+    // It can still be drawn. When it is enabled again, it continues with its former velocities. Pins with a position
+    // are then at their anchors' new poses; pins without one have not followed (attachments.hpp). set_material, reset,
+    // teleport and set_velocity also act on a disabled cloth. A disabled collider collides with no cloth. It can be
+    // moved meanwhile and has its new pose when it is enabled again. Cloths and colliders are enabled when they are
+    // added. Errors: an id that is not valid.
     Result<void> set_enabled(ClothId cloth, bool enabled);
     Result<void> set_enabled(ColliderId collider, bool enabled);
     [[nodiscard]] bool enabled(ClothId cloth) const; // false for an id that is not valid
@@ -291,17 +295,17 @@ public:
     // or a collider that is not uploaded yet take effect with the first record after its upload. After an error nothing
     // has changed.
 
-    // A cloth that becomes heavier keeps its momentum, one that becomes lighter its velocity. The edges and corners of
-    // colliders that collide with the cloth are selected for a new thickness in the next upload. Errors: a value out of
-    // range; a Fabric for a cloth that was added with a Material, or the other way round; isometric bending of a mesh
-    // that was added without it.
+    // A cloth that becomes heavier keeps its momentum; one that becomes lighter keeps its velocity. After a change of
+    // thickness, the next upload selects anew which edges and corners of colliders collide with the cloth. Errors: a
+    // value out of range; a Fabric for a cloth that was added with a Material, or the other way round; isometric
+    // bending of a mesh that was added without it.
     Result<void> set_material(ClothId cloth, const ClothMaterial& material);
     [[nodiscard]] const ClothMaterial& material(ClothId cloth) const;
 
     // Replaces all attachments of the cloth, including the pins of its description. Vertices that are no longer
-    // attached are free. Tethers are computed again from the new pins, and end while there is none. Allocates if the
-    // solver never had so many attachments. Errors: a vertex that does not exist or has two attachments, a value out of
-    // range, an anchor that does not exist, out of memory.
+    // attached are free. Tethers are computed again from the new pins; while there are no pins, there are no tethers.
+    // Allocates if the solver never had so many attachments. Errors: a vertex that does not exist or has two
+    // attachments, a value out of range, an anchor that does not exist, out of memory.
     Result<void> set_attachments(ClothId cloth, std::span<const Attachment> attachments);
     Result<void> set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments);
     [[nodiscard]] const std::vector<Attachment>& attachments(ClothId cloth) const;
@@ -310,12 +314,12 @@ public:
     [[nodiscard]] Result<std::vector<Attachment>> attachments_on_surface(ClothId cloth, ColliderId collider,
                                                                          float distance);
 
-    // Tethers to the present pins; none: removes them. Allocates if the solver never had so many. Errors: no pin, a
-    // stretch out of range, out of memory.
+    // Tethers vertices to the present pins; none: removes the tethers. Allocates if the solver never had so many.
+    // Errors: no pin, a stretch out of range, out of memory.
     Result<void> set_tethers(ClothId cloth, const std::optional<Tethers>& tethers);
 
-    // A cloth collides with the colliders that have a layer in common with it (bits). If a collider collides with a
-    // cloth for the first time, its edges and corners do so from the next upload on (needs_upload).
+    // A cloth collides with the colliders that share a layer (a bit) with it. If a collider collides with a cloth for
+    // the first time, its edges and corners collide only from the next upload on (needs_upload).
     Result<void> set_layers(ClothId cloth, uint32_t layers);
     Result<void> set_layers(ColliderId collider, uint32_t layers);
 
@@ -329,21 +333,21 @@ public:
     // affine, an axis with an entry beyond 1e3, an origin beyond 1e6 m, a volume below 1e-9 of the unit cube's, out of
     // memory.
     Result<AnchorId> add_anchor(const Mat4& world_from_anchor);
-    // The anchor's pose at the end of the next step. Its attachments move there along straight lines.
+    // Sets the anchor's pose at the end of the next step. Its attachments move there along straight lines.
     Result<void> move_anchor(AnchorId anchor, const Mat4& world_from_anchor);
 
-    // The collider's pose at the end of the next step: the pose at which it was added, then `motion`. It moves there at
-    // constant velocity and takes the shorter rotation. Cloth feels the velocity of the surface. That velocity is
-    // constant within a step, so cloth on an accelerating collider slips a little at the start of each step. At
-    // constant velocity static friction holds as on a collider at rest up to 0.5 m/s, and within 5 % up to 4 m/s. The
-    // hierarchy of a mesh is not changed. Errors: a motion that is not finite or not rigid, or takes its center beyond
-    // 1e6 m.
+    // Sets the collider's pose at the end of the next step: `motion` applied to the pose at which it was added. It
+    // moves there at constant velocity and takes the shorter rotation. Cloth feels the velocity of the surface. That
+    // velocity is constant within a step, so cloth on an accelerating collider slips a little at the start of each
+    // step. On a collider that moves at constant velocity, static friction holds as on one at rest up to 0.5 m/s, and
+    // within 5 % up to 4 m/s. The hierarchy of a mesh does not change. Errors: a motion that is not finite or not
+    // rigid, or that takes the center beyond 1e6 m.
     Result<void> move_collider(ColliderId collider, const Mat4& motion);
 
-    // The vertices of a deforming mesh at the end of the next step, in the mesh's space. They move there along straight
-    // lines. The step refits the hierarchy, and cloth feels the velocity of the surface. Errors: a collider that does
-    // not deform, another number of vertices than it was added with, a position that is not finite or beyond 1e6 m in
-    // the world.
+    // Sets the vertices of a deforming mesh at the end of the next step, in the mesh's space. They move there along
+    // straight lines. The step refits the hierarchy, and cloth feels the velocity of the surface. Errors: a collider
+    // that does not deform, a different number of vertices from the one that it was added with, a position that is not
+    // finite or beyond 1e6 m in the world.
     Result<void> deform_collider(ColliderId collider, std::span<const Vec3> positions);
     // The same from a buffer on the GPU, such as the output of the host's skinning. The next record copies from it, and
     // waits for compute and transfer writes that were recorded before. A vertex that is not finite or out of range
@@ -351,29 +355,30 @@ public:
     Result<void> deform_collider(ColliderId collider, const DeviceVertices& vertices);
 
     // The boxes of a mesh collider's hierarchy at a level, at the pose at which it was added, for debug views. Level 0
-    // is one box around the whole mesh, and each level has the children of the boxes before. A leaf appears at all
-    // levels below its own. Empty for a collider without a mesh, and for one that deforms, whose boxes are on the GPU
-    // only.
+    // is one box around the whole mesh; each further level has the children of the boxes of the level before. A leaf
+    // appears at all levels below its own. Empty for a collider without a mesh, and for one that deforms: its boxes are
+    // on the GPU only.
     [[nodiscard]] std::vector<BoundingBox> hierarchy_boxes(ColliderId collider, uint32_t level) const;
 
-    // Resets positions, velocities and masses to the start. Attachments stay.
+    // Resets positions, velocities and masses to those at the start. Attachments stay.
     Result<void> reset(ClothId cloth);
-    // Moves a cloth at once: transforms its positions, and its velocities by the transform's axes. Pins with a position
-    // go back to it. Positions are clamped to 1e6 m along each axis, velocities to 1e4 m/s. Errors: a transform that is
-    // not affine, an axis with an entry beyond 1e3, a translation beyond 2e6 m.
+    // Moves a cloth at once: transforms its positions by the transform and its velocities by the transform's axes. Pins
+    // with a position go back to it. Positions are clamped to 1e6 m along each axis, velocities to 1e4 m/s. Errors: a
+    // transform that is not affine, an axis with an entry beyond 1e3, a translation beyond 2e6 m.
     Result<void> teleport(ClothId cloth, const Mat4& transform);
     // Sets the velocity of every vertex, m/s. Errors: beyond 1e4 along an axis.
     Result<void> set_velocity(ClothId cloth, const Vec3& velocity);
 
     // m/s, 0..10; 0: the cloth never sleeps (GridCloth::sleep_speed). Wakes the cloth. Errors: a speed out of range.
     Result<void> set_sleep_speed(ClothId cloth, float speed);
-    // The cloth is awake in the next step, and for 0.5 s at least. Changes of what it feels wake it anyway.
+    // Wakes the cloth for the next step, and for 0.5 s at least. Changes that act on the cloth wake it without this
+    // call.
     Result<void> wake(ClothId cloth);
 
     // True if something was added since the last upload, or if a change above needs an upload.
     [[nodiscard]] bool needs_upload() const;
 
-    // Records the upload of what is new. Only new data is staged, whatever else the solver has. A buffer that is too
+    // Records the upload of what is new. It stages only new data, however much the solver has. A buffer that is too
     // small is replaced by one at least half larger, and the GPU copies its contents. Begins and ends like record.
     // Errors: out of device memory, larger than the device's buffers; the solver then stays as it was.
     Result<Upload> record_upload(VkCommandBuffer cmd);
@@ -383,30 +388,29 @@ public:
     // - Begins with a barrier: waits for earlier reads of the streams by vertex input, for transfers and uploads.
     // - Ends with a barrier: writes are visible to vertex input, compute and transfer reads that follow.
     // - Records nothing before the first record_upload, and only changes and motions while no cloth is enabled.
-    // - While an upload is due, everything that is uploaded is simulated, with its motions and changes.
+    // - While an upload is due, simulates everything that is already uploaded, with its motions and changes.
     // Errors: a member of the step out of its range; see CommandReuse. Then nothing is recorded, and changes wait for
     // the next step.
     Result<void> record(VkCommandBuffer cmd, const Step& step, gpu::Timestamps* timestamps = nullptr);
     Result<void> record(gpu::Recorder& recorder, const Step& step);
 
-    // Zeros before the first call and after one that returned an error.
+    // All 0 before the first call of record, and after one that returned an error.
     [[nodiscard]] RecordReport record_report() const;
 
-    // Save and restore the state of all cloths, to the bit: after restoring, the same steps give the same bits as after
-    // saving. Materials, attachments, anchors and colliders are not part of a snapshot: masses and pins are those of
-    // the solver when it restores, and a vertex that is heavier than it was keeps its momentum, as in set_material.
-    // Changes that wait for the next record, such as reset, are made after it. Cloths that slept when it was saved
-    // sleep on if nothing that may wake cloths has changed or moved since, and the bytes are this snapshot's own; else
-    // all cloths wake, and then bits differ. Errors: nothing uploaded yet, out of memory; a snapshot of another solver;
-    // cloths were uploaded or removed since create_snapshot; nothing saved to restore.
+    // Save and restore the state of all cloths, bit for bit: after restoring, the same steps give the same bits as
+    // after saving. Materials, attachments, anchors and colliders are not part of a snapshot. Masses and pins are those
+    // that the solver has when it restores; a vertex that is heavier than it was keeps its momentum, as in
+    // set_material. Changes that wait for the next record, such as reset, are made after restoring. Cloths that slept
+    // when the snapshot was saved sleep on if nothing that may wake cloths has changed or moved since, and if the bytes
+    // are this snapshot's own. Otherwise all cloths wake, and bits differ. Errors: nothing uploaded yet, out of memory;
+    // a snapshot of another solver; cloths were uploaded or removed since create_snapshot; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
 
     // Records the copies of outputs, one dispatch each, in the order given. Never allocates. Nothing is recorded for a
-    // cloth that is not uploaded yet. Begins and ends like record, with the host's buffers among what HostScopes
-    // orders: the host draws from them without a barrier of its own. Errors: an id that is not valid; nothing is
-    // recorded then.
+    // cloth that is not uploaded yet. Begins and ends like record. HostScopes also orders the host's buffers, so the
+    // host draws from them without a barrier of its own. Errors: an id that is not valid; nothing is recorded then.
     Result<void> record_outputs(VkCommandBuffer cmd, std::span<const OutputId> outputs,
                                 gpu::Timestamps* timestamps = nullptr) const;
     Result<void> record_outputs(VkCommandBuffer cmd, std::initializer_list<OutputId> outputs,
@@ -415,30 +419,31 @@ public:
     // Records the computation of the statistics into `slot`. Read them once the submission has completed; uploads do
     // not disturb them. Nothing is recorded before the first record_upload. Errors: a slot that does not exist.
     Result<void> record_statistics(VkCommandBuffer cmd, uint32_t slot, gpu::Timestamps* timestamps = nullptr) const;
-    // The same, and counts intersections (voile/statistics.hpp) and marks their vertices (VertexStreams::intersections)
-    // on request. That takes longer than a step. Errors: also if SolverOptions::intersections is off.
+    // The same. On request it also counts intersections (voile/statistics.hpp) and marks their vertices
+    // (VertexStreams::intersections), which takes longer than a step. One more error: SolverOptions::intersections is
+    // off.
     Result<void> record_statistics(VkCommandBuffer cmd, uint32_t slot, Intersections intersections,
                                    gpu::Timestamps* timestamps = nullptr) const;
-    // All 0 for a slot without statistics, or that does not exist.
+    // All 0 for a slot that has no statistics or does not exist.
     [[nodiscard]] Statistics statistics(uint32_t slot) const;
 
     // The number of substeps with which every enabled cloth is stable at its full stiffness, with a margin of 5 %: the
     // largest number that one of them needs, at most max_substeps. 0 for a duration that record refuses. It follows
-    // from bounds of the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled and stretched:
-    // RK4 takes omega h <= 2.6, velocity Verlet omega h <= 2, less with damping. If springs of one direction carry
-    // nearly all of the stiffness, Verlet takes up to 16 % more substeps, or it would gain energy.
+    // from bounds on the spectra of M^-1 K and M^-1 C that hold in every shape of the cloth, crumpled or stretched: RK4
+    // allows omega h <= 2.6, velocity Verlet omega h <= 2, less with damping. If springs of one direction carry nearly
+    // all of the stiffness, Verlet takes up to 16 % more substeps; without them it would gain energy.
     [[nodiscard]] uint32_t stable_substeps(float duration, uint32_t max_substeps = Step{}.max_substeps) const;
     // The substeps of a cloth in a step. Cloths are grouped by the substeps that they need: a group takes the largest
-    // number, or a half, a quarter ... a sixteenth of it, if that saves time. Each group has dispatches of its own, so
-    // on a large GPU a small soft cloth stays in the group of a stiff one. Takes time in proportion to the number of
-    // cloths. needed and used are 0 for a step that record refuses.
+    // number, or a half, a quarter ... a sixteenth of it, if that saves time. Each group has its own dispatches, so on
+    // a large GPU a small soft cloth stays in the group of a stiff one. The call takes time in proportion to the number
+    // of cloths. needed and used are 0 for a step that record refuses.
     [[nodiscard]] Stability stability(ClothId cloth, const Step& step) const;
 
     [[nodiscard]] VertexStreams vertices(ClothId cloth) const;
-    // Triangles of a cloth, indices within the cloth. Normals are computed from them. A grid's are counter-clockwise
-    // seen from +y when it is flat, a mesh's as they were given.
+    // Triangles of a cloth, indices within the cloth. Normals are computed from them. Triangles of a grid are
+    // counter-clockwise seen from +y when it is flat; those of a mesh are as they were given.
     [[nodiscard]] std::vector<UVec3> triangles(ClothId cloth) const;
-    // One per vertex, meters of fabric: a grid's from its first vertex, a mesh's as they were given.
+    // One per vertex, in meters of fabric: those of a grid from its first vertex, those of a mesh as they were given.
     [[nodiscard]] std::vector<Vec2> texture_coordinates(ClothId cloth) const;
     [[nodiscard]] const std::string& name(ClothId cloth) const;
     // Irregularities of a mesh as a cloth; all 0 for a grid.
@@ -447,8 +452,8 @@ public:
     [[nodiscard]] const gpu::Context& context() const;
     [[nodiscard]] uint32_t vertex_count() const;   // of all cloths
     [[nodiscard]] uint32_t triangle_count() const; // of all cloths
-    // The number of dispatches that record makes; 0 for a step that it refuses. Uploads, changes and deforming meshes
-    // add a few to the next step.
+    // The number of dispatches in a step; 0 for a step that record refuses. Uploads, changes and deforming meshes add a
+    // few to the next step.
     [[nodiscard]] uint32_t dispatches(const Step& step) const;
 
     struct State; // of the implementation
