@@ -41,8 +41,8 @@ struct GridCloth
     float width = 1;
     float depth = 1;
 
-    // World from grid; affine. It does not change the rest lengths: a transform that stretches starts a stretched
-    // cloth. What it makes of x and z is at least 1e-7 long and not parallel.
+    // World from grid; affine. It does not change the rest lengths: with a transform that stretches, the cloth starts
+    // stretched. The transformed x and z axes are at least 1e-7 long and not parallel.
     Mat4 transform{1.f};
 
     // Velocity of every vertex at the start, m/s, -1e4..1e4 along each axis.
@@ -53,102 +53,107 @@ struct GridCloth
 
     Integrator integrator = Integrator::rk4;
 
-    // Vertices that stay where they are, each once or several times. Solver::set_attachments replaces them.
+    // Vertices that stay where they are. Repeated vertices are allowed. Solver::set_attachments replaces these pins.
     std::vector<uint32_t> pins{};
 
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.
     std::vector<float> inverse_masses{};
 
-    // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
+    // Bits. The cloth collides with colliders that share one, and with cloths that share one if both have
+    // `self_collision`.
     uint32_t layers = 1;
 
-    // The cloth collides with itself, and with other such cloths, at its thickness (at most 0.4 of the spacing of its
-    // vertices) and with its friction; of two cloths, at the mean of both.
+    // The cloth collides with itself and with other such cloths, at its thickness (at most 0.4 of the spacing of its
+    // vertices) and with its friction. Two cloths collide at the mean of both.
     //
     // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
-    // the strain limit do. A collider that presses layers together gets into them instead
-    // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: if pins are driven into cloth faster
-    // than it can give way, it may intersect (Statistics::forced_pairs). A free sheet gave way to a pinned one up to an
-    // eighth of the thickness in a substep, three sheets on each other up to a thirtieth. So may cloth that the host
-    // puts somewhere: reset, teleport, a snapshot, a pin with a position elsewhere.
+    // the strain limit do. A collider that presses layers together enters them instead
+    // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: cloth may intersect if pins are driven
+    // into it faster than it can give way (Statistics::forced_pairs). A free sheet gave way to a pinned one at up to an
+    // eighth of the thickness per substep, three sheets on each other at up to a thirtieth. Cloth may also intersect
+    // where the host puts it: reset, teleport, a snapshot, a pin with a position elsewhere.
     //
     // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
-    // Vertices around an intersection do not collide with each other in that step, but with all other cloth, and are
-    // accelerated by 300 m/s^2 up to 0.5 m/s along directions that shorten the line of intersection; springs may add to
-    // that. Sheets of 14 x 14 vertices that start half way through each other are free within half a second. The pull
-    // ignores masses, so momentum is not kept: silk and leather got 0.35 m/s together. What pins or colliders hold in
-    // cloth stays there, and so do sheets at exactly the same place. Of crumples that run through each other many times
-    // some never come free and go on moving.
+    // In that step, vertices around an intersection collide with all other cloth but not with each other. They are
+    // accelerated at 300 m/s^2 up to 0.5 m/s along directions that shorten the line of intersection; springs may add to
+    // that. Sheets of 14 x 14 vertices that start halfway through each other are free within half a second. The pull
+    // ignores masses, so momentum is not conserved: silk and leather together gained 0.35 m/s. Cloth that pins or
+    // colliders hold inside other cloth stays there, and so do sheets at exactly the same position. Some crumples that
+    // pass through each other many times keep moving and never come free.
     //
-    // Near other cloth a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer,
-    // relative to the mean velocity of the cloth that is clear of colliders; beside colliders relative to the world.
-    // What it would move beyond is lost with its momentum. The mean is that of the cloths whose boxes may meet within 3
-    // ms, their island: others change only when near pairs are searched. Cloth in free flight falls freely, in any
-    // shape and at any speed, also where layers start very near each other, or touch, as long as the island flies
-    // together. A closed sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. While
-    // two sheets nearer than a tenth of the thickness parted, they lost 0.06 m/s or a little more. Layers that start
-    // nearer than a fiftieth of the thickness do not part. Parts of a mesh that touch where it starts, as along a seam
-    // that is not merged, do not collide with each other there. Neither does what pins hold at one point, nor what is
-    // within 1e-7 m of each other, or that part of the coordinates: it counts as forced.
+    // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
+    // This is relative to the mean velocity of the cloth that is clear of colliders; beside colliders it is relative to
+    // the world. Any displacement beyond that is lost, with its momentum. The mean is that of an island: the cloths
+    // whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are searched. Cloth in
+    // free flight falls freely, in any shape and at any speed, as long as its island flies together. That holds even if
+    // layers start very near each other, or touch. A closed sphere of 38 vertices along a seam that is not merged drove
+    // itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness lost 0.06 m/s or a little more while
+    // they parted. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a mesh that touch at
+    // the start, as along a seam that is not merged, do not collide with each other there. Neither does cloth that pins
+    // hold at one point, nor cloth that is within 1e-7 m of other cloth, or within 1e-7 of its coordinates: these count
+    // as forced.
     //
-    // A collider that moves pushes such cloth without getting into it if it moves by less than half of the thickness in
-    // a substep: at 24 m/s with a spacing of 11 mm and automatic substeps. Faster ones may get through. So may those
-    // that drive a sheet into another one, from a quarter of the thickness in a substep on. Three and more sheets were
-    // entered for some frames by colliders that moved by 0.15 to 0.25 of it, by 4 to 16 vertices, up to 12 mm deep. The
-    // faster colliders or anchors move, the more often near pairs are searched, down to every substep; of vertices in a
-    // buffer of the GPU (DeviceVertices) the speed is not known.
+    // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
+    // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
+    // that drives a sheet into another one may pass through from a quarter of the thickness per substep on. Colliders
+    // that moved 0.15 to 0.25 of the thickness per substep entered three and more sheets for some frames, by 4 to 16
+    // vertices, up to 12 mm deep. The faster colliders or anchors move, the more often near pairs are searched, up to
+    // once per substep. The solver does not know the speed of vertices in a GPU buffer (DeviceVertices).
     //
-    // Cloth sticks on cloth up to nine tenths of static friction, and creeps there by less than 0.1 mm/s; a second
-    // sheet on it by up to 0.6. That does not hold where vertices lie above vertices, as in equal grids without a turn:
-    // on a slope one slid from 0.6 of static friction on. Layers that lie on each other on a plane or a sphere come to
-    // rest: three to six sheets kept less than 1e-4 J/kg, and the uppermost of six moved by 0.1 to 0.4 mm/s. A sheet of
-    // 12 mm spacing on one of 37 mm shook at 0.3 m/s. Pins that gather cloth to a twentieth of its width keep single
-    // vertices beside them in motion.
+    // Cloth sticks on cloth up to nine tenths of static friction and creeps there at less than 0.1 mm/s; a second sheet
+    // on top of it creeps at up to 0.6 mm/s. This does not hold where vertices lie above vertices, as in equal grids
+    // that are not rotated against each other: on a slope, one slid from 0.6 of static friction on. Layers that lie on
+    // each other on a plane or a sphere come to rest: three to six sheets kept less than 1e-4 J/kg, and the uppermost
+    // of six moved at 0.1 to 0.4 mm/s. A sheet with a spacing of 12 mm on one with 37 mm shook at 0.3 m/s. Pins that
+    // gather cloth to a twentieth of its width keep single vertices beside them in motion.
     //
-    // Two parallel sheets that met at 1.5 m/s each lost 1.2 % of their momentum at most; of 40 random pairs of sheets
-    // that closed at 0.5 to 4 m/s, eight lost 2 to 8 %, and tilted ones 12 % at 20 m/s. Sheets that start nearer than
-    // the thickness part at up to 0.9 m/s. Very fine cloth that slides fast along a collider is slowed: of 3 mm spacing
-    // from 3 m/s on.
+    // Two parallel sheets that met at 1.5 m/s each lost at most 1.2 % of their momentum. Of 40 random pairs of sheets
+    // that approached each other at 0.5 to 4 m/s, eight lost 2 to 8 %; tilted sheets lost 12 % at 20 m/s. Sheets that
+    // start nearer than the thickness part at up to 0.9 m/s. Very fine cloth that slides fast along a collider is
+    // slowed: with a spacing of 3 mm, from 3 m/s on.
     bool self_collision = false;
 
     // m/s, 0..10. The cloth falls asleep when none of its vertices has been faster than this for 0.5 s of simulated
-    // time, by its velocity at the end of each step and by its displacement in the step. Vertices without mass do not
-    // count. 0: it never sleeps. The GPU decides; Statistics::sleeping_cloths counts those that sleep.
+    // time. Both the velocity at the end of each step and the displacement in the step must be below it. Vertices
+    // without mass do not count. 0: the cloth never sleeps. The GPU decides; Statistics::sleeping_cloths counts the
+    // cloths that sleep.
     //
-    // A cloth that sleeps keeps its positions to the bit, and its velocities are 0. Passes of a step leave it alone. It
+    // A sleeping cloth keeps its positions bit for bit, and its velocities are 0. The passes of a step skip it. It
     // wakes at the beginning of a step
-    // - after a change of the cloth by the host: material, attachments, tethers, layers, reset, teleport, velocity,
+    // - after the host has changed the cloth: material, attachments, tethers, layers, reset, teleport, velocity,
     //   enabled, sleep_speed, Solver::wake;
     // - in which one of its anchors moves;
-    // - if gravity changed since the last step, or wind, gusts or the air's density, and they act on it;
-    // - after a collider of its layers was added, removed, enabled or disabled, or got other friction, layers or size;
+    // - if gravity, wind, gusts or the air's density have changed since the last step and act on it;
+    // - after a collider of its layers was added, removed, enabled or disabled, or its friction, layers or size
+    //   changed;
     // - in which such a collider moves or deforms and may come near: the box that it sweeps in the step is within twice
-    //   the thickness of the box around the cloth. A plane that moves is near all cloths. A collider that rotates
-    //   sweeps a ball around its origin.
+    //   the thickness of the box around the cloth. A moving plane is near all cloths. A rotating collider sweeps a ball
+    //   around its origin.
     // - with `self_collision`, if a cloth of its island is awake: cloths whose boxes may meet within 3 ms fall asleep
-    //   and wake together, and so do not sleep near one whose sleep_speed is 0. So does a cloth whose velocities lead
-    //   near it within the step. One that is accelerated towards it in the step, as by a fast collider, finds it at
-    //   rest until the next step. Removing, enabling and disabling a cloth with self_collision wakes all others.
-    // What wakes stays awake for 0.5 s at least, and so does what a collider that moves comes near while it is awake.
-    // Cloth on which gusts act does not fall asleep. Neither does one beside a collider that moves.
+    //   and wake together, so they do not sleep near one whose sleep_speed is 0. A cloth whose velocities lead near it
+    //   within the step also wakes it. A cloth that is accelerated towards it during the step, as by a fast collider,
+    //   finds it at rest until the next step. Removing, enabling or disabling a cloth with self_collision wakes all
+    //   other such cloths.
+    // A cloth that wakes stays awake for at least 0.5 s. So does an awake cloth that a moving collider comes near.
+    // Cloth on which gusts act does not fall asleep, nor does cloth beside a moving collider.
     float sleep_speed = 0;
 };
 
 // A cloth of triangles. The mesh may be open or closed, in one piece or several. Vertices keep their order.
 //
-// - The longest side of each triangle is 1e-4..1e5 m, as the transform makes it. The other sides may be shorter.
-// - A triangle has no area if it is lower than 20 nm, or than 2e-6 of its longest side.
-// - Triangles without area have no springs, and any size. Vertices without a triangle stay where they are.
-// - At an edge of three or more triangles each pair of them bends.
-// - mesh_report counts all of these.
+// - The longest side of each triangle is 1e-4..1e5 m, after the transform. The other sides may be shorter.
+// - A triangle counts as having no area if its height is below 20 nm, or below 2e-6 of its longest side.
+// - Triangles without area have no springs and may have any size. Vertices without a triangle stay where they are.
+// - At an edge of three or more triangles, each pair of them resists bending.
+// - mesh_report counts all such cases.
 //
 // Small triangles are stiff, and the stiffest springs and folds set the substeps of the whole cloth
 // (Solver::stable_substeps). A sliver 3 cm long and 10 um high would need a million, so a few slivers are softened:
-// - A triangle is softened if it is more than 8 times as stiff, relative to the mass it moves, as most others: as 99 %
-//   of all, or as all but 12 of 240 and more, or as 95 % of 60 and more. It gets the stiffness of the stiffest other.
-// - A fold, or a spring across an edge, is softened where it is 64 times as stiff.
+// - A triangle is softened if it is more than 8 times as stiff, relative to the mass it moves, as most others: 99 % of
+//   all, or all but 12 of 240 or more, or 95 % of 60 or more. It gets the stiffness of the stiffest of those.
+// - A fold, or a spring across an edge, is softened if it is 64 times as stiff.
 // - Masses stay, and forces between vertices stay equal and opposite.
-// - Nothing is softened in a mesh of fewer than 60 triangles, of similar triangles, or of sizes that change
+// - Nothing is softened in a mesh of fewer than 60 triangles, of similar triangles, or of triangles whose sizes change
 //   gradually. Springs of a Material are uniform and are never softened.
 struct MeshCloth
 {
@@ -161,11 +166,11 @@ struct MeshCloth
     // Indices into positions, counter-clockwise seen from outside.
     std::span<const UVec3> triangles{};
 
-    // One per position, m of fabric, -1e6..1e6. The warp of a Fabric runs in each triangle where the first coordinate
-    // grows and the second does not; the weft is at right angles to it. Both turn with the transform, and the scale of
-    // the coordinates does not matter. Empty: the mesh is projected along that of its own axes along which it is
-    // thinnest, and a flat mesh in x and z has its warp along x, like a GridCloth. A triangle whose coordinates have no
-    // area is projected too.
+    // One per position, m of fabric, -1e6..1e6. In each triangle, the warp of a Fabric runs in the direction in which
+    // the first coordinate grows and the second does not change; the weft is at right angles to it. Both turn with the
+    // transform, and the scale of the coordinates does not matter. Empty: the mesh is projected along the one of its
+    // own axes along which it is thinnest, so a flat mesh in x and z has its warp along x, like a GridCloth. A triangle
+    // whose coordinates have no area is also projected.
     std::span<const Vec2> texture_coordinates{};
 
     // World from mesh; affine. The transformed mesh is the shape at rest.
@@ -179,13 +184,14 @@ struct MeshCloth
 
     Integrator integrator = Integrator::rk4;
 
-    // Vertices that stay where they are, each once or several times. Solver::set_attachments replaces them.
+    // Vertices that stay where they are. Repeated vertices are allowed. Solver::set_attachments replaces these pins.
     std::vector<uint32_t> pins{};
 
     // Inverse mass of each vertex, 1/kg, 0..1e9. 0 keeps a vertex in place. Empty: the material's masses.
     std::vector<float> inverse_masses{};
 
-    // Bits. The cloth collides with colliders that share one, and with cloths that do if both have `self_collision`.
+    // Bits. The cloth collides with colliders that share one, and with cloths that share one if both have
+    // `self_collision`.
     uint32_t layers = 1;
 
     // The cloth collides with itself, and with other such cloths (GridCloth::self_collision).
@@ -196,8 +202,8 @@ struct MeshCloth
 
     // Replaces positions, triangles and texture coordinates, which stay empty (voile/cooked.hpp). The shape at rest is
     // that of the transform at cooking. This transform may differ from that one by a rotation and a translation. With
-    // the same transform results equal those of the mesh itself to the bit. The material must be of the same kind as at
-    // cooking, and may bend isometrically only if that one did.
+    // the same transform, results are bit-identical to those of the mesh itself. The material must be of the same kind
+    // as at cooking, and may bend isometrically only if the material at cooking did.
     CookedCloth cooked{};
 };
 
@@ -209,7 +215,7 @@ struct MeshReport
     uint32_t non_manifold_edges = 0;   // edges of three triangles or more
     uint32_t isolated_vertices = 0;    // vertices without a triangle that has area
     uint32_t degenerate_triangles = 0; // triangles without area
-    uint32_t coincident_vertices = 0;  // at the position of an earlier one and not joined to it: an open seam
+    uint32_t coincident_vertices = 0;  // at the position of an earlier one but not joined to it: an open seam
     uint32_t softened_edges = 0;       // edges of slivers, with springs or folds softer than the material's
     float shortest_edge = 0;           // m; the smallest triangles set the number of substeps
 };
@@ -225,66 +231,66 @@ struct Friction
 // The side to which a mesh pushes.
 enum class Sidedness
 {
-    automatic, // A closed mesh pushes outwards, also what starts inside it. An open one is two-sided.
-    one_sided, // To where its triangles face. They are counter-clockwise seen from there.
+    automatic, // A closed mesh pushes outwards, even cloth that starts inside it. An open one is two-sided.
+    one_sided, // To the side that its triangles face. They are counter-clockwise seen from there.
     two_sided, // To the side that a vertex comes from. A box that holds cloth in needs this.
 };
 
 // Limits of contact. They hold for all colliders.
 //
 // Depenetration. Cloth that is inside a collider at the start of a step is moved out.
-// - Inside is a sphere, a capsule, a box, or a closed mesh that pushes outwards where its winding number is above 0.
-//   Colliders that overlap are one solid.
-// - A vertex leaves at 0.9 m/s relative to the surface, from the step after it was found. Pins stay.
-// - A sheet leaves to one side, along its normals and as a whole, at less than 2.5 m/s. A sheet that a solid pierces is
-//   stretched: of 60 random poses the worst was stretched by 21 %, and of those without gravity the fastest part
-//   reached 2.5 m/s.
-// - Until it is out, a vertex's own motion is slowed to 0.6 m/s, the collider carries it at its own speed v up to
-//   10 m/s, and faster ones at 10 m/s (10 m/s / v)^2, so that one that jumps throws no cloth. The collider's edges and
-//   corners do not stop the cloth, and no other solid stops the vertex.
+// - Inside means inside a sphere, a capsule or a box, or inside a closed mesh that pushes outwards, where its winding
+//   number is above 0. Overlapping colliders are one solid.
+// - A vertex leaves at 0.9 m/s relative to the surface, from the step after the one that found it. Pins stay.
+// - A sheet leaves to one side as a whole, along its normals, at less than 2.5 m/s. A sheet that a solid pierces is
+//   stretched: by 21 % in the worst of 60 random poses. In those without gravity, the fastest part reached 2.5 m/s.
+// - Until a vertex is out, its own motion is slowed to 0.6 m/s. The collider carries it at the collider's speed v up to
+//   10 m/s. A faster collider carries it at 10 m/s (10 m/s / v)^2, so a collider that jumps throws no cloth. The
+//   collider's edges and corners do not stop the cloth, and no other solid stops the vertex.
 // - A vertex below a plane, or nearer to a surface than the thickness at the start of a substep, rises at 0.75 m/s.
-// - Vertices are checked after uploads, edits and snapshots, where colliders move, as long as any are inside,
-//   and every eighth step. A collider that moves onto cloth pushes it at any speed. Where
-//   the cloth collides with itself and lies in two layers, the collider may enter the cloth if it moves by more than a
-//   quarter of the thickness in a substep: sheets of 3 mm at 5 m/s in 112 substeps a frame; in more layers also if it
-//   moves by less (GridCloth::self_collision).
+// - Vertices are checked after uploads, edits and snapshots, while colliders move, while any are inside, and every
+//   eighth step. A collider that moves onto cloth pushes it at any speed. If the cloth collides with itself and lies in
+//   two layers, a collider that moves by more than a quarter of the thickness per substep may enter it: for sheets of 3
+//   mm, 5 m/s in 112 substeps per frame. With more layers, a collider that moves by less may also enter
+//   (GridCloth::self_collision).
 //
 // Edges and corners. Edges and corners of colliders collide with the triangles and edges of cloths
 // (SolverOptions::feature_contact).
-// - Shots of cloth 1 and 3 mm thick, 43 mm between vertices, at 5 to 60 m/s left no edge of the cloth or the collider
-//   through the other: needles, strips, boxes. Nor did such colliders, driven through a sheet at up to 100 m/s. Fast
-//   cloth that is near edges and corners may lose some of its speed along them. Of about a hundred random shots, three
-//   left the corner of a plate 1 to 6 mm thick through cloth that was taut between pins, by 2 mm at most. A strain
-//   limit moves cloth after contact, also that which replaces missing substeps: with one, edges may be left through a
-//   collider.
-// - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, enabled or not.
-//   Another such cloth changes how it holds this one (by 5 mm beside a sphere). Cloths of other layers do not.
+// - Cloth 1 and 3 mm thick, with 43 mm between vertices, was shot at needles, strips and boxes at 5 to 60 m/s. No edge
+//   of the cloth or the collider was left through the other, nor when such colliders were driven through a sheet at up
+//   to 100 m/s. Fast cloth near edges and corners may lose some of its speed along them. Of about a hundred random
+//   shots, three left the corner of a plate 1 to 6 mm thick through cloth that was taut between pins, by 2 mm at most.
+//   A strain limit moves cloth after contact, and so does the limit that replaces missing substeps. With either, edges
+//   may be left through a collider.
+// - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, whether these are
+//   enabled or not. So another such cloth changes how the collider holds this one (by 5 mm beside a sphere). Cloths of
+//   other layers do not.
 // - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 9 m/s without edges).
-// - A mesh that deforms has edges and corners where its present shape bends. Where its vertices move by more than the
-//   thickness between two contact passes, finding them takes longer. Needles that bend and turn at more than 30 m/s
+// - A mesh that deforms has edges and corners where its present shape bends. If its vertices move by more than the
+//   thickness between two contact passes, finding these takes longer. Needles that bend and turn at more than 30 m/s
 //   may be left through the cloth.
 // - Static friction is less exact for cloth that edges, corners, thin spheres and capsules support between its
-//   vertices. It may slip from 0.8 of static friction on, and creeps by less than 0.3 mm/s. Finer cloth, which touches
+//   vertices. It may slip from 0.8 of static friction on, and creeps at less than 0.3 mm/s. Finer cloth, which touches
 //   with its vertices, does neither.
 //
-// Rest. Cloth at rest stays at rest where its vertices touch. Cloth that hangs free swings for long: the hem of coarse
-// wool on a box moves at some 50 mm/s after 10 s.
+// Rest. Cloth at rest stays at rest where its vertices touch. Cloth that hangs free swings for a long time: the hem of
+// coarse wool on a box still moves at about 50 mm/s after 10 s.
 //
 // Cost. A collider costs time where cloth is near. With more than 8 colliders, the solver lists every 16 substeps which
 // are near which part of a cloth. Planes count as near everywhere.
 
 // A triangle mesh.
 //
-// It is closed if every edge is shared by two triangles that agree on it. One open part makes the whole mesh open. A
-// part is a set of triangles connected by vertices. An inside-out part of a closed mesh is flipped, together with the
-// parts within it. A cavity is inside-out within the solid of another part and stays as it is: a hollow ball stays
-// hollow. A part lies within another if its farthest vertices along the world's axes do. All of this is determined when
-// the mesh is added, and holds as it deforms.
+// It is closed if every edge is shared by two triangles that run along it in opposite directions. One open part makes
+// the whole mesh open. A part is a set of triangles connected by vertices. An inside-out part of a closed mesh is
+// flipped, together with the parts within it. A cavity is inside-out within the solid of another part and stays as it
+// is: a hollow ball stays hollow. A part lies within another if its farthest vertices along the world's axes do. All of
+// this is determined when the mesh is added and stays so as it deforms.
 //
-// The mesh colliders of a solver have at most 67,108,864 triangles together, those that deform half as many. The
-// hierarchy of a mesh that does not deform is built when it is added, with one thread per core: 0.7 s for 2 million
-// triangles on two cores (bench/NOTES.md). It is cached for when the same mesh is added again, to any solver; see
-// set_hierarchy_cache_limit.
+// The mesh colliders of a solver have at most 67,108,864 triangles together; those that deform have at most half as
+// many. The hierarchy of a mesh that does not deform is built when it is added, with one thread per core: 0.7 s for 2
+// million triangles on two cores (bench/NOTES.md). It is cached in case the same mesh is added again, to any solver;
+// see set_hierarchy_cache_limit.
 struct MeshCollider
 {
     std::string name = "mesh";
@@ -311,9 +317,9 @@ struct MeshCollider
     uint32_t layers = 1;
 
     // Replaces positions and triangles, which stay empty (voile/cooked.hpp). The transform may differ by a rotation and
-    // a translation from the one that the mesh was cooked with; a rotated one behaves and costs like a collider
-    // that was moved there. With the same transform results equal those of the mesh itself to the bit. A cooked
-    // collider cannot deform.
+    // a translation from the one that the mesh was cooked with; a rotated collider behaves and costs like one that was
+    // moved there. With the same transform, results are bit-identical to those of the mesh itself. A cooked collider
+    // cannot deform.
     CookedCollider cooked{};
 };
 
@@ -332,8 +338,8 @@ struct PlaneCollider
     // Unit length.
     Vec3 normal{0, 1, 0};
 
-    // m, -1e6..1e6. An inclined plane far from the origin is as precise as at the origin near the middle of where the
-    // cloths that collide with it started, so that another such cloth changes the rounding of contact with it.
+    // m, -1e6..1e6. An inclined plane far from the origin is as precise as one at the origin, near the middle of where
+    // the cloths that collide with it started. So another such cloth changes the rounding of contact with it.
     float offset = 0;
 
     std::optional<Friction> friction{};
