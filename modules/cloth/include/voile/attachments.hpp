@@ -17,7 +17,7 @@ namespace voile
 {
 
 // Attaches one vertex to a point of the world, or of an anchor that the host moves. A vertex has at most one
-// attachment. The functions below make one; the members that they leave alone keep their defaults.
+// attachment. The functions below make attachments; members that they do not set keep their defaults.
 struct Attachment
 {
     // Index within the cloth.
@@ -26,11 +26,11 @@ struct Attachment
     // The frame of `position` and `backstop_normal`. Default: the world.
     std::optional<AnchorId> anchor{};
 
-    // The point, m in the anchor's space, -1e6..1e6. In the world, where the anchor was added: -2e6..2e6.
+    // The point, m in the anchor's space, -1e6..1e6. In the world, with the anchor where it was added: -2e6..2e6.
     // Default: where the vertex was at the start, moved as the anchor has moved since it was added. A pin without a
     // position begins where the vertex is and moves by the motion of its anchor in each step of the cloth. It stays
-    // behind where the anchor moves while the cloth is disabled, and after reset, teleport and record_restore it begins
-    // where these put the vertex. A pin that must be exact after these has a position.
+    // behind if the anchor moves while the cloth is disabled. After reset, teleport and record_restore it begins where
+    // these put the vertex. Give a pin a position if it must be exact after these.
     std::optional<Vec3> position{};
 
     // Pull towards the point, N/m, 0..1e9. Infinite, the default, makes a pin: the vertex has no inverse mass and
@@ -43,8 +43,8 @@ struct Attachment
     // Largest distance from the point, m, >= 0. Infinite, the default: no limit.
     float max_distance = std::numeric_limits<float>::infinity();
 
-    // Unit normal of the backstop, in the anchor's space. The vertex stays on this side of a plane that lies `backstop`
-    // behind the point. Zero, the default: no backstop.
+    // Unit normal of the backstop, in the anchor's space. The vertex stays in front of a plane that lies `backstop`
+    // behind the point; the normal points to the front. Zero, the default: no backstop.
     Vec3 backstop_normal{0.f};
     float backstop = 0; // m, -1e6..1e6
 
@@ -73,8 +73,8 @@ struct Attachment
 // Tethers limit the distance from each vertex to the pins. The limit is the length of the cloth at rest between them,
 // times (1 + stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Pins that are connected by edges form
 // a group. A vertex has one tether to the nearest pin of each group, up to four. A vertex that starts beyond its limit
-// goes no farther, and its springs pull it back. If two pins move farther apart than both tethers of a vertex allow,
-// both tethers grow in proportion until they meet.
+// moves no farther away, and its springs pull it back. If two pins move farther apart than both tethers of a vertex
+// allow, both tethers grow in proportion until their ranges meet.
 struct Tethers
 {
     float stretch = 0; // 0..10

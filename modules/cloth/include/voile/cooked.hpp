@@ -6,10 +6,10 @@
 //   auto asset = CookedCloth::load(bytes, owner);                                       // checked, not copied
 //   solver.add_cloth({.transform = here, .material = wool(), .cooked = asset.value()});  // as often as needed
 //
-// Bytes are for the version of the module that wrote them and for little-endian machines. load refuses others and
-// damaged data: cook the mesh again. They hold no paths, names or pointers. Loading is safe for any bytes: it returns
-// an error or data that is safe to use. It does not prove that cook made the data; a forged file can hold a cloth with
-// any springs.
+// The bytes are for the version of the module that wrote them and for little-endian machines. load refuses bytes of
+// other versions and damaged data: cook the mesh again. The bytes hold no paths, names or pointers. Loading is safe for
+// any bytes: load returns an error or data that is safe to use. It does not prove that cook made the data: a forged
+// file can hold a cloth with any springs.
 #pragma once
 
 #include "voile/export.hpp"
@@ -37,10 +37,10 @@ public:
     CookedCloth() = default;
     explicit operator bool() const { return state_ != nullptr; }
 
-    // For a file; load takes them back. Empty if it holds nothing.
+    // The bytes for a file, which load takes. Empty if this holds nothing.
     [[nodiscard]] std::vector<std::byte> bytes() const;
-    // With an `owner`, which keeps the bytes alive and unchanged, nothing is copied if they begin at a multiple of 16.
-    // Errors: data of another kind, version or byte order, data that is incomplete, damaged or out of range.
+    // An `owner` keeps the bytes alive and unchanged. With one, nothing is copied if the bytes begin at a multiple of
+    // 16. Errors: data of another kind, version or byte order, data that is incomplete, damaged or out of range.
     static Result<CookedCloth> load(std::span<const std::byte> bytes, std::shared_ptr<const void> owner = {},
                                     const Jobs& jobs = {});
 
@@ -55,7 +55,7 @@ private:
     std::shared_ptr<const State> state_;
 };
 
-// A mesh collider that keeps its shape, with its hierarchy. Otherwise as CookedCloth.
+// A mesh collider that keeps its shape, with its hierarchy. Its members are like those of CookedCloth.
 class VOILE_API CookedCollider
 {
 public:
@@ -76,8 +76,8 @@ private:
     std::shared_ptr<const State> state_;
 };
 
-// Uses the positions, triangles, texture coordinates and transform of the description, and of its material whether it
-// is a Fabric or a Material and whether it bends isometrically. Errors: those of Solver::add_cloth.
+// Uses the positions, triangles, texture coordinates and transform of the description. Of its material it uses only
+// whether it is a Fabric or a Material and whether it bends isometrically. Errors: those of Solver::add_cloth.
 VOILE_API Result<CookedCloth> cook(const MeshCloth& cloth, const Jobs& jobs = {});
 
 // Uses the positions, triangles and transform. Errors: those of Solver::add_collider; a mesh that deforms.

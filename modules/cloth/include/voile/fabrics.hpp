@@ -10,7 +10,7 @@ namespace voile
 {
 
 // Where the values come from. "Read": from a published measurement; fabrics.cpp names each source with its table or
-// file. "Typical": of the class of fabric, from memory.
+// file. "Typical": a typical value of the class of fabric, from memory.
 //
 //           areal density  stretch  shear      bending  friction
 //   silk    read           typical  typical    typical  typical
@@ -19,10 +19,9 @@ namespace voile
 //   denim   read           read     read       read     typical
 //   leather typical        typical  estimated  chosen   typical
 //
-// Wool's stretch and shear are those of another plain worsted, of 0.168 kg/m^2. Denim's stretch and shear are those of
+// Wool's stretch and shear are those of another plain worsted, of 0.168 kg/m^2. Denim's stretch and shear come from
 // other denims than its density and bending. Leather's bending is chosen to give measured drape coefficients; its shear
-// follows from its stretch, as in a felt. docs/physics.md compares the drape coefficients with measured ones, where
-// there are any.
+// follows from its stretch, as in a felt. docs/physics.md compares the drape coefficients with measured ones, if any.
 //
 // For all five:
 // - Stretch stiffness is the secant at about 5 N/m, the load of hanging and draping.

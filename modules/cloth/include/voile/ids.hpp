@@ -1,7 +1,7 @@
 // Ids of the cloths, colliders, anchors and outputs of a solver.
 //
-// A default-constructed id is not valid, nor is the id of something that was removed: a later addition may get its
-// index, with another generation. For an invalid id, functions return an error, or an empty value if they return no
+// A default-constructed id is not valid, nor is the id of something that was removed. A later addition may get the same
+// index with another generation. For an invalid id, functions return an error, or an empty value if they return no
 // Result (solver.hpp). An id is valid for the solver that returned it. Other solvers cannot detect that it is not
 // theirs.
 #pragma once
@@ -38,7 +38,7 @@ struct AnchorId
     friend bool operator==(const AnchorId&, const AnchorId&) = default;
 };
 
-// A vertex buffer of the host's that a cloth writes. See Solver::add_output.
+// A vertex buffer of the host that a cloth writes to. See Solver::add_output.
 struct OutputId
 {
     uint32_t index = k_no_index;

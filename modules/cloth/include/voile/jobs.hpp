@@ -1,4 +1,4 @@
-// Jobs: the host's job system, for work of the module on several threads of the processor.
+// Jobs: the host's job system, for the module's work on several CPU threads.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@ namespace voile
 {
 
 // Adding and cooking large meshes uses several threads. Without a job system the module starts its own, one per core,
-// for the duration of the call. Results are equal to the bit for any job system, number of threads and order.
+// for the duration of the call. Results are bit-identical for any job system, number of threads and order.
 //
 // `run` calls task(data, index) once for every index below `count` and returns when all calls have returned. It may use
-// any threads and any order, also one after the other on the calling thread. A task may wait for tasks that have begun,
-// never for one that has not. It neither throws nor calls `run`. `run` must not throw. `user` is passed to it
+// any threads and any order, even one call after the other on the calling thread. A task may wait for tasks that have
+// begun, never for one that has not. Tasks neither throw nor call `run`. `run` must not throw. It gets `user`
 // unchanged.
 struct Jobs
 {
@@ -19,7 +19,7 @@ struct Jobs
 
     void (*run)(void* user, uint32_t count, Task task, void* data) = nullptr; // null: the module's own threads
     void* user = nullptr;
-    uint32_t workers = 0; // most tasks that can run at the same time, the largest `count`; 0: the number of cores
+    uint32_t workers = 0; // the most tasks that can run at the same time: the largest `count`; 0: the number of cores
 };
 
 } // namespace voile

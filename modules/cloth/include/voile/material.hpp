@@ -38,7 +38,7 @@ enum class BendingModel
     isometric, // linear in the curvature, as a thin plate (Bergou et al. 2006): follows a cantilever
 };
 
-// A material by the properties of its fabric. It behaves the same at every resolution.
+// A material described by the properties of its fabric. It behaves the same at every resolution.
 struct Fabric
 {
     float areal_density = 0.15f;
@@ -56,8 +56,9 @@ struct Fabric
     BendingModel bending_model = BendingModel::springs;
 };
 
-// A material by masses and spring constants, as in the reference scene. On a mesh, edges are structural_warp springs,
-// and bend_warp springs connect the two vertices opposite an edge. Only grids use the other families and border_scale.
+// A material described by masses and spring constants, as in the reference scene. On a mesh, edges are structural_warp
+// springs, and bend_warp springs connect the two vertices opposite an edge. Only grids use the other families and
+// border_scale.
 struct Material
 {
     float vertex_mass = 0.01f;
@@ -76,40 +77,41 @@ struct Material
 };
 
 // The strain limit acts at the end of each step. Its corrections conserve linear momentum and add no energy: they undo
-// the stretch of the step, and the rest costs kinetic energy or energy that damping has dissipated. They may reduce
-// angular momentum, by up to (omega h)^2 / 2 per step of h seconds for cloth that spins at omega.
-// - A grid whose springs alone would stretch to several times the limit stays below 1.2 times the limit as it swings
+// the stretch of the step, and any further correction costs kinetic energy or energy that damping has dissipated. They
+// may reduce angular momentum, by up to (omega h)^2 / 2 per step of h seconds for cloth that spins at omega.
+// - A grid whose springs alone would stretch to several times the limit stays below 1.2 times the limit while it swings
 //   down for a second. At rest it hangs within 1.03 times the limit.
-// - The limit is exceeded for longer where corrections would compress stiff springs. Cotton that falls on a sphere from
-//   0.1 m stretches to 2 times a limit of 1 % for a moment, and rests at 1.5 times. With a limit of 0.1 % it is 21
-//   times, and 6 times at rest.
-// - On a mesh corrections have no coarse levels. The lower end of a very soft cloth follows over some steps; tethers
-//   help.
+// - Cloth exceeds the limit for longer where corrections would compress stiff springs. Cotton that falls on a sphere
+//   from 0.1 m stretches to 2 times a limit of 1 % for a moment, and rests at 1.5 times. With a limit of 0.1 % it
+//   stretches to 21 times, and rests at 6 times.
+// - On a mesh, corrections have no coarse levels: the lower end of a very soft cloth follows over several steps.
+//   Tethers help.
 
 using ClothMaterial = std::variant<Fabric, Material>;
 
 // The springs and masses of a grid with the given spacing (m; a along rows, b along columns). The grid stretches like
-// the fabric at any spacing, and shears like it if its cells are not too oblong. The constants follow from the energy
-// of one cell under uniform strain:
+// the fabric at any spacing, and shears like the fabric if its cells are not too oblong. The constants follow from the
+// energy of one cell under uniform strain:
 // - Diagonals carry the shear stiffness: k_d = K_s (a^2 + b^2) / (2 a b).
 // - Diagonals also resist stretch, so structural springs resist it less. With p = a / b, the stiffness A of a strip
-//   along the warp that is held in its width solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and
-//   k_warp = (A - K_s p^2) b / a, k_weft = (A K_weft / K_warp - K_s / p^2) a / b. Where the shear of oblong cells is so
-//   stiff that one of these would be negative, it is 0, and K_s is the value that makes it 0. Cells 1 : 4 of cotton,
-//   denim and leather stretch as the fabric does and shear more easily.
-// - A bend spring two apart has k = B / (a b) per fold. It follows from B kappa^2 / 2 of the strip, with the spring's
-//   shortening as its measure, and has no stiffness near flat.
-// - Damping is c = 2 * ratio * sqrt(k m / 2), a fraction of what is critical for two vertices of mass m on a spring.
+//   along the warp whose width is held solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and k_warp = (A - K_s p^2) b
+//   / a, k_weft = (A K_weft / K_warp - K_s / p^2) a / b. If the shear of oblong cells is so stiff that one of these
+//   would be negative, it is 0, and K_s is the value that makes it 0. Cells of 1 : 4 of cotton, denim and leather
+//   stretch as the fabric does and shear more easily.
+// - A bend spring between vertices two apart has k = B / (a b) per fold. This follows from B kappa^2 / 2 of the strip,
+//   with curvature measured by the spring's shortening. The spring has no stiffness near flat.
+// - Damping is c = 2 * ratio * sqrt(k m / 2), a fraction of the critical damping of two vertices of mass m on a spring.
 // - The isometric model has no bend springs. Its fastest mode has the same fraction of critical damping.
 //
 // A mesh of a Fabric has no springs along its edges. Each triangle has four springs: along the warp, the weft and both
-// diagonals. With stretched lengths w of unit vectors in these directions, its energy is its area times the sum of
-// K / 2 (w - 1)^2. K is A - K_s along the warp, A K_weft / K_warp - K_s along the weft (0 where that is negative) and
-// 2 K_s along each diagonal. That is the energy of a grid of square cells, so stretch and shear stiffness are the
-// fabric's on any triangles. Damping is the same ratio on a grid of the mean spacing. A vertex has a third of the mass
-// of each triangle around it. Strain is uniform in a triangle: where edges cross warp and weft and triangles are as
-// large as folds, the mesh resists shear that changes within a fold more than the fabric does, the more the stiffer
-// stretch is against shear. MeshCloth::texture_coordinates give warp and weft.
+// diagonals. Its energy is its area times the sum of K / 2 (w - 1)^2, where w is the stretched length of a unit vector
+// in each of these directions. K is A - K_s along the warp, A K_weft / K_warp - K_s along the weft (0 where that is
+// negative) and 2 K_s along each diagonal. That is the energy of a grid of square cells, so stretch and shear stiffness
+// are the fabric's on any triangles. Damping is that of a grid with the mean spacing and the same ratio. A vertex has a
+// third of the mass of each triangle around it. Strain is uniform in a triangle. So if edges cross warp and weft and
+// triangles are as large as folds, the mesh resists shear that changes within a fold more than the fabric does. The
+// effect grows with the ratio of stretch stiffness to shear stiffness. MeshCloth::texture_coordinates give warp and
+// weft.
 VOILE_API Material make_material(const Fabric& fabric, float spacing_along_row, float spacing_along_column);
 
 // The constants of the reference scene: 0.15 kg per vertex, k = 400 N/m and c = 10 N s/m for all families, linear drag

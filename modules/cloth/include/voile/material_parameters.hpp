@@ -1,6 +1,6 @@
 // The parameters of materials, in one table: name, member, unit, range and meaning. The default is the member's, in
-// Fabric{} or Material{}. Validation, the viewer's scene files, the tables of README.md and to_string all read this
-// table. A new parameter is a member of Fabric or Material and one line here.
+// Fabric{} or Material{}. Validation, the viewer's scene files, the tables of docs/scenes.md and to_string all read
+// this table. A new parameter is a member of Fabric or Material and one line here.
 //
 //   for (const auto& parameter : voile::k_fabric_parameters)
 //       for (const auto& component : parameter.components())
@@ -85,7 +85,7 @@ inline constexpr auto k_fabric_parameters = parameter_path::join(k_own_fabric_pa
 inline constexpr auto k_material_parameters =
     parameter_path::join(k_own_material_parameters, k_common_parameters<Material>);
 
-// A member that has no line above is an error here.
+// A member without a line above is an error here.
 static_assert(sizeof(Fabric) == sizeof(float) * parameter_path::numbers(k_fabric_parameters) + sizeof(BendingModel));
 static_assert(sizeof(Material) == sizeof(float) * parameter_path::numbers(k_material_parameters));
 

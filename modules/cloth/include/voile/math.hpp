@@ -1,7 +1,7 @@
 // The vectors and matrices of the interface: GLM's, always tightly packed. Public structs have the same layout whatever
-// settings of GLM the host uses (GLM_FORCE_DEFAULT_ALIGNED_GENTYPES and the like). With GLM's defaults Vec3 is
-// glm::vec3. Otherwise GLM converts single values, and the host copies arrays: passing an array of another layout does
-// not compile.
+// GLM settings the host uses (such as GLM_FORCE_DEFAULT_ALIGNED_GENTYPES). With GLM's defaults Vec3 is glm::vec3.
+// Otherwise GLM converts single values, and the host copies arrays: passing an array of another layout does not
+// compile.
 #pragma once
 
 #include <glm/glm.hpp>

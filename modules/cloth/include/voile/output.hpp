@@ -1,5 +1,5 @@
-// What a solver gives to the host's renderer: vertex streams, from which the host draws, and copies of them in vertex
-// buffers of the host's. And how both are ordered with the host's commands.
+// What a solver gives to the host's renderer: vertex streams from which the host draws, and copies of them in vertex
+// buffers of the host. Also how both are ordered with the host's commands.
 #pragma once
 
 #include "voile/vulkan_types.hpp"
@@ -25,7 +25,7 @@ struct HostScopes
     Scope after;  // stages and accesses that read what the solver has written
 };
 
-// What the vertex streams have on request. With the defaults nothing is allocated, recorded or copied for it.
+// Optional contents of the vertex streams. With the defaults, nothing is allocated, recorded or copied for them.
 struct OutputOptions
 {
     // Keeps the positions before the last step, for motion vectors. Costs a copy of the positions per step.
@@ -33,11 +33,11 @@ struct OutputOptions
     // Keeps the triangles of each cloth in an index buffer.
     bool indices = false;
     // Usages of the streams' buffers, added to those that they have: vertex, storage and indirect buffer, transfer
-    // source and destination; index buffer for the indices. vkCreateBuffer gets them as they are.
-    // VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT gives VertexStreams::addresses. The device must be made with the
-    // feature bufferDeviceAddress. A BufferAllocator of the host's must allocate such buffers with
-    // VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.
-    // VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR needs VK_KHR_acceleration_structure.
+    // source and destination; index buffer for the indices. They are passed to vkCreateBuffer unchanged.
+    // VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT gives VertexStreams::addresses. The device must be created with the
+    // feature bufferDeviceAddress. A BufferAllocator of the host must allocate such buffers with
+    // VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR needs
+    // VK_KHR_acceleration_structure.
     VkBufferUsageFlags usage = 0;
 };
 
@@ -53,7 +53,7 @@ struct StreamAddresses
     VkDeviceAddress intersections = 0;
 };
 
-// Where a cloth's vertices lie in the solver's buffers. Valid until the next record_upload. Null handles, 0 vertices
+// Where a cloth's vertices are in the solver's buffers. Valid until the next record_upload. Null handles, 0 vertices
 // and 0 indices for a cloth that is not uploaded yet or does not exist.
 struct VertexStreams
 {
@@ -62,8 +62,8 @@ struct VertexStreams
                            // max-distance constraint or a backstop limits it, plus 4 if a triangle or an edge around it
                            // touched a feature of a collider
     VkBuffer normals{};    // vec4: unit normal and 0
-    // vec4: the positions before the last step that was recorded. Equal to the positions after an upload of the cloth,
-    // after record_restore, and after a step that begins with reset or teleport, so that the motion is 0. Null without
+    // vec4: the positions before the last recorded step. After an upload of the cloth, after record_restore, and after
+    // a step that begins with reset or teleport, they equal the positions, so the motion is 0. Null without
     // OutputOptions::previous_positions.
     VkBuffer previous_positions{};
     VkDeviceSize offset = 0; // bytes, of the first vertex, in each of them
@@ -75,17 +75,17 @@ struct VertexStreams
     VkDeviceSize index_offset = 0; // bytes, of the first index
     uint32_t index_count = 0;
 
-    // uint32, one per vertex: 1 if an edge or a triangle around it intersects one of a cloth, plus 2 if it intersects a
-    // collider, when record_statistics last counted intersections. 0 after an upload. Null without
-    // SolverOptions::intersections.
+    // uint32, one per vertex, as of the last time that record_statistics counted intersections: 1 if an edge or a
+    // triangle around the vertex intersects one of a cloth, plus 2 if it intersects a collider. 0 after an upload. Null
+    // without SolverOptions::intersections.
     VkBuffer intersections{};
     VkDeviceSize intersection_offset = 0; // bytes, of the first vertex
 
     StreamAddresses addresses;
 };
 
-// A vertex buffer of the host's, and where its vertices have what a cloth writes into them: three floats each. What is
-// not asked for is not written.
+// A vertex buffer of the host, and where its vertices have the attributes that a cloth writes: three floats each.
+// Attributes without an offset are not written.
 struct VertexLayout
 {
     VkBuffer buffer{};       // with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT

@@ -20,7 +20,7 @@ struct MaterialMember
     float& (*ref)(M&) = nullptr;
 };
 
-// One number of a parameter that has several: stretch_stiffness has warp and weft.
+// One number of a parameter that has several, such as warp and weft of stretch_stiffness.
 template <typename M>
 struct ParameterComponent
 {

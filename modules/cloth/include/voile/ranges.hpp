@@ -1,5 +1,5 @@
-// Ranges of what a solver takes. Those of materials are in material_parameters.hpp. A value outside its range, or one
-// that is not finite, is an error that names it. The ends of the ranges were tried in combination, with anchors that
+// Ranges of a solver's input. Those of materials are in material_parameters.hpp. A value outside its range, or one that
+// is not finite, is an error that names the value. The ends of the ranges were tested in combination, with anchors that
 // move no faster than k_most_speed: none makes a vertex that is not finite (tests/solver/test_ranges.cpp).
 #pragma once
 
@@ -8,18 +8,18 @@
 namespace voile
 {
 
-// Positions along each axis of the world: of vertices of cloths and colliders when they are added, deformed or moved,
-// of centers of colliders and origins of anchors. A cloth may leave the range as it moves.
+// Positions along each axis of the world: vertices of cloths and colliders when they are added, deformed or moved,
+// centers of colliders and origins of anchors. A cloth may leave the range as it moves.
 //
-// The simulation uses finer positions than floats. Up to 16 km from the origin a scene behaves as at the
-// origin, to 0.1 %. At 130 km positions are known to 1e-7 m: nothing falls through, and all is finite. Input in floats
-// is coarser: 1 mm at 10 km. So place distant objects by a transform, or add them near the origin and move them, which
+// The simulation uses finer positions than floats. Up to 16 km from the origin, a scene behaves as at the origin, to
+// 0.1 %. At 130 km, positions are known to 1e-7 m: no cloth falls through, and all values are finite. Input in floats
+// is coarser: 1 mm at 10 km. So place distant objects by a transform, or add them near the origin and move them. This
 // keeps rotations, sizes and the vertices of a mesh exact. The remaining rounding lets stiff cloth slip early on an
 // incline: cotton of 5 cm spacing slips where static friction exceeds the slope by less than 1.3 % at 8 km and 2.7 % at
 // 16 km. Smaller spacing slips earlier.
 constexpr float k_most_coordinate = 1e6f; // m, either way
 
-// The velocity of a cloth, at its start or as it is set, along each axis.
+// The velocity of a cloth along each axis, at the start or as set later.
 constexpr float k_most_speed = 1e4f; // m/s, either way
 
 // The speed below which a cloth may fall asleep (GridCloth::sleep_speed).
@@ -36,14 +36,14 @@ constexpr float k_most_cloth_size = 1e5f;   // m
 constexpr float k_least_collider_size = 1e-4f; // m
 constexpr float k_most_collider_size = 2e6f;   // m
 
-// Length of what the transform of a grid makes of its x and z axes, at least.
+// Least length of a grid's x and z axes after its transform.
 constexpr float k_least_grid_scale = 1e-7f;
 
 constexpr float k_most_friction = 100; // of a cloth and of a collider
 
-// Each entry of an anchor's frame, and of the transform that Solver::teleport takes, but for the translation.
+// Each entry of an anchor's frame, and of the transform that Solver::teleport takes, except the translation.
 constexpr float k_most_scale = 1e3f;
-// Least volume of an anchor's frame, over that of the unit cube: the frame has an inverse.
+// Least volume of an anchor's frame relative to the unit cube's, so that the frame has an inverse.
 constexpr float k_least_anchor_volume = 1e-9f;
 
 // Attachments: finite stiffness, and damping.

@@ -16,7 +16,8 @@ struct Step
     float duration = 1.f / 60; // s, 1e-6..10
 
     // Substeps of every cloth, 0..1000000. 0: each cloth takes as many as it needs (Solver::stability). A cloth that
-    // needs more than it takes is softened. If that changes from step to step, stretched springs change their energy.
+    // needs more than it takes is softened. If the softening changes from step to step, stretched springs change their
+    // energy.
     uint32_t substeps = 0;
 
     // The most substeps that a cloth takes if `substeps` is 0, 1..1000000.
@@ -24,19 +25,18 @@ struct Step
 
     // The strain limit of softened grids if `substeps` is 0, 0.001..10; 0: none. A cloth that takes fewer substeps than
     // it needs, because of max_substeps or max_vertex_substeps, would sag like rubber. A grid gets this limit then,
-    // unless its material has one. It acts once per step, with fewer passes than a material's (material.hpp), takes
-    // part of the velocity of neighbors relative to each other, and adds no energy. Diagonals, which lengthen as cloth
-    // shears, may lengthen by 0.2. Cloth that takes all of its substeps is as without it, to the bit.
-    // - 1 m of cotton of 64 x 64 and 128 x 128 vertices needs 175 and 353 substeps per 1/60 s under Verlet. In 16 of
-    //   them 99 % of its structural springs stay below a stretch of 0.08, as it hangs from two corners and as it falls
-    //   over a mesh of 1 m. With 64 x 64 vertices that hangs from two corners 8 suffice.
+    // unless its material has one. It acts once per step, with fewer passes than a material's (material.hpp). It takes
+    // part of the velocity of neighbors relative to each other and adds no energy. Diagonals, which lengthen as cloth
+    // shears, may lengthen by 0.2. Cloth that takes all of its substeps moves as without the limit, bit for bit.
+    // - 1 m of cotton of 64 x 64 and 128 x 128 vertices needs 175 and 353 substeps per 1/60 s under Verlet. In 16
+    //   substeps, 99 % of its structural springs stay below a stretch of 0.08, both when it hangs from two corners and
+    //   when it falls over a mesh of 1 m. For 64 x 64 vertices that hang from two corners, 8 substeps suffice.
     // - A mesh gets no such limit. It needs its substeps, or tethers.
     float softened_strain_limit = 0.03f;
 
-    // Budget for the sum of vertices times substeps over all enabled cloths, if `substeps` is 0. If they need more,
-    // each cloth takes at least a fraction of the substeps that it needs (of max_substeps, if it needs more than
-    // these), the same for all cloths, and at least one. Solver::stability reports the remaining stiffness. 0: no
-    // budget.
+    // Budget for the sum of vertices times substeps over all enabled cloths, if `substeps` is 0. If they need more, all
+    // cloths take at least the same fraction of the substeps that they need (of max_substeps, if they need more than
+    // that), and at least one. Solver::stability reports the remaining stiffness. 0: no budget.
     uint64_t max_vertex_substeps = 0;
 
     Vec3 gravity{0, -9.81f, 0}; // m/s^2, -1e4..1e4
@@ -50,11 +50,11 @@ struct Step
 // Errors: a member out of its range, with its name and value.
 VOILE_API Result<void> validate(const Step& step);
 
-// The substeps of a cloth in a step that simulates it and all enabled cloths that are uploaded. All members are those
-// of a default-constructed Stability for an id that is not valid.
+// The substeps of a cloth in a step that simulates it and all enabled cloths that are uploaded. For an id that is not
+// valid, all members have their defaults.
 struct Stability
 {
-    uint32_t needed = 0;       // substeps with which it keeps all of its stiffness and damping; 1000000: or more
+    uint32_t needed = 0;       // substeps with which it keeps all of its stiffness and damping; 1000000: that or more
     uint32_t used = 0;         // substeps that it takes; fewer than needed only if the step limits them
     float stiffness_scale = 1; // factor of its stiffness in this step, 0..1
     float damping_scale = 1;   // factor of its damping in this step, 0..1
