@@ -94,10 +94,10 @@ using ClothMaterial = std::variant<Fabric, Material>;
 // energy of one cell under uniform strain:
 // - Diagonals carry the shear stiffness: k_d = K_s (a^2 + b^2) / (2 a b).
 // - Diagonals also resist stretch, so structural springs resist it less. With p = a / b, the stiffness A of a strip
-//   along the warp whose width is held solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and k_warp = (A - K_s p^2) b
-//   / a, k_weft = (A K_weft / K_warp - K_s / p^2) a / b. If the shear of oblong cells is so stiff that one of these
-//   would be negative, it is 0, and K_s is the value that makes it 0. Cells of 1 : 4 of cotton, denim and leather
-//   stretch as the fabric does and shear more easily.
+//   along the warp whose width is held solves A^2 - K_warp A - K_s^2 K_warp / K_weft = 0, and
+//   k_warp = (A - K_s p^2) b / a, k_weft = (A K_weft / K_warp - K_s / p^2) a / b. If the shear of oblong cells is so
+//   stiff that one of these would be negative, it is 0, and K_s is the value that makes it 0. Cells of 1 : 4 of cotton,
+//   denim and leather stretch as the fabric does and shear more easily.
 // - A bend spring between vertices two apart has k = B / (a b) per fold. This follows from B kappa^2 / 2 of the strip,
 //   with curvature measured by the spring's shortening. The spring has no stiffness near flat.
 // - Damping is c = 2 * ratio * sqrt(k m / 2), a fraction of the critical damping of two vertices of mass m on a spring.
