@@ -325,7 +325,7 @@ struct MeshCollider
 
 // Limits the memory of cached hierarchies, in bytes. The cache belongs to the process and serves all solvers. A
 // hierarchy takes about 85 bytes per triangle, and the least recently used go first. Two meshes are the same if their
-// triangles are equal to the bit in the world's axes, relative to their center. 0 caches none and frees all. Any thread
+// triangles are bit-identical in the world's axes, relative to their center. 0 caches none and frees all. Any thread
 // may call this at any time.
 constexpr uint64_t k_default_hierarchy_cache_limit = uint64_t{256} << 20;
 VOILE_API void set_hierarchy_cache_limit(uint64_t bytes);
