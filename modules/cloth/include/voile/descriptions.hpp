@@ -64,7 +64,8 @@ struct GridCloth
     uint32_t layers = 1;
 
     // The cloth collides with itself and with other such cloths, at its thickness (at most 0.4 of the spacing of its
-    // vertices) and with its friction. Two cloths collide at the mean of both.
+    // vertices) and with its friction. Two cloths collide at the mean of their thicknesses,
+    // with the geometric means of their friction coefficients.
     //
     // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
     // the strain limit do. A collider that presses layers together enters them instead
@@ -265,7 +266,7 @@ enum class Sidedness
 // - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, whether these are
 //   enabled or not. So another such cloth changes how the collider holds this one (by 5 mm beside a sphere). Cloths of
 //   other layers do not.
-// - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 9 m/s without edges).
+// - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 10 m/s without edges).
 // - A mesh that deforms has edges and corners where its present shape bends. If its vertices move by more than the
 //   thickness between two contact passes, finding these takes longer. Needles that bend and turn at more than 30 m/s
 //   may be left through the cloth.

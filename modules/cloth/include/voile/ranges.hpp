@@ -1,6 +1,7 @@
 // Ranges of a solver's input. Those of materials are in material_parameters.hpp. A value outside its range, or one that
 // is not finite, is an error that names the value. The ends of the ranges were tested in combination, with anchors that
-// move no faster than k_most_speed: none makes a vertex that is not finite (tests/solver/test_ranges.cpp).
+// move no faster than k_most_speed: none makes a vertex that is not finite, of grids in steps of any duration, of
+// meshes in steps of up to 1/60 s (tests/solver/test_ranges.cpp).
 #pragma once
 
 #include <cstdint>

@@ -81,7 +81,7 @@ struct Tuning
     // workgroup_size. 0: eight, or one on CPU devices.
     uint32_t feature_threads = 0;
 
-    // The room for features near the cloth, as a mean number per vertex, at most 64, 128 bytes each. None: 8 per vertex
+    // The room for features near the cloth, as a mean number per vertex, at most 64, 112 bytes each. None: 8 per vertex
     // and 65,536 more in total, but no more than 64 per vertex. If the room does not suffice, features are listed again
     // for a shorter time or for fewer vertices. The other vertices find their features in every substep, which is
     // slower and merges contacts in another order. Two equal runs are bit-identical.
@@ -148,8 +148,8 @@ struct SolverOptions
     uint32_t statistics_slots = 2; // slots for the statistics of frames in flight, 1..16
 
     // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
-    // with features that can protrude between the vertices of a cloth costs two more passes per substep and 672 bytes
-    // of device memory per vertex.
+    // with features that can protrude between the vertices of a cloth costs two more passes per substep, and 160 bytes
+    // of device memory per vertex and 112 per item (Tuning::feature_items).
     bool feature_contact = true;
 
     // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this, they
