@@ -6,7 +6,7 @@ voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp geometry/test_self_interse
 voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
                                   colliders/test_cooked_collider.cpp
                LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_sleep SOURCES solver/test_sleep.cpp solver/test_wake.cpp pairs/test_sleeping_islands.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_sleep SOURCES solver/test_sleep.cpp solver/test_wake.cpp solver/test_awake_patches.cpp pairs/test_sleeping_islands.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES colliders/test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_intersections SOURCES intersections/test_cloth_intersections.cpp intersections/test_collider_intersections.cpp support/test_exact_intersections.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_self_collision SOURCES pairs/test_self_collision.cpp pairs/test_pair_lists.cpp pairs/test_hard_cases.cpp pairs/test_squeezed.cpp pairs/test_pair_response.cpp pairs/test_pair_motion.cpp pairs/test_crowded.cpp pairs/test_near_layers.cpp pairs/test_tangles.cpp pairs/test_islands.cpp LIBRARIES voile::cloth_internal voile::engine)

@@ -131,7 +131,7 @@ void main()
 {
     const uint first = gl_WorkGroupID.x;
     const uint cloth = patches[first].cloth;
-    const bool asleep = (patches[first].tile_shift & VOILE_PATCH_ASLEEP) != 0;
+    const bool asleep = (patches[first].tile & VOILE_PATCH_ASLEEP) != 0;
     if (asleep || (first > 0 && patches[first - 1].cloth == cloth))
         return;
     const uint thread = gl_LocalInvocationID.x;

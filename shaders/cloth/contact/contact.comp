@@ -65,6 +65,8 @@ layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
+uint patch_index; // of the workgroup
+
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "shared/vertex_normal.glsl"
@@ -261,7 +263,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
-    return walk_colliders(push.first_patch + gl_WorkGroupID.x, box_around(motion.from.x, to));
+    return walk_colliders(patch_index, box_around(motion.from.x, to));
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
@@ -305,7 +307,7 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
     motion.v = velocity.xyz;
     motion.cloth = cloth;
     flags = uint(velocity.w);
-    if (push.features != 0 && patches[push.first_patch + gl_WorkGroupID.x].near_features != 0 &&
+    if (push.features != 0 && patches[patch_index].near_features != 0 &&
         corrections[i].substep == counted_substep(push.substep))
     {
         motion.displacement += corrections[i].shift;
@@ -419,8 +421,9 @@ void watch_driven(uint i, uint cloth, Motion motion)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || self.asleep)
+    patch_index = patch_of_batch(push.first_patch);
+    const PatchVertex self = patch_vertex(patch_index);
+    if (!self.exists)
         return;
     const uint i = self.index;
     const uint cloth = self.cloth;

@@ -386,7 +386,7 @@ void main()
     const uint thread = gl_LocalInvocationID.x;
     const uint lane = thread % push.lanes;
     const uint in_group = thread / push.lanes;
-    if ((patches[patch_of_group()].tile_shift & VOILE_PATCH_ASLEEP) != 0)
+    if ((patches[patch_of_group()].tile & VOILE_PATCH_ASLEEP) != 0)
         return;
     for (uint i = 0; i < k_margins; ++i)
         counts[k_margins * thread + i] = 0;

@@ -49,8 +49,8 @@ void write_position(uint i, FinePosition x, float inverse_mass)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || self.asleep)
+    const PatchVertex self = patch_vertex(patch_of_batch(push.first_patch));
+    if (!self.exists)
         return;
     const uint i = self.index;
     const vec4 stage_x = stage_positions[i];

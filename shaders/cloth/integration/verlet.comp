@@ -66,8 +66,8 @@ void respond_to_plane(uint i, inout Motion motion)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!self.exists || self.asleep)
+    const PatchVertex self = patch_vertex(patch_of_batch(push.first_patch));
+    if (!self.exists)
         return;
     const uint i = self.index;
     // No branch around the gather: all loads are issued together.

@@ -42,7 +42,8 @@
 
 // Cloths.
 VOILE_BUFFER(0, cloths, ClothRecord, cloths, "size, springs, bounds, friction, drag of a cloth")
-VOILE_SCRATCH_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, a copy of the data of their cloth that kernels need, whether they sleep, and whether they are near features")
+VOILE_SCRATCH_BUFFER(1, patches, Patch, patches, "the vertices of a workgroup, a copy of the data of their cloth that kernels need, whether they sleep, which are awake, and whether they are near features")
+VOILE_SCRATCH_BUFFER(96, awake_dispatches, AwakeDispatch, VOILE_SUBSTEP_BATCHES, "the sizes of the indirect dispatches over the patches of each batch whose cloths are awake")
 VOILE_BUFFER(95, sleeps, SleepRecord, cloths, "how long a cloth has been calm, where it then is, and which cloths sleep with it")
 VOILE_BUFFER(2, mesh_vertices, MeshVertex, mesh_vertices, "the offsets and lengths of the lists of a mesh vertex")
 VOILE_BUFFER(3, mesh_springs, MeshSpring, springs, "springs of mesh vertices; the lists of a workgroup are interleaved")

@@ -127,8 +127,15 @@ struct MembraneCorner
     uint corner;     // the number of the vertex in the triangle: 0..2, counter-clockwise
 };
 
-// Set in Patch.tile_shift by the GPU: the cloth of the patch sleeps in this step (wake_cloths.comp).
-#define VOILE_PATCH_ASLEEP 0x80000000u
+// In Patch.tile. Its lowest bits are the tile_shift.
+#define VOILE_PATCH_TILE_SHIFT 15u
+// Set by the GPU: the cloth of the patch sleeps in this step (wake_cloths.comp).
+#define VOILE_PATCH_ASLEEP 16u
+// The bits from here on, which the GPU writes: in the n-th patch of a batch, the index of the batch's n-th patch whose
+// cloth is awake (list_awake_patches.comp).
+#define VOILE_PATCH_AWAKE_SHIFT 5
+// In the push constant first_patch: workgroups take the patches that are awake.
+#define VOILE_AWAKE_PATCHES 0x80000000u
 
 // The vertices of one workgroup. Of a mesh: vertices first .. first + group size - 1. Of a grid: a tile of 2^tile_shift
 // columns from column `first` on, and of as many rows from `row` on as fill the group, so that a workgroup's vertices
@@ -141,7 +148,7 @@ struct Patch
     uint rows;         // of the cloth; of a mesh its vertices
     uint first;        // counted within the cloth
     uint row;
-    uint tile_shift;    // VOILE_PATCH_ASLEEP
+    uint tile;          // VOILE_PATCH_*
     uint near_features; // 1: it may touch features of colliders before the next query (find_near_features.comp)
 };
 

@@ -13,8 +13,8 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
     vertex.cloth = c.cloth;
     vertex.columns = c.columns;
     vertex.rows = c.rows;
-    vertex.asleep = (c.tile_shift & VOILE_PATCH_ASLEEP) != 0;
-    const uint tile_shift = c.tile_shift & ~VOILE_PATCH_ASLEEP;
+    vertex.asleep = (c.tile & VOILE_PATCH_ASLEEP) != 0;
+    const uint tile_shift = c.tile & VOILE_PATCH_TILE_SHIFT;
     if (c.columns > 0)
     {
         vertex.column_row = ivec2(c.first + (thread & ((1u << tile_shift) - 1)), c.row + (thread >> tile_shift));
@@ -29,6 +29,14 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
     }
     vertex.index = c.first_vertex + vertex.local;
     return vertex;
+}
+
+// The patch of the workgroup, in a dispatch over a batch or over its patches that are awake.
+uint patch_of_batch(uint first_patch)
+{
+    const uint place = (first_patch & ~VOILE_AWAKE_PATCHES) + gl_WorkGroupID.x;
+    const bool awake = (first_patch & VOILE_AWAKE_PATCHES) != 0;
+    return awake ? patches[place].tile >> VOILE_PATCH_AWAKE_SHIFT : place;
 }
 
 PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x); }

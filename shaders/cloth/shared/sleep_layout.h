@@ -3,6 +3,7 @@
 #define VOILE_SLEEP_LAYOUT_H
 
 #include "../../shared_types.h"
+#include "step_layout.h"
 
 // s: a cloth sleeps once it has been calm for so long.
 #define VOILE_SLEEP_TIME 0.5f
@@ -35,8 +36,23 @@ struct SleepPush
     uint cloths;    // the end of the indices of those that collide with each other; 0: at most one does
 };
 
+// The size of the dispatches over the patches of a batch whose cloths are awake.
+struct AwakeDispatch
+{
+    uint patches;
+    uint y;
+    uint z;
+};
+
+// Push constants of the list of these patches: the first patch of each batch, and the end of the last one.
+struct AwakePush
+{
+    uint first_patch[VOILE_SUBSTEP_BATCHES + 1];
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(SleepRecord) == 64);
+static_assert(sizeof(AwakeDispatch) == 12);
 #endif
 
 VOILE_SHARED_END

@@ -22,7 +22,7 @@ void main()
         return;
     const Patch self = patches[index];
     const bool asleep = is_asleep(self.cloth);
-    patches[index].tile_shift = (self.tile_shift & ~VOILE_PATCH_ASLEEP) | (asleep ? VOILE_PATCH_ASLEEP : 0);
+    patches[index].tile = (self.tile & ~VOILE_PATCH_ASLEEP) | (asleep ? VOILE_PATCH_ASLEEP : 0);
     if (!is_first_patch(self))
         return;
     // What woke it may leave it slow at first. Other patches read the same with and without this.

@@ -74,6 +74,7 @@ struct DescriptorSets
     VkDescriptorSet find_reaches{};
     VkDescriptorSet find_restless{};
     VkDescriptorSet wake_cloths{};
+    VkDescriptorSet list_awake_patches{};
     VkDescriptorSet find_speeds{};
     VkDescriptorSet decide_sleep{};
     VkDescriptorSet fall_asleep{};

@@ -113,6 +113,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.find_reaches, "cloth reaches", shaders::k_find_reaches_comp, plain);
     add(kernels.find_restless, "cloth restless", shaders::k_find_restless_comp, plain);
     add(kernels.wake_cloths, "cloth wake", shaders::k_wake_cloths_comp, plain);
+    add(kernels.list_awake_patches, "cloth awake patches", shaders::k_list_awake_patches_comp, plain);
     add(kernels.find_speeds, "cloth speeds", shaders::k_find_speeds_comp, plain);
     add(kernels.decide_sleep, "cloth sleep", shaders::k_decide_sleep_comp, plain);
     add(kernels.fall_asleep, "cloth fall asleep", shaders::k_fall_asleep_comp, plain);

@@ -58,6 +58,7 @@ struct Kernels
     gpu::Kernel find_reaches;
     gpu::Kernel find_restless;
     gpu::Kernel wake_cloths;
+    gpu::Kernel list_awake_patches;
     gpu::Kernel find_speeds;
     gpu::Kernel decide_sleep;
     gpu::Kernel fall_asleep;

@@ -83,7 +83,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
     record_step_input(recorder, *solver.device, make_step_input(solver, history, step, plan.substeps, first_substep));
     const StepContext context{recorder, solver, lists, history, step, plan, with_limits};
-    record_wake(recorder, solver, lists.patch_count());
+    record_wake(recorder, solver, lists);
     StepRecorder passes(context);
     passes.record_near_colliders();
     record_depenetration(recorder, solver, history, step);

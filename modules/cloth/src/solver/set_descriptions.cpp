@@ -313,6 +313,7 @@ std::vector<SetDescription> Describer::describe()
     add(sets_.find_reaches, kernels_.find_reaches);
     add(sets_.find_restless, kernels_.find_restless);
     add(sets_.wake_cloths, kernels_.wake_cloths);
+    add(sets_.list_awake_patches, kernels_.list_awake_patches);
     add(sets_.find_speeds, kernels_.find_speeds);
     add(sets_.decide_sleep, kernels_.decide_sleep);
     add(sets_.fall_asleep, kernels_.fall_asleep);

@@ -50,6 +50,19 @@ shared::SleepPush make_push(const Solver::State& solver, uint32_t patches)
     return {patches, solver.passes.moving ? solver.passes.colliders : 0, islands ? solver.device->pair_cloths.end : 0};
 }
 
+// Kernels take the patches of a batch by their number among those that are awake.
+void record_awake_patches(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists)
+{
+    shared::AwakePush push{};
+    for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
+        push.first_patch[i] = lists.batches[i].patches.first;
+    push.first_patch[VOILE_SUBSTEP_BATCHES] = lists.patch_count();
+    const uint32_t group = solver.options.tuning.workgroup_size;
+    recorder.dispatch(solver.kernels.list_awake_patches, solver.device->sets.list_awake_patches,
+                      VOILE_SUBSTEP_BATCHES * group, group, push);
+    publish_dispatch(recorder);
+}
+
 } // namespace
 
 void Solver::State::wake(ClothModel& cloth)
@@ -112,10 +125,11 @@ void record_woken(gpu::Recorder& recorder, Solver::State& solver)
                             std::as_bytes(std::span(&k_not_calm, 1)));
 }
 
-void record_wake(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches)
+void record_wake(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists)
 {
     if (!solver.passes.sleep)
         return;
+    const uint32_t patches = lists.patch_count();
     const uint32_t group = solver.options.tuning.workgroup_size;
     const shared::SleepPush push = make_push(solver, patches);
     if (push.cloths > 0)
@@ -123,6 +137,7 @@ void record_wake(gpu::Recorder& recorder, const Solver::State& solver, uint32_t 
                           std::span<const std::byte>{});
     recorder.dispatch(solver.kernels.find_restless, solver.device->sets.find_restless, patches, group, push);
     recorder.dispatch(solver.kernels.wake_cloths, solver.device->sets.wake_cloths, patches, group, push);
+    record_awake_patches(recorder, solver, lists);
 }
 
 void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches)

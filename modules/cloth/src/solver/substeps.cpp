@@ -114,8 +114,8 @@ void BatchRecorder::record_rk4(uint32_t substep)
     {
         shared::StagePush push = make_push(static_cast<float>(substep) + k_stage_times[stage - 1]);
         push.stage = stage;
-        dispatch(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
-                 lists_.patches, push);
+        dispatch_awake(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
+                       push);
     }
 }
 
@@ -127,7 +127,7 @@ void BatchRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
         set = device_.sets.verlet_first;
-    dispatch(kernels_.verlet, set, lists_.patches, push);
+    dispatch_awake(kernels_.verlet, set, push);
 }
 
 void BatchRecorder::finish()
@@ -136,8 +136,8 @@ void BatchRecorder::finish()
         return;
     shared::StagePush push = make_push(static_cast<float>(substeps_));
     push.kick = of_level_0(0.5f);
-    dispatch(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
-             lists_.patches, push);
+    dispatch_awake(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
+                   push);
 }
 
 void BatchRecorder::record_attachments(uint32_t substep, uint32_t lasts)
@@ -168,7 +168,7 @@ void BatchRecorder::record_near_colliders(uint32_t substep)
     push.colliders = solver_.passes.colliders;
     push.features = solver_.passes.features ? 1 : 0;
     push.near_stride = device_.near_stride;
-    dispatch(kernels_.near_colliders, device_.sets.near_colliders, lists_.patches, push);
+    dispatch(kernels_.near_colliders, device_.sets.near_colliders, push);
 }
 
 BatchRecorder::ItemRange BatchRecorder::feature_items() const
@@ -278,7 +278,7 @@ void BatchRecorder::record_contact(uint32_t substep)
         push.result = VOILE_CONTACT_IN_PLACE;
     else
         push.result = VOILE_CONTACT_INTO_EARLIER;
-    dispatch(contact_kernel(), device_.sets.contact[proposal(substep)], lists_.patches, push);
+    dispatch_awake(contact_kernel(), device_.sets.contact[proposal(substep)], push);
 }
 
 const gpu::Kernel& BatchRecorder::contact_kernel() const
@@ -303,7 +303,7 @@ void BatchRecorder::record_limit_work(VkDescriptorSet set)
 {
     shared::StagePush push{};
     push.substeps = of_level_0(1);
-    dispatch(kernels_.limit_work, set, lists_.patches, push);
+    dispatch(kernels_.limit_work, set, push);
 }
 
 } // namespace voile

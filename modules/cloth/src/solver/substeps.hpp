@@ -3,6 +3,8 @@
 
 #include "solver/solver_state.hpp"
 
+#include "shared/sleep_layout.h"
+
 namespace voile
 {
 
@@ -82,11 +84,22 @@ private:
     [[nodiscard]] size_t proposal(uint32_t substep) const;
     // Contact of odd numbers of substeps ends with a pass over one, which copies its result into the state.
     [[nodiscard]] bool ends_alone() const { return contact_period_ > 1 && substeps_ % 2 == 1; }
+    // Over all patches of the batch.
     template <typename Push>
-    void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, EntryRange patches, Push push)
+    void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, Push push)
     {
-        push.first_patch = patches.first;
-        recorder_.dispatch(kernel, set, patches.count * group_, group_, push);
+        push.first_patch = lists_.patches.first;
+        recorder_.dispatch(kernel, set, lists_.patches.count * group_, group_, push);
+    }
+    // Over those whose cloths are awake.
+    template <typename Push>
+    void dispatch_awake(const gpu::Kernel& kernel, VkDescriptorSet set, Push push)
+    {
+        if (!context_.passes.sleep)
+            return dispatch(kernel, set, push);
+        push.first_patch = lists_.patches.first | VOILE_AWAKE_PATCHES;
+        recorder_.dispatch_indirect(kernel, set, device_[buffer::awake_dispatches].handle(),
+                                    batch_ * sizeof(shared::AwakeDispatch), push);
     }
     const StepContext& context_;
     gpu::Recorder& recorder_;
