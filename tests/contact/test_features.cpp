@@ -228,8 +228,7 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
         CAPTURE(mesh);
         const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.tuning = {.feature_threads = 1}});
         CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
-        for (const voile::Tuning& tuning : {voile::Tuning{.workgroup_size = 1, .feature_threads = 1},
-                                            voile::Tuning{.workgroup_size = 128, .feature_threads = 8},
+        for (const voile::Tuning& tuning : {voile::Tuning{.workgroup_size = 128, .feature_threads = 8},
                                             voile::Tuning{.workgroup_size = 64, .feature_threads = 64}})
         {
             CAPTURE(tuning.workgroup_size);

@@ -17,8 +17,8 @@ using tests::edge_of_a_box;
 constexpr float k_thick = 0.003f; // cotton's
 constexpr float k_thin = 0.001f;
 const Shot k_shots[] = {
-    {36, 1.5f, 5, k_thick, 10}, {36, 1.5f, 20, k_thin, 6}, {36, 1.5f, 60, k_thick, 4}, {36, 1.5f, 60, k_thin, 4}};
-const Shot k_drop = {32, 1, 5, k_thick, 0, 1.225f};
+    {28, 1.2f, 5, k_thick, 10}, {28, 1.2f, 20, k_thin, 6}, {28, 1.2f, 60, k_thick, 4}, {28, 1.2f, 60, k_thin, 4}};
+const Shot k_drop = {26, 1, 5, k_thick, 0, 1.225f};
 constexpr float k_dense_air = 6; // kg/m^3; hanging parts soon stop swinging in it, but cloth slides slowly
 
 void shoot(const Scene& scene)

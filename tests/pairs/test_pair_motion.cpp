@@ -171,7 +171,7 @@ TEST_CASE("a ball that is driven at 8 m/s into a sheet that collides with itself
     }
     const voile::ColliderId collider = take(harness.solver.add_collider(
         voile::MeshCollider{.positions = ball.positions, .triangles = ball.triangles, .deforms = deforms}));
-    voile::GridCloth sheet = tests::flat_sheet(36, 0.53f, 0.2f);
+    voile::GridCloth sheet = tests::flat_sheet(30, 0.44f, 0.2f);
     voile::Fabric fabric = voile::cotton();
     fabric.thickness = 0.003f;
     sheet.material = fabric;

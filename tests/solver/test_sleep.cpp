@@ -116,72 +116,71 @@ TEST_CASE(
     constexpr float k_any_speed = 10;
     const tests::ClothMesh mesh = tests::sheet(7, 7, 0.02f);
     const voile::engine::Mesh needle = voile::engine::make_sphere({0, 0, 0}, 0.012f, 6);
-    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
-        for (const uint32_t colliders : {1u, 12u})
-        {
-            CAPTURE(static_cast<int>(integrator));
-            CAPTURE(colliders);
-            constexpr voile::Step k_step{.duration = 1.f / 60, .substeps = 3};
-            ClothHarness harness;
-            std::vector<voile::ClothId> sleepers;
-            std::vector<voile::ClothId> awake;
-            for (const bool sleeps : {true, false})
-                for (uint32_t i = 0; i < 2; ++i)
+    for (const uint32_t colliders : {1u, 12u})
+    {
+        const auto integrator = colliders == 1 ? voile::Integrator::rk4 : voile::Integrator::verlet;
+        CAPTURE(colliders);
+        constexpr voile::Step k_step{.duration = 1.f / 60, .substeps = 3};
+        ClothHarness harness;
+        std::vector<voile::ClothId> sleepers;
+        std::vector<voile::ClothId> awake;
+        for (const bool sleeps : {true, false})
+            for (uint32_t i = 0; i < 2; ++i)
+            {
+                const glm::vec3 position(0.3f * static_cast<float>(i), 0, sleeps ? 0 : 0.5f);
+                voile::Fabric fabric = voile::cotton();
+                if (i == 0)
+                    fabric.stretch_stiffness = {5, 5}; // so that tethers are taut
+                else
+                    fabric.strain_limit = 0.01f;
+                voile::ClothId cloth;
+                if (i == 0)
                 {
-                    const glm::vec3 position(0.3f * static_cast<float>(i), 0, sleeps ? 0 : 0.5f);
-                    voile::Fabric fabric = voile::cotton();
-                    if (i == 0)
-                        fabric.stretch_stiffness = {5, 5}; // so that tethers are taut
-                    else
-                        fabric.strain_limit = 0.01f;
-                    voile::ClothId cloth;
-                    if (i == 0)
-                    {
-                        voile::GridCloth grid = sheet(sleeps ? k_any_speed : 0, 0, integrator);
-                        grid.transform = moved(position);
-                        grid.material = fabric;
-                        grid.velocity = {0.3f, 0, 0};
-                        cloth = take(harness.solver.add_cloth(grid));
-                    }
-                    else
-                    {
-                        voile::MeshCloth description = mesh.cloth();
-                        description.transform = moved(position);
-                        description.integrator = integrator;
-                        description.material = fabric;
-                        description.sleep_speed = sleeps ? k_any_speed : 0;
-                        cloth = take(harness.solver.add_cloth(description));
-                    }
-                    REQUIRE(harness.solver.set_attachments(
-                        cloth, {voile::pin(0), voile::spring(6, 50, 0.1f), voile::max_distance(42, 0.05f)}));
-                    REQUIRE(harness.solver.set_tethers(cloth, voile::Tethers{}));
-                    (sleeps ? sleepers : awake).push_back(cloth);
-                    for (uint32_t c = 0; c < colliders; ++c)
-                    {
-                        voile::MeshCollider collider = tests::collider(needle);
-                        collider.transform = moved(position + glm::vec3(0.01f * static_cast<float>(c), -0.013f, 0.03f));
-                        take(harness.solver.add_collider(collider));
-                    }
+                    voile::GridCloth grid = sheet(sleeps ? k_any_speed : 0, 0, integrator);
+                    grid.transform = moved(position);
+                    grid.material = fabric;
+                    grid.velocity = {0.3f, 0, 0};
+                    cloth = take(harness.solver.add_cloth(grid));
                 }
-            harness.upload();
-            harness.step(k_step, k_sleep_frames);
-            REQUIRE(sleeping(harness) == 2);
-            std::vector<std::vector<glm::vec4>> before;
-            for (const voile::ClothId cloth : awake)
-                before.push_back(harness.positions(cloth));
-            for (const voile::ClothId cloth : sleepers)
-                check_rests(harness, cloth, k_step, 10);
-            for (size_t i = 0; i < awake.size(); ++i)
-                CHECK_FALSE(same_bits(harness.positions(awake[i]), before[i]));
-            CHECK(sleeping(harness) == 2);
-            // They go on from rest.
-            for (const voile::ClothId cloth : sleepers)
-                REQUIRE(harness.solver.wake(cloth));
-            harness.step(k_step);
-            CHECK(sleeping(harness) == 0);
-            for (const voile::ClothId cloth : sleepers)
-                CHECK(fastest(harness.velocities(cloth)) > 0.01f);
-        }
+                else
+                {
+                    voile::MeshCloth description = mesh.cloth();
+                    description.transform = moved(position);
+                    description.integrator = integrator;
+                    description.material = fabric;
+                    description.sleep_speed = sleeps ? k_any_speed : 0;
+                    cloth = take(harness.solver.add_cloth(description));
+                }
+                REQUIRE(harness.solver.set_attachments(
+                    cloth, {voile::pin(0), voile::spring(6, 50, 0.1f), voile::max_distance(42, 0.05f)}));
+                REQUIRE(harness.solver.set_tethers(cloth, voile::Tethers{}));
+                (sleeps ? sleepers : awake).push_back(cloth);
+                for (uint32_t c = 0; c < colliders; ++c)
+                {
+                    voile::MeshCollider collider = tests::collider(needle);
+                    collider.transform = moved(position + glm::vec3(0.01f * static_cast<float>(c), -0.013f, 0.03f));
+                    take(harness.solver.add_collider(collider));
+                }
+            }
+        harness.upload();
+        harness.step(k_step, k_sleep_frames);
+        REQUIRE(sleeping(harness) == 2);
+        std::vector<std::vector<glm::vec4>> before;
+        for (const voile::ClothId cloth : awake)
+            before.push_back(harness.positions(cloth));
+        for (const voile::ClothId cloth : sleepers)
+            check_rests(harness, cloth, k_step, 10);
+        for (size_t i = 0; i < awake.size(); ++i)
+            CHECK_FALSE(same_bits(harness.positions(awake[i]), before[i]));
+        CHECK(sleeping(harness) == 2);
+        // They go on from rest.
+        for (const voile::ClothId cloth : sleepers)
+            REQUIRE(harness.solver.wake(cloth));
+        harness.step(k_step);
+        CHECK(sleeping(harness) == 0);
+        for (const voile::ClothId cloth : sleepers)
+            CHECK(fastest(harness.velocities(cloth)) > 0.01f);
+    }
 }
 
 TEST_CASE("how long a cloth slept makes no difference to how it moves then, to the bit")

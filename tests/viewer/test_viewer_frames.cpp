@@ -185,7 +185,7 @@ TEST_CASE("--debug, --export and --collider work with deforming meshes")
     save(runs, "plate.obj", dome(0));
     const std::string text = scene(R"({"frames": "dome_%d.obj", "rate": 4})", "", 0.35f);
     const fs::path file = runs.folder().write("d.json", text);
-    const std::string base = file.string() + " --headless --size 64x36 --frames 12 --validate --verify ";
+    const std::string base = file.string() + " --headless --size 64x36 --frames 6 --validate --verify ";
     const Run boxes = run_viewer(base + "--debug boxes --debug contacts --debug normals");
     CAPTURE(boxes.errors);
     CHECK(boxes.exit_code == 0);
