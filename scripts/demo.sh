@@ -6,6 +6,7 @@
 #   scripts/demo.sh --headless         the film
 #   scripts/demo.sh --film             a film of 20 seconds of four scenes, out/demo/voile.mp4
 #   scripts/demo.sh --scene drape ...  another scene; other arguments go to the viewer
+#   scripts/demo.sh --help             prints this
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,6 +20,10 @@ while [ $# -gt 0 ]; do
       [ $# -gt 1 ] || { echo 'demo: --scene needs a name' >&2; exit 1; }
       scene=$2
       shift
+      ;;
+    --help | -h)
+      awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' scripts/demo.sh
+      exit 0
       ;;
     --headless) headless=true ;;
     --film) film=true ;;
@@ -62,8 +67,8 @@ given --out || files+=(--out "$out")
 given --frames || files+=(--frames 180)
 given --every || files+=(--every 10)
 given --stats || files+=(--stats "$out/statistics.json")
-if given --video; then
-  :
+if given --video || [[ " ${arguments[*]-} " =~ ' --frames 0 '|' --frames=0 ' ]]; then
+  : # a film has frames
 elif command -v ffmpeg >/dev/null 2>&1; then
   files+=(--video "$out/film.mp4")
 else

@@ -41,8 +41,11 @@ fail() { echo "failed: $1" >&2; exit 1; }
 [ -f "$work/out/demo/frame_0010.png" ] || fail 'new pictures'
 [ ! -f "$old" ] || fail 'pictures of an earlier run stay'
 
+"$work/scripts/demo.sh" --help | grep -q -- '--film ' || fail 'the help'
 films="$work/build/release/bin/films" # scene and frames, at 60 per second
 rm -f "$films"
+"$work/scripts/demo.sh" --frames 0
+[ ! -f "$films" ] || fail 'a film without frames'
 "$work/scripts/demo.sh" --film
 [ -s "$work/out/demo/voile.mp4" ] || fail 'no film'
 [ "$(awk '{ seconds += $2 / 60 } END { print seconds }' "$films")" = 20 ] || fail 'the film has not 20 seconds'

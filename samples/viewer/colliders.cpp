@@ -82,7 +82,7 @@ voile::Result<Solid> load_sequence(const ColliderEntry& entry)
     if (!loaded)
         return loaded.error();
     const auto frames = std::make_shared<const MeshSequence>(std::move(loaded.value()));
-    return Solid{.name = voile::gpu::printable(entry.frames->pattern.stem().string()),
+    return Solid{.name = voile::gpu::printable(sequence_name(*entry.frames)),
                  .shape = frames->first(),
                  .transform = matrix(entry.transform),
                  .frames = frames};

@@ -8,7 +8,17 @@ namespace viewer
 namespace
 {
 
-voile::Result<void> make_folder(const std::filesystem::path& folder)
+std::filesystem::path picture_name(uint64_t frame)
+{
+    std::string number = std::to_string(frame);
+    if (number.size() < 4)
+        number.insert(0, 4 - number.size(), '0');
+    return "frame_" + number + ".png";
+}
+
+} // namespace
+
+voile::Result<void> make_picture_folder(const std::filesystem::path& folder)
 {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
@@ -22,16 +32,6 @@ voile::Result<void> make_folder(const std::filesystem::path& folder)
     return {};
 }
 
-std::filesystem::path picture_name(uint64_t frame)
-{
-    std::string number = std::to_string(frame);
-    if (number.size() < 4)
-        number.insert(0, 4 - number.size(), '0');
-    return "frame_" + number + ".png";
-}
-
-} // namespace
-
 voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, double rate, const Options& options)
 {
     FrameOutputs outputs;
@@ -40,11 +40,6 @@ voile::Result<FrameOutputs> FrameOutputs::create(voile::engine::App& app, double
     outputs.every_ = options.every;
     outputs.film_path_ = options.video;
     outputs.png_.resize(app.slots());
-    if (options.out)
-    {
-        if (auto made = make_folder(*options.out); !made)
-            return made.error();
-    }
     if (options.video)
     {
         auto film = FilmWriter::create(*options.video, {options.width, options.height, rate});
@@ -110,7 +105,8 @@ void FrameOutputs::finish(Outcome& outcome)
     if (folder_ && last_ && !last_saved_ && app_->has_window())
         saved = save_last();
     if (folder_ && (pictures_written_ > 0 || !saved))
-        outcome.add(saved, std::to_string(pictures_written_) + " pictures in " + written_name(*folder_));
+        outcome.add(saved, std::to_string(pictures_written_) +
+                               (pictures_written_ == 1 ? " picture in " : " pictures in ") + written_name(*folder_));
     if (film_)
         outcome.add(film_->finish(), written_name(*film_path_));
 }

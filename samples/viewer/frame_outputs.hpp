@@ -13,10 +13,13 @@
 namespace viewer
 {
 
+// The folder of --out, which other files may go into, too. Errors name it.
+voile::Result<void> make_picture_folder(const std::filesystem::path& folder);
+
 class FrameOutputs
 {
 public:
-    // Makes the folder, starts the encoder. Errors name the file or folder that cannot be written.
+    // Starts the encoder. Errors name the file that cannot be written.
     static voile::Result<FrameOutputs> create(voile::engine::App& app, double rate, const Options& options);
 
     // Records the copy that this frame's files need; after drawing, outside rendering.

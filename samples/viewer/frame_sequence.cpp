@@ -33,6 +33,16 @@ std::string difference(const voile::engine::Mesh& faces, const voile::engine::Me
 
 } // namespace
 
+std::string sequence_name(const FrameSequence& entry)
+{
+    std::string name = entry.pattern.stem().string();
+    const size_t number = name.find('%');
+    if (number != std::string::npos)
+        name.erase(number, name.find('d', number) - number + 1);
+    name.resize(name.find_last_not_of("_-. ") + 1); // npos + 1 is 0
+    return name.empty() ? "frames" : name;
+}
+
 voile::Result<MeshSequence> MeshSequence::load(const FrameSequence& entry, const std::filesystem::path& mesh)
 {
     const auto files = frame_files(entry);

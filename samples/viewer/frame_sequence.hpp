@@ -8,6 +8,9 @@
 namespace viewer
 {
 
+// "walk" of walk_%04d.obj; "frames" of %d.obj
+std::string sequence_name(const FrameSequence& entry);
+
 class MeshSequence
 {
 public:

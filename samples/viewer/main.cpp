@@ -45,6 +45,8 @@ void print_devices()
 // Before a long run: files that are written at its end must be writable.
 void check_targets(const Options& options)
 {
+    if (options.out)
+        voile::engine::take(make_picture_folder(*options.out));
     if (options.stats)
         (void)voile::engine::take(voile::engine::AtomicFile::create(*options.stats));
     for (const ExportTarget& target : options.exports)

@@ -70,7 +70,7 @@ void declare_simulation(CLI::App& app, Typed& typed, Options& options)
         ->disable_flag_override();
     app.add_option("--frames", typed.frames,
                    "Frames to simulate, as many per second as the scene's step says, else 60 (default: 300 without a "
-                   "window, no end with one)")
+                   "window, unlimited with one)")
         ->type_name("N");
     app.add_flag("--paused", options.paused, "The window opens paused: space continues, a period takes one step")
         ->disable_flag_override();
@@ -293,6 +293,8 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
         convert.fail("--every", "has no effect without --out");
     if (options.export_colliders && options.exports.empty())
         convert.fail("--export-colliders", "has no effect without --export");
+    if (options.paused && options.headless)
+        convert.fail("--paused", "has no effect with --headless");
     if (options.capture && (options.frames || options.headless))
     {
         if (const auto frames = headless_frames(options); !frames && !convert.error)

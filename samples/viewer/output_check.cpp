@@ -42,10 +42,12 @@ voile::Result<void> check(const Options& options, std::vector<UsedFile> used)
     }
     for (const auto& [name, path] : outputs)
     {
+        const std::string its_file = std::string("the file of ") + name;
         for (const UsedFile& file : used)
             if (is_same_file(path, file.path))
-                return voile::Error{std::string(name) + ": " + path_in_quotes(path) + " is " + file.what + ", too"};
-        used.push_back({name + std::string("'s file"), path});
+                return voile::Error{std::string(name) + ": " + path_in_quotes(path) +
+                                    (file.what == its_file ? " is given twice" : " is also " + file.what)};
+        used.push_back({its_file, path});
     }
     return {};
 }

@@ -184,7 +184,9 @@ void Panel::update(Input& input, float seconds)
     if (controls.show_panel)
     {
         ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSize({350, std::max(io.DisplaySize.y - 16, 100.f)}, ImGuiCond_FirstUseEver);
+        const float height = std::max(io.DisplaySize.y - 16, 100.f); // as the window is resized, too
+        ImGui::SetNextWindowSize({350, height}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints({200, height}, {io.DisplaySize.x, height});
         if (ImGui::Begin("Voile", &controls.show_panel))
         {
             ImGui::PushItemWidth(150);

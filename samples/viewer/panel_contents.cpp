@@ -57,7 +57,7 @@ void plot_passes(const FrameHistory& history)
 void show_plots(const FrameHistory& history)
 {
     if (history.samples().empty())
-        return ImGui::TextUnformatted("no frame was simulated yet");
+        return ImGui::TextUnformatted("no frame was measured yet");
     plot_passes(history);
     const auto energy = [](void* data, int i)
     { return static_cast<const FrameHistory*>(data)->samples()[static_cast<size_t>(i)].energy; };
@@ -170,7 +170,7 @@ void show_views(PanelContents& panel)
 void show_help(bool& open)
 {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos({display.x - 8, 8}, ImGuiCond_Appearing, {1, 0}); // beside the panel
     if (ImGui::Begin("Keys and mouse", &open, ImGuiWindowFlags_AlwaysAutoResize) && ImGui::BeginTable("keys", 2))
     {
         for (const ControlHelp& line : control_help())

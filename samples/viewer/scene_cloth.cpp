@@ -69,7 +69,7 @@ void parse_vertex(SceneReader& reader, const Field& field, const std::string& re
         return reader.fail(field, "is " + in_quotes("vertex:" + rest) + "; a vertex is a whole number from 0");
     if (grid != nullptr && *vertex >= grid->columns * grid->rows)
         return reader.fail(field, "is " + in_quotes("vertex:" + rest) + ", but the grid has " +
-                                      std::to_string(grid->columns * grid->rows) + " vertices");
+                                      std::to_string(grid->columns * grid->rows) + " vertices, counted from 0");
     pin.at = VertexPin{*vertex};
 }
 

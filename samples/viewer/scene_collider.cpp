@@ -233,7 +233,7 @@ ColliderEntry parse_collider(ParseContext& context, const Field& field)
     collider.look = parse_solid_look(reader, SceneReader::child(field, "look"));
     parse_layers(reader, SceneReader::child(field, "layers"), collider.layers);
     const Field sides = SceneReader::child(field, "sides");
-    if (const auto word = reader.read_word(sides, "a number of sides", {"one", "two"}))
+    if (const auto word = reader.read_word(sides, "a choice of sides", {"one", "two"}))
         collider.sides = static_cast<MeshSides>(*word);
     if (collider.sides && !std::holds_alternative<MeshShape>(collider.shape))
         reader.fail(sides, "is a mesh's; every other shape pushes outwards");

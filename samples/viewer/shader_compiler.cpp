@@ -62,19 +62,19 @@ std::vector<std::string> lines_of(std::FILE* file)
     return lines;
 }
 
-// "ERROR: FILE:LINE: REASON" of glslang, without what follows from an error before it.
-std::vector<std::string> errors_of(const std::vector<std::string>& lines)
+// "ERROR: FILE:LINE: REASON" of glslang, without what follows from an error before it. Linking names no file.
+std::vector<std::string> errors_of(const std::vector<std::string>& lines, const std::string& file)
 {
     constexpr std::string_view k_start = "ERROR: ";
     std::vector<std::string> errors;
     for (const std::string& line : lines)
     {
-        const bool follows = line.find("compilation terminated") != std::string::npos ||
-                             line.find("compilation errors.") != std::string::npos ||
-                             line.find("Linking") != std::string::npos;
+        const bool links = line.find("Linking") != std::string::npos;
+        const bool follows = links || line.find("compilation terminated") != std::string::npos ||
+                             line.find("compilation errors.") != std::string::npos;
         if (!line.starts_with(k_start) || (follows && !errors.empty()))
             continue;
-        std::string error = line.substr(k_start.size());
+        std::string error = (links ? file + ": " : "") + line.substr(k_start.size());
         error.resize(error.find_last_not_of(" \r\n") + 1);
         errors.push_back(voile::gpu::printable(error, 400));
     }
@@ -101,7 +101,7 @@ CompiledShader finish(Compilation& compilation)
         shader.spirv = words_of(compilation.result.path());
     if (shader.spirv.empty())
     {
-        shader.errors = errors_of(lines_of(compilation.words.get()));
+        shader.errors = errors_of(lines_of(compilation.words.get()), compilation.file);
         if (shader.errors.empty())
             shader.errors.push_back(voile::gpu::printable(compilation.file) + ": the compiler ended without a result");
     }

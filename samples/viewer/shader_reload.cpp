@@ -82,6 +82,7 @@ void ShaderReload::compile()
     auto compiled = compile_shaders(files, folder_);
     if (!compiled)
         return report(compiled.error().message);
+    const bool again = !taken_.empty();
     std::vector<std::string> errors;
     std::vector<voile::engine::ShaderCode> changed;
     for (size_t i = 0; i < files.size(); ++i)
@@ -100,6 +101,8 @@ void ShaderReload::compile()
         else
             for (voile::engine::ShaderCode& shader : changed)
                 taken_[shader.name] = std::move(shader.spirv);
+        if (again && errors.empty())
+            note("the shaders are compiled again");
     }
     report(joined(errors));
 }
@@ -108,8 +111,6 @@ void ShaderReload::report(const std::string& errors)
 {
     if (errors != errors_ && !errors.empty())
         std::fprintf(stderr, "viewer: shaders: %s\n", errors.c_str());
-    if (errors.empty() && !errors_.empty())
-        note("the shaders are compiled again");
     errors_ = errors;
 }
 

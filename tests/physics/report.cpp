@@ -1,6 +1,6 @@
 // physics_report: runs every case at two resolutions and writes FOLDER/physics.md with plots in FOLDER/physics.
 //
-//   physics_report FOLDER [CASE ...]    with cases: runs only these, to standard output
+//   physics_report FOLDER [CASE ...]    with cases: runs only these, to standard output; FOLDER exists
 //   physics_report --list               prints the names of all cases
 #include "physics/plot.hpp"
 
@@ -110,6 +110,8 @@ int report(const std::filesystem::path& folder, const std::vector<std::string>& 
     for (const std::string& name : only)
         if (std::none_of(cases.begin(), cases.end(), [&](const physics::Case& entry) { return entry.name == name; }))
             throw std::runtime_error("there is no case \"" + name + "\"; --list prints all");
+    if (!std::filesystem::is_directory(folder))
+        throw std::runtime_error("there is no folder " + folder.string());
     std::ostringstream out;
     const std::filesystem::path plots = only.empty() ? folder / "physics" : "";
     if (only.empty())
@@ -141,10 +143,11 @@ int main(int argc, char** argv)
             std::cout << entry.name << "\n";
         return 0;
     }
-    if (argc < 2 || argv[1][0] == '-')
+    const bool help = argc == 2 && std::string_view(argv[1]) == "--help";
+    if (help || argc < 2 || argv[1][0] == '-')
     {
-        std::cerr << "usage: physics_report FOLDER [CASE ...] | --list\n";
-        return 1;
+        (help ? std::cout : std::cerr) << "usage: physics_report FOLDER [CASE ...] | --list\n";
+        return help ? 0 : 1;
     }
     try
     {

@@ -110,7 +110,7 @@ TEST_CASE("each limit of a device has an error message")
     CHECK(refused([](auto&) {}, {.tuning = {.workgroup_size = 256}})
               .ends_with("has a workgroup of 256, the device allows 1 to 128"));
     CHECK(refused([](auto& limits) { limits.maxComputeSharedMemorySize = 13871; }) ==
-          "kernel \"cloth strain limit, wide levels\" takes 13872 bytes of shared memory with a workgroup of 128, the "
+          "kernel \"cloth wide strain limit\" takes 13872 bytes of shared memory with a workgroup of 128, the "
           "device has 13871");
     const auto large = [](auto& limits)
     {

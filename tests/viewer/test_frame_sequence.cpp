@@ -24,6 +24,13 @@ std::string message(const TestFolder& folder, const char* pattern)
 
 } // namespace
 
+TEST_CASE("a sequence is named by its files, without their number")
+{
+    for (const auto& [pattern, name] :
+         {std::pair("dir/walk_%04d.obj", "walk"), {"%d.ply", "frames"}, {"a%db.obj", "ab"}, {"x-%02d.obj", "x"}})
+        CHECK(viewer::sequence_name({pattern, 10}) == name);
+}
+
 TEST_CASE("vertices move along straight lines from file to file and stay at the last")
 {
     const TestFolder folder;

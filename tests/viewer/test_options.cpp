@@ -121,12 +121,15 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--size", "16385x1"}) == "--size: \"16385x1\" is not within 1x1 to 16384x16384");
     CHECK(message({"--size", "1x99999999999"}) == "--size: \"1x99999999999\" is not within 1x1 to 16384x16384");
     CHECK(message({"--size", "1x1", "--size", "2x2"}) == "--size: given 2 times; once at most");
-    CHECK(message({"s.json", "--stats", "./s.json"}) == "--stats: \"./s.json\" is the scene's file, too");
-    CHECK(message({"--export", "a.obj", "--stats", "a.obj"}) == "--export: \"a.obj\" is --stats's file, too");
-    CHECK(message({"--export", "a.obj", "--export", "./a.obj"}) == "--export: \"./a.obj\" is --export's file, too");
-    CHECK(message({"--export", "a.pc2", "--stats", "a.pc2.json"}) == "--export: \"a.pc2.json\" is --stats's file, too");
+    CHECK(message({"--paused", "--headless"}) == "--paused: has no effect with --headless");
+    CHECK(message({"s.json", "--stats", "./s.json"}) == "--stats: \"./s.json\" is also the scene's file");
+    CHECK(message({"--export", "a.obj", "--stats", "a.obj"}) == "--export: \"a.obj\" is also the file of --stats");
+    CHECK(message({"--export", "a.obj", "--export", "./a.obj"}) == "--export: \"./a.obj\" is given twice");
+    CHECK(message({"--export", "a.pc2", "--stats", "a.pc2.json"}) ==
+          "--export: \"a.pc2.json\" is also the file of --stats");
     CHECK(message({"--export-colliders"}) == "--export-colliders: has no effect without --export");
-    CHECK(message({"--video", "a.mp4", "--stats", "b/../a.mp4"}) == "--stats: \"b/../a.mp4\" is --video's file, too");
+    CHECK(message({"--video", "a.mp4", "--stats", "b/../a.mp4"}) ==
+          "--stats: \"b/../a.mp4\" is also the file of --video");
     CHECK(message({"--export", "a.obj", "--stats", "a.json"}) == "accepted");
     CHECK(message({"--frames", "-1"}) == "--frames: \"-1\" is not within 0 to 100000000");
     CHECK(message({"--frames", "1.5"}) == "--frames: \"1.5\" is not a whole number");
@@ -236,13 +239,13 @@ TEST_CASE("an output cannot replace a mesh of the scene")
         return result ? "accepted" : result.error().message;
     };
     const std::string cape = (folder / "cape.obj").string();
-    CHECK(check({.exports = {{cape}}}) == "--export: \"" + cape + "\" is the mesh of cloth \"cape\", too");
+    CHECK(check({.exports = {{cape}}}) == "--export: \"" + cape + "\" is also the mesh of cloth \"cape\"");
     const std::string ground = (folder / "." / "ground.ply").string();
-    CHECK(check({.exports = {{ground}}}) == "--export: \"" + ground + "\" is a collider's mesh, too");
+    CHECK(check({.exports = {{ground}}}) == "--export: \"" + ground + "\" is also a collider's mesh");
     const std::string frame = (folder / "walk1.obj").string();
-    CHECK(check({.exports = {{frame}}}) == "--export: \"" + frame + "\" is a frame of a collider's mesh, too");
+    CHECK(check({.exports = {{frame}}}) == "--export: \"" + frame + "\" is also a frame of a collider's mesh");
     const std::string scene_file = (folder / "s.json").string();
-    CHECK(check({.stats = scene_file}) == "--stats: \"" + scene_file + "\" is the scene's file, too");
+    CHECK(check({.stats = scene_file}) == "--stats: \"" + scene_file + "\" is also the scene's file");
     CHECK(check({.stats = folder / "stats.json", .exports = {{folder / "cape.ply"}}}) == "accepted");
 }
 

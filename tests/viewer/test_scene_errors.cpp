@@ -174,7 +174,7 @@ TEST_CASE("bad words, names and pins of a cloth are refused")
     CHECK(cloth_message("\"pins\": [\"corner:\"]") == at + "\"corner:\"; a corner is 0, 1, 2 or 3");
     CHECK(cloth_message("\"pins\": [\"edge:up\"]") == at + "\"edge:up\"; an edge is top, bottom, left or right");
     CHECK(cloth_message("\"pins\": [\"vertex:-1\"]") == at + "\"vertex:-1\"; a vertex is a whole number from 0");
-    CHECK(cloth_message("\"pins\": [\"vertex:12\"]") == at + "\"vertex:12\", but the grid has 12 vertices");
+    CHECK(cloth_message("\"pins\": [\"vertex:12\"]") == at + "\"vertex:12\", but the grid has 12 vertices, counted from 0");
     CHECK(cloth_message("\"pins\": [\"vertex:11\"]") == "accepted");
     CHECK(cloth_message("\"pins\": [\"nail:1\"]") ==
           at + "\"nail:1\"; a pin is corner:N, edge:NAME, vertex:N or a box");
@@ -226,7 +226,7 @@ TEST_CASE("bad colliders and cameras are refused")
     CHECK(collider_message(R"({"frames": "a%d.obj", "motion": {"frames": "a%d.obj"}})") ==
           at + ".motion.frames is given twice: in the collider and in its motion");
     CHECK(collider_message(R"({"mesh": "a.obj", "sides": "three"})") ==
-          at + ".sides is \"three\", which is not a number of sides (one, two)");
+          at + ".sides is \"three\", which is not a choice of sides (one, two)");
     CHECK(collider_message(R"({"plane": {"y": 0}, "sides": "one"})") ==
           at + ".sides is a mesh's; every other shape pushes outwards");
     CHECK(collider_message(R"({"plane": {"y": 0}, "layers": [0, 32]})") ==

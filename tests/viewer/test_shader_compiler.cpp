@@ -35,10 +35,11 @@ TEST_CASE("shaders are compiled at run time, and errors name file and line, in i
     const fs::path broken = folder.write("broken.frag", "#version 460\n"
                                                         "#extension GL_GOOGLE_include_directive : require\n"
                                                         "#include \"part.glsl\"\nvoid main() {}\n");
-    const std::vector<fs::path> files{good, broken, folder / "nosuch.frag"};
+    const fs::path without_entry = folder.write("without.frag", "#version 460\nvoid mian() {}\n");
+    const std::vector<fs::path> files{good, broken, folder / "nosuch.frag", without_entry};
     const auto compiled = viewer::compile_shaders(files, folder.path());
     REQUIRE(compiled);
-    REQUIRE(compiled.value().size() == 3);
+    REQUIRE(compiled.value().size() == 4);
     CHECK(compiled.value()[0].errors.empty());
     REQUIRE(compiled.value()[0].spirv.size() > 5);
     CHECK(compiled.value()[0].spirv[0] == k_spirv_magic);
@@ -46,7 +47,9 @@ TEST_CASE("shaders are compiled at run time, and errors name file and line, in i
     REQUIRE(!compiled.value()[1].errors.empty());
     CHECK(compiled.value()[1].errors[0] == (folder / "part.glsl").string() + ":2: 'y' : undeclared identifier");
     CHECK(compiled.value()[2].errors.size() == 1);
-    CHECK(folder.entries() == 2);
+    REQUIRE(compiled.value()[3].errors.size() == 1);
+    CHECK(compiled.value()[3].errors[0].starts_with(without_entry.string() + ": Linking"));
+    CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("a compiler that is missing is an error, and another name is tried")

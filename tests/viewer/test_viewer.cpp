@@ -171,7 +171,7 @@ TEST_CASE("a run writes its requested files, the same every time, without a vali
     {
         const std::string name = std::to_string(i);
         const Run run = run_viewer(k_small + "--validate --verify --frames 30 --every 12 --out " +
-                                       (folder / name).string() + " --stats " + (folder / (name + ".json")).string() +
+                                       (folder / name).string() + " --stats " + (folder / name / "s.json").string() +
                                        " --export " + (folder / (name + ".obj")).string(),
                                    i == 0 ? "" : "VK_INSTANCE_LAYERS="); // makes all pipelines in advance, as for users
         CAPTURE(run.errors);
@@ -179,8 +179,8 @@ TEST_CASE("a run writes its requested files, the same every time, without a vali
         CHECK(run.errors.find("30 frames in ") != std::string::npos);
         for (const std::string file : {"frame_0000.png", "frame_0012.png", "frame_0024.png", "frame_0029.png"})
             CHECK(fs::file_size(folder / (name + "/" + file)) > 500);
-        CHECK(std::distance(fs::directory_iterator(folder / name), {}) == 4); // each 12th, and the last
-        const auto statistics = viewer::parse_json(text_of(folder / (name + ".json")), name);
+        CHECK(std::distance(fs::directory_iterator(folder / name), {}) == 5); // each 12th, and the last; statistics
+        const auto statistics = viewer::parse_json(text_of(folder / name / "s.json"), name);
         REQUIRE(statistics);
         const viewer::JsonNode* summary = statistics.value().find("summary");
         REQUIRE(summary != nullptr);

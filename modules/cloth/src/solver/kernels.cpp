@@ -56,7 +56,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     add(kernels.pins, "cloth pins", shaders::k_pin_comp, plain);
     add(kernels.attachments, "cloth attachments", shaders::k_attachments_comp, plain);
     add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
-    add(kernels.limit_coarse, "cloth strain limit, wide levels", shaders::k_limit_coarse_comp, plain);
+    add(kernels.limit_coarse, "cloth wide strain limit", shaders::k_limit_coarse_comp, plain);
     add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
     add(kernels.limit_work, "cloth limit work", shaders::k_limit_work_comp, with_lists);
     add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);
