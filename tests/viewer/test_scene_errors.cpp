@@ -174,7 +174,8 @@ TEST_CASE("bad words, names and pins of a cloth are refused")
     CHECK(cloth_message("\"pins\": [\"corner:\"]") == at + "\"corner:\"; a corner is 0, 1, 2 or 3");
     CHECK(cloth_message("\"pins\": [\"edge:up\"]") == at + "\"edge:up\"; an edge is top, bottom, left or right");
     CHECK(cloth_message("\"pins\": [\"vertex:-1\"]") == at + "\"vertex:-1\"; a vertex is a whole number from 0");
-    CHECK(cloth_message("\"pins\": [\"vertex:12\"]") == at + "\"vertex:12\", but the grid has 12 vertices, counted from 0");
+    CHECK(cloth_message("\"pins\": [\"vertex:12\"]") ==
+          at + "\"vertex:12\", but the grid has 12 vertices, counted from 0");
     CHECK(cloth_message("\"pins\": [\"vertex:11\"]") == "accepted");
     CHECK(cloth_message("\"pins\": [\"nail:1\"]") ==
           at + "\"nail:1\"; a pin is corner:N, edge:NAME, vertex:N or a box");
