@@ -39,7 +39,7 @@ mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples,sources/docs}
 
 # The tests that ctest lists: a build folder keeps programs of deleted tests.
 mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
-for program in "${tests[@]}" viewer hello_cloth own_component skinned batch; do
+for program in "${tests[@]}" viewer hello_cloth own_component skinned batch async_compute foreign_engine; do
   [ -x "$programs/$program" ] || fail "$programs/$program is not built; run scripts/build.sh"
   strip --strip-all -o "$pack/bin/$program" "$programs/$program"
 done

@@ -13,6 +13,9 @@
 #include "engine.hpp"
 #include "take.hpp"
 
+#include "samples/arguments.hpp"
+#include "samples/progress.hpp"
+
 #include <voile/cloth.hpp>
 
 #include <array>
@@ -115,6 +118,7 @@ Slot create_slot(foreign::Engine& engine, voile::Solver& solver, voile::ClothId 
 
 void run()
 {
+    samples::Progress progress(k_frames);
     foreign::Engine engine({.async_compute = true});
     std::printf("%s\n", engine.has_two_queues() ? "two queues" : "one queue: the device has no other");
     // The compute queue has no vertex input: nothing of the host's reads the streams there.
@@ -138,9 +142,7 @@ void run()
             const int next = frame + 1;
             if (next < k_frames)
                 simulate(engine, solver, slots[static_cast<size_t>(next) % slots.size()], upload, next);
-            if (next % 10 == 0)
-                std::printf("frame %d of %d\n", next, k_frames);
-            std::fflush(stdout);
+            progress.update(static_cast<uint64_t>(next));
         }
     }
     for (int frame = k_frames - k_slots; frame < k_frames; ++frame)
@@ -155,11 +157,12 @@ void run()
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
     try
     {
-        run();
+        if (samples::parse_no_arguments("async_compute", argc, argv))
+            run();
         return 0;
     }
     catch (const std::exception& error)

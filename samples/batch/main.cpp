@@ -5,6 +5,9 @@
 #include "engine.hpp"
 #include "take.hpp"
 
+#include "samples/arguments.hpp"
+#include "samples/progress.hpp"
+
 #include <voile/cloth.hpp>
 
 #include <array>
@@ -73,6 +76,7 @@ double drop(const std::vector<float>& positions)
 
 void run()
 {
+    samples::Progress progress(k_frames);
     foreign::Engine engine;
     voile::Solver solver = take(voile::Solver::create({.instance = engine.instance(),
                                                        .physical_device = engine.physical_device(),
@@ -90,8 +94,7 @@ void run()
         // Dense air brings the strips to rest sooner. It has no effect at rest.
         take(solver.record(cmd, {.duration = 1.f / 60, .air_density = 20}));
         engine.submit_frame();
-        if (frame % 10 == 9)
-            std::fprintf(stderr, "frame %d of %d\n", frame + 1, k_frames);
+        progress.update(static_cast<uint64_t>(frame) + 1);
     }
     engine.wait_idle();
     std::printf("fabric,bending,drop\n");
@@ -105,11 +108,12 @@ void run()
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
     try
     {
-        run();
+        if (samples::parse_no_arguments("batch", argc, argv))
+            run();
         return 0;
     }
     catch (const std::exception& error)

@@ -1,5 +1,8 @@
-// The shortest complete program: a cloth falls on a sphere. With a display it opens a window. Without one it simulates
-// one second and writes hello_cloth.png.
+// The shortest complete program: a cloth falls on a sphere. With a display it opens a window. Without one
+// (--headless [FRAMES]) it simulates one second and writes hello_cloth.png.
+#include "samples/arguments.hpp"
+#include "samples/progress.hpp"
+
 #include "voile/cloth_component.hpp"
 
 #include "voile/engine/app/app.hpp"
@@ -8,14 +11,15 @@
 #include "voile/engine/scene/static_mesh.hpp"
 
 #include <cstdio>
-#include <string_view>
+#include <exception>
 
 namespace
 {
 
-void run(bool headless)
+void run(const samples::Arguments& arguments)
 {
-    voile::engine::App app({.title = "hello cloth", .headless = headless});
+    samples::Progress progress(arguments.frames);
+    voile::engine::App app({.title = "hello cloth", .headless = arguments.headless});
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.6f, 1.7f, 2.6f}, .target = {0, 0.55f, 0}};
     scene.focus = {0, 0.5f, 0};
@@ -38,17 +42,23 @@ void run(bool headless)
 
     voile::engine::Readback readback(app.device(), app.renderer().extent(), app.slots());
     const voile::engine::IdleGuard idle(app.device());
-    constexpr uint64_t k_frames = 60;
     uint32_t last_slot = 0;
-    app.draws = [](const voile::engine::FrameInfo& frame) { return frame.index + 1 == k_frames; };
+    app.draws = [&](const voile::engine::FrameInfo& frame) { return frame.index + 1 == arguments.frames; };
     app.after_render = [&](VkCommandBuffer cmd, const voile::engine::FrameInfo& frame)
     {
         if (!app.has_window() && app.draws(frame))
             readback.record(cmd, app.renderer().color(), last_slot = frame.slot);
     };
-    app.run(k_frames);
-    if (!app.has_window())
-        voile::engine::take(voile::engine::save_png("hello_cloth.png", readback.picture(last_slot)));
+    app.completed = [&](const voile::engine::FrameInfo& frame)
+    {
+        if (!app.has_window())
+            progress.update(frame.index + 1);
+    };
+    app.run(arguments.frames);
+    if (app.has_window())
+        return;
+    voile::engine::take(voile::engine::save_png("hello_cloth.png", readback.picture(last_slot)));
+    std::printf("wrote hello_cloth.png\n");
 }
 
 } // namespace
@@ -57,10 +67,11 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(argc > 1 && std::string_view(argv[1]) == "--headless");
+        if (const auto arguments = samples::parse_arguments("hello_cloth", argc, argv))
+            run(*arguments);
         return 0;
     }
-    catch (const voile::engine::StartupError& error)
+    catch (const std::exception& error)
     {
         std::fprintf(stderr, "hello_cloth: %s\n", error.what());
         return 1;

@@ -1,8 +1,9 @@
 // A component of your own: a ball that swings through a curtain. A component is one class. The scene calls its hooks
 // each frame: `update` for the host's work, `record_draw` for each view. With a display this opens a window. Without
-// one (--headless [frames]) it simulates a second, writes own_component.png and prints how many vertices of the curtain
+// one (--headless [FRAMES]) it simulates a second, writes own_component.png and prints how many vertices of the curtain
 // the ball touched.
 #include "samples/arguments.hpp"
+#include "samples/progress.hpp"
 
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <numbers>
 
 namespace
@@ -73,6 +75,7 @@ voile::GridCloth curtain()
 
 void run(const samples::Arguments& arguments)
 {
+    samples::Progress progress(arguments.frames);
     voile::engine::App app({.title = "a component of your own", .headless = arguments.headless});
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {2.6f, 1.5f, 2.2f}, .target = {0, 0.9f, 0.2f}};
@@ -100,17 +103,15 @@ void run(const samples::Arguments& arguments)
     };
     app.completed = [&](const FrameInfo& frame)
     {
-        const uint32_t contacts = world.solver().statistics(frame.slot).contacts;
-        most_contacts = std::max(most_contacts, contacts);
-        if (!app.has_window() && frame.index % 10 == 9)
-            std::printf("frame %3u of %u: %u vertices touch\n", static_cast<unsigned>(frame.index + 1),
-                        static_cast<unsigned>(arguments.frames), contacts);
-        std::fflush(stdout);
+        most_contacts = std::max(most_contacts, world.solver().statistics(frame.slot).contacts);
+        if (!app.has_window())
+            progress.update(frame.index + 1);
     };
     app.run(arguments.frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("own_component.png", readback.picture(last_slot)));
+    std::printf("wrote own_component.png\n");
     std::printf("at most %u vertices touched\n", most_contacts);
 }
 
@@ -120,10 +121,11 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(samples::parse_arguments(argc, argv));
+        if (const auto arguments = samples::parse_arguments("own_component", argc, argv))
+            run(*arguments);
         return 0;
     }
-    catch (const voile::engine::StartupError& error)
+    catch (const std::exception& error)
     {
         std::fprintf(stderr, "own_component: %s\n", error.what());
         return 1;

@@ -1,8 +1,9 @@
 // A sleeve on an arm that bends: a mesh of cloth, pinned to the upper of two bones, over a collider that both bones
 // skin. The same vertices are drawn and collide. Here the host skins them; an engine that skins on the GPU hands its
 // buffer to Solver::deform_collider (DeviceVertices) and nothing else changes. With a display this opens a window.
-// Without one (--headless [frames]) it simulates a second, writes skinned.png and prints what the statistics say.
+// Without one (--headless [FRAMES]) it simulates a second, writes skinned.png and prints what the statistics say.
 #include "samples/arguments.hpp"
+#include "samples/progress.hpp"
 
 #include "voile/cloth_component.hpp"
 #include "voile/fabrics.hpp"
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <numbers>
 
 namespace
@@ -151,6 +153,7 @@ voile::ClothId add_sleeve(voile::Solver& solver, voile::AnchorId bone)
 
 void run(const samples::Arguments& arguments)
 {
+    samples::Progress progress(arguments.frames);
     voile::engine::App app({.title = "a sleeve", .headless = arguments.headless});
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.5f, 1.15f, 0.9f}, .target = {0, 0.98f, 0.1f}, .fov = 32};
@@ -179,15 +182,14 @@ void run(const samples::Arguments& arguments)
     app.completed = [&](const FrameInfo& frame)
     {
         last = world.solver().statistics(frame.slot);
-        if (!app.has_window() && frame.index % 10 == 9)
-            std::printf("frame %3u of %u\n", static_cast<unsigned>(frame.index + 1),
-                        static_cast<unsigned>(arguments.frames));
-        std::fflush(stdout);
+        if (!app.has_window())
+            progress.update(frame.index + 1);
     };
     app.run(arguments.frames);
     if (app.has_window())
         return;
     voile::engine::take(voile::engine::save_png("skinned.png", readback.picture(last_slot)));
+    std::printf("wrote skinned.png\n");
     std::printf("%u vertices touch the arm, %u are inside, the largest stretch is %.3f\n", last.contacts,
                 last.penetrating_vertices, static_cast<double>(last.max_stretch));
 }
@@ -198,10 +200,11 @@ int main(int argc, char** argv)
 {
     try
     {
-        run(samples::parse_arguments(argc, argv));
+        if (const auto arguments = samples::parse_arguments("skinned", argc, argv))
+            run(*arguments);
         return 0;
     }
-    catch (const voile::engine::StartupError& error)
+    catch (const std::exception& error)
     {
         std::fprintf(stderr, "skinned: %s\n", error.what());
         return 1;

@@ -1,19 +1,17 @@
 // The first test: the shortest program runs, and its picture shows a red cloth on the ground under a sky.
+#include "support/sample_run.hpp"
 #include "support/test_folder.hpp"
-#include "support/test_paths.hpp"
 
 #include "voile/engine/assets/image_file.hpp"
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 TEST_CASE("hello_cloth draws a cloth on a sphere")
 {
     const TestFolder folder;
-    const std::string command =
-        "cd " + folder.path().string() + " && '" + tests::program("hello_cloth").string() + "' --headless";
-    REQUIRE(std::system(command.c_str()) == 0);
+    const SampleRun run = run_sample(folder, "hello_cloth", "--headless");
+    check_progress(run);
+    CHECK(run.output == "wrote hello_cloth.png\n");
     const auto picture = voile::engine::load_png(folder / "hello_cloth.png");
     REQUIRE_MESSAGE(picture, picture.error().message);
     CHECK(picture.value().width == 1280);

@@ -1,6 +1,6 @@
 // The samples run without a display, report progress, and their results are right.
+#include "support/sample_run.hpp"
 #include "support/test_folder.hpp"
-#include "support/test_paths.hpp"
 
 #include "voile/engine/assets/image_file.hpp"
 
@@ -8,26 +8,19 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
+#include <cstdio>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace
 {
 
-// What a sample prints.
-std::string output_of(const char* name, const char* arguments, const TestFolder& folder)
-{
-    const std::string command =
-        "cd " + folder.path().string() + " && '" + tests::program(name).string() + "' " + arguments + " > output.txt";
-    REQUIRE(std::system(command.c_str()) == 0);
-    std::ifstream file(folder / "output.txt");
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
+constexpr std::array<const char*, 6> k_samples = {"hello_cloth", "own_component", "skinned",
+                                                  "batch",       "async_compute", "foreign_engine"};
 
 // The part of a picture's pixels that satisfies a condition.
 template <typename Is>
@@ -82,27 +75,90 @@ TEST_CASE("the shooting method gives the known drops of a heavy elastica")
 
 TEST_CASE("samples refuse arguments that are none of theirs")
 {
+    struct Case
+    {
+        const char* arguments;
+        const char* reason;
+    };
+    const std::vector<Case> headless = {
+        {"--headles", "unknown argument '--headles'"},
+        {"a b c", "unknown argument 'a'"},
+        {"0", "unknown argument '0'"},
+        {"--headless abc", "FRAMES: 'abc' is not a whole number from 1 to 1000000"},
+        {"--headless 0", "FRAMES: '0' is not a whole number from 1 to 1000000"},
+        {"--headless -1", "FRAMES: '-1' is not a whole number from 1 to 1000000"},
+        {"--headless 9x", "FRAMES: '9x' is not a whole number from 1 to 1000000"},
+        {"--headless 1000001", "FRAMES: '1000001' is not a whole number from 1 to 1000000"},
+        {"--headless 9 8", "unknown argument '8'"}};
+    const std::vector<Case> none = {{"--bogus", "unknown argument '--bogus'"}, {"a b c", "unknown argument 'a'"}};
+    const std::vector<Case> file = {{"--bogus", "unknown argument '--bogus'"}, {"a.ply b", "unknown argument 'b'"}};
     const TestFolder folder;
-    for (const char* name : {"own_component", "skinned"})
-        for (const char* arguments : {"--headles", "--headless abc", "--headless 0", "--headless 9x", "--headless 9 9"})
+    for (const auto& [name, cases] :
+         {std::pair{"hello_cloth", headless}, std::pair{"own_component", headless}, std::pair{"skinned", headless},
+          std::pair{"batch", none}, std::pair{"async_compute", none}, std::pair{"foreign_engine", file}})
+        for (const auto& [arguments, reason] : cases)
         {
+            CAPTURE(name);
             CAPTURE(arguments);
-            const std::string command = "cd " + folder.path().string() + " && '" + tests::program(name).string() +
-                                        "' " + arguments + " 2> errors.txt";
-            CHECK(std::system(command.c_str()) != 0);
-            std::ifstream file(folder / "errors.txt");
-            std::string line;
-            std::getline(file, line);
-            CHECK(line.find(std::string(name) + ": ") == 0);
-            CHECK(line.find(arguments == std::string("--headless abc") ? "'abc'" : "") != std::string::npos);
+            const SampleRun run = run_sample(folder, name, arguments);
+            CHECK(run.status == 1);
+            CHECK(run.output.empty());
+            REQUIRE(run.errors.size() >= 2);
+            CHECK(run.errors[0].text == std::string(name) + ": " + reason);
+            CHECK(run.errors[1].text.starts_with("usage: " + std::string(name)));
         }
+    CHECK(folder.entries() == 1); // output.txt
+}
+
+TEST_CASE("samples print their usage")
+{
+    const TestFolder folder;
+    for (const char* name : k_samples)
+    {
+        CAPTURE(name);
+        const SampleRun run = run_sample(folder, name, "--help");
+        CHECK(run.status == 0);
+        CHECK(run.errors.empty());
+        CHECK(run.output.starts_with("usage: " + std::string(name)));
+    }
+    CHECK(folder.entries() == 1); // output.txt
+}
+
+TEST_CASE("samples say that they prepare before they look for a device")
+{
+    const TestFolder folder;
+    for (const char* name : k_samples)
+    {
+        CAPTURE(name);
+        const bool headless = std::string(name) != "batch" && std::string(name) != "async_compute" &&
+                              std::string(name) != "foreign_engine";
+        const SampleRun run = run_sample(folder, name, headless ? "--headless" : "",
+                                         "VK_DRIVER_FILES=/none.json VK_ICD_FILENAMES=/none.json");
+        CHECK(run.status == 1);
+        REQUIRE(run.errors.size() >= 2);
+        CHECK(run.errors[0].text.starts_with("preparing"));
+        CHECK(run.errors.back().text.starts_with(std::string(name) + ": "));
+    }
+}
+
+TEST_CASE("foreign_engine reports an output that it cannot write before it simulates")
+{
+    const TestFolder folder;
+    const SampleRun run = run_sample(folder, "foreign_engine", "missing/sheet.ply");
+    CHECK(run.status == 1);
+    CHECK(run.output.empty());
+    REQUIRE(run.errors.size() == 1);
+    CHECK(run.errors[0].text == "foreign_engine: cannot write missing/sheet.ply");
 }
 
 TEST_CASE("own_component swings a ball through a curtain")
 {
     const TestFolder folder;
-    const std::string output = output_of("own_component", "--headless 45", folder);
-    CHECK(output.find("frame  10 of 45") != std::string::npos);
+    const SampleRun run = run_sample(folder, "own_component", "--headless 45");
+    check_progress(run);
+    const std::string& output = run.output;
+    CHECK(output.find("wrote own_component.png\n") != std::string::npos);
+    REQUIRE(output.find("at most") != std::string::npos);
     unsigned contacts = 0;
     REQUIRE(std::sscanf(output.substr(output.find("at most")).c_str(), "at most %u", &contacts) == 1);
     CHECK(contacts > 20); // measured: 71
@@ -114,7 +170,11 @@ TEST_CASE("own_component swings a ball through a curtain")
 TEST_CASE("skinned puts a sleeve on an arm that bends")
 {
     const TestFolder folder;
-    const std::string output = output_of("skinned", "--headless 30", folder);
+    const SampleRun run = run_sample(folder, "skinned", "--headless 30");
+    check_progress(run);
+    const std::string& output = run.output;
+    CHECK(output.find("wrote skinned.png\n") != std::string::npos);
+    REQUIRE(output.find(" vertices touch") != std::string::npos);
     unsigned contacts = 0;
     unsigned inside = 1;
     REQUIRE(std::sscanf(output.substr(output.find(" vertices touch") - 3).c_str(),
@@ -127,7 +187,9 @@ TEST_CASE("skinned puts a sleeve on an arm that bends")
 TEST_CASE("batch measures bending stiffness as the cantilever test does")
 {
     const TestFolder folder;
-    std::istringstream output(output_of("batch", "2>/dev/null", folder));
+    const SampleRun run = run_sample(folder, "batch", "");
+    check_progress(run);
+    std::istringstream output(run.output);
     std::string line;
     REQUIRE(std::getline(output, line));
     CHECK(line == "fabric,bending,drop");
