@@ -79,4 +79,5 @@ trap 'rm -f "$started"' EXIT
 sleep 0.05 # clocks of files advance in ticks of up to 10 ms: each picture of this run is newer
 "$viewer" "$scene" --headless ${files[@]+"${files[@]}"} ${arguments[@]+"${arguments[@]}"}
 # Pictures of an earlier run are deleted once there are new ones.
-given --out || find "$out" -maxdepth 1 -name 'frame_*.png' ! -newer "$started" -delete
+pictures() { find "$out" -maxdepth 1 -name 'frame_*.png' "$@"; }
+given --out || [ -z "$(pictures -newer "$started" -print -quit)" ] || pictures ! -newer "$started" -delete

@@ -244,7 +244,9 @@ int exit_code(voile::engine::App& app, const Statistics& statistics)
 int run_scene(const Options& options)
 {
     LoadedScene scene = voile::engine::take(load(options));
-    voile::engine::take(check_outputs(options, scene.file));
+    std::vector<std::string> solids;
+    std::ranges::transform(scene.solids, std::back_inserter(solids), &Solid::name);
+    voile::engine::take(check_outputs(options, scene.file, solids));
     check_targets(options);
     if (options.device)
         check_device(*options.device);

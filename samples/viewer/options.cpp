@@ -295,6 +295,8 @@ void check_together(Converter& convert, const Typed& typed, const Options& optio
         convert.fail("--export-colliders", "has no effect without --export");
     if (options.paused && options.headless)
         convert.fail("--paused", "has no effect with --headless");
+    if (options.capture_key && options.headless)
+        convert.fail("--capture key", "has no effect with --headless");
     if (options.capture && (options.frames || options.headless))
     {
         if (const auto frames = headless_frames(options); !frames && !convert.error)

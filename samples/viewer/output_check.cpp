@@ -1,5 +1,6 @@
 #include "samples/viewer/output_check.hpp"
 
+#include "samples/viewer/exports.hpp"
 #include "samples/viewer/point_cache.hpp"
 #include "samples/viewer/text.hpp"
 
@@ -27,26 +28,42 @@ bool is_same_file(const fs::path& one, const fs::path& other)
            (!fs::exists(path, problem) || fs::is_regular_file(path, problem));
 }
 
-voile::Result<void> check(const Options& options, std::vector<UsedFile> used)
+struct Output
 {
-    std::vector<std::pair<const char*, fs::path>> outputs;
+    const char* option;
+    fs::path path;
+};
+
+// `names`: of what is exported, empty as long as they are not known.
+std::vector<Output> outputs_of(const Options& options, const std::vector<std::string>& names)
+{
+    std::vector<Output> outputs;
     if (options.video)
-        outputs.emplace_back("--video", *options.video);
+        outputs.push_back({"--video", *options.video});
     if (options.stats)
-        outputs.emplace_back("--stats", *options.stats);
+        outputs.push_back({"--stats", *options.stats});
     for (const ExportTarget& target : options.exports)
     {
-        outputs.emplace_back("--export", target.path);
-        if (target.format == ExportFormat::point_cache)
-            outputs.emplace_back("--export", sidecar_path(target.path));
+        const bool single = names.empty() || target.format == ExportFormat::usd;
+        for (const fs::path& path : single ? std::vector{target.path} : export_paths(target.path, names))
+        {
+            outputs.push_back({"--export", path});
+            if (target.format == ExportFormat::point_cache)
+                outputs.push_back({"--export", sidecar_path(path)});
+        }
     }
-    for (const auto& [name, path] : outputs)
+    return outputs;
+}
+
+voile::Result<void> check(const std::vector<Output>& outputs, std::vector<UsedFile> used)
+{
+    for (const auto& [option, path] : outputs)
     {
-        const std::string its_file = std::string("the file of ") + name;
+        const std::string its_file = std::string("the file of ") + option;
         for (const UsedFile& file : used)
             if (is_same_file(path, file.path))
-                return voile::Error{std::string(name) + ": " + path_in_quotes(path) +
-                                    (file.what == its_file ? " is given twice" : " is also " + file.what)};
+                return voile::Error{std::string(option) + ": " + path_in_quotes(path) +
+                                    (file.what == its_file ? " is written twice" : " is also " + file.what)};
         used.push_back({its_file, path});
     }
     return {};
@@ -59,10 +76,11 @@ voile::Result<void> check_outputs(const Options& options)
     std::vector<UsedFile> used{{"the scene's file", options.scene}};
     for (const fs::path& collider : options.colliders)
         used.push_back({"--collider's file", collider});
-    return check(options, std::move(used));
+    return check(outputs_of(options, {}), std::move(used));
 }
 
-voile::Result<void> check_outputs(const Options& options, const SceneFile& scene)
+voile::Result<void> check_outputs(const Options& options, const SceneFile& scene,
+                                  const std::vector<std::string>& solids)
 {
     std::vector<UsedFile> used{{"the scene's file", scene.path}};
     for (const ClothEntry& cloth : scene.cloths)
@@ -78,7 +96,12 @@ voile::Result<void> check_outputs(const Options& options, const SceneFile& scene
             for (const fs::path& frame : frames.value())
                 used.push_back({"a frame of a collider's mesh", frame});
     }
-    return check(options, std::move(used));
+    std::vector<std::string> names;
+    for (const ClothEntry& cloth : scene.cloths)
+        names.push_back(cloth.name);
+    if (options.export_colliders)
+        names.insert(names.end(), solids.begin(), solids.end());
+    return check(outputs_of(options, names), std::move(used));
 }
 
 } // namespace viewer

@@ -103,7 +103,9 @@ CompiledShader finish(Compilation& compilation)
     {
         shader.errors = errors_of(lines_of(compilation.words.get()), compilation.file);
         if (shader.errors.empty())
-            shader.errors.push_back(voile::gpu::printable(compilation.file) + ": the compiler ended without a result");
+            shader.errors.push_back(
+                voile::gpu::printable(compilation.file) +
+                (fs::exists(compilation.file) ? ": the compiler ended without a result" : ": there is no such file"));
     }
     return shader;
 }

@@ -101,9 +101,9 @@ void ShaderReload::compile()
         else
             for (voile::engine::ShaderCode& shader : changed)
                 taken_[shader.name] = std::move(shader.spirv);
-        if (again && errors.empty())
-            note("the shaders are compiled again");
     }
+    if (again && errors.empty() && (!changed.empty() || !errors_.empty()))
+        note("the changed shaders are in use");
     report(joined(errors));
 }
 

@@ -122,9 +122,10 @@ TEST_CASE("a bad option is named with its value and the reason, in one line")
     CHECK(message({"--size", "1x99999999999"}) == "--size: \"1x99999999999\" is not within 1x1 to 16384x16384");
     CHECK(message({"--size", "1x1", "--size", "2x2"}) == "--size: given 2 times; once at most");
     CHECK(message({"--paused", "--headless"}) == "--paused: has no effect with --headless");
+    CHECK(message({"--capture", "key", "--headless"}) == "--capture key: has no effect with --headless");
     CHECK(message({"s.json", "--stats", "./s.json"}) == "--stats: \"./s.json\" is also the scene's file");
     CHECK(message({"--export", "a.obj", "--stats", "a.obj"}) == "--export: \"a.obj\" is also the file of --stats");
-    CHECK(message({"--export", "a.obj", "--export", "./a.obj"}) == "--export: \"./a.obj\" is given twice");
+    CHECK(message({"--export", "a.obj", "--export", "./a.obj"}) == "--export: \"./a.obj\" is written twice");
     CHECK(message({"--export", "a.pc2", "--stats", "a.pc2.json"}) ==
           "--export: \"a.pc2.json\" is also the file of --stats");
     CHECK(message({"--export-colliders"}) == "--export-colliders: has no effect without --export");
@@ -235,7 +236,7 @@ TEST_CASE("an output cannot replace a mesh of the scene")
     REQUIRE_MESSAGE(scene, scene.error().message);
     const auto check = [&](viewer::Options options)
     {
-        const auto result = viewer::check_outputs(options, scene.value());
+        const auto result = viewer::check_outputs(options, scene.value(), {"ground", "walk1"});
         return result ? "accepted" : result.error().message;
     };
     const std::string cape = (folder / "cape.obj").string();
@@ -247,6 +248,27 @@ TEST_CASE("an output cannot replace a mesh of the scene")
     const std::string scene_file = (folder / "s.json").string();
     CHECK(check({.stats = scene_file}) == "--stats: \"" + scene_file + "\" is also the scene's file");
     CHECK(check({.stats = folder / "stats.json", .exports = {{folder / "cape.ply"}}}) == "accepted");
+    // With several files per export.
+    viewer::Options options{.exports = {{folder / "x.obj"}}, .export_colliders = true};
+    CHECK(check(options) == "accepted");
+    folder.write("x_walk1.obj", "");
+    options.stats = folder / "x_walk1.obj";
+    CHECK(check(options) == "--export: \"" + (folder / "x_walk1.obj").string() + "\" is also the file of --stats");
+    options = {.exports = {{folder / "x.obj"}, {folder / "x.obj"}}, .export_colliders = true};
+    CHECK(check(options) == "--export: \"" + (folder / "x_cape.obj").string() + "\" is written twice");
+}
+
+TEST_CASE("an export of several files cannot replace a mesh of the scene")
+{
+    const TestFolder folder;
+    folder.write("x_b.obj", "");
+    const auto scene = viewer::load_scene(folder.write("s.json", R"({"cloths": [{"name": "a", "mesh": "x_b.obj"},
+            {"name": "b", "grid": {"vertices": [4, 4], "size": [1, 1]}}]})"));
+    REQUIRE_MESSAGE(scene, scene.error().message);
+    const auto result = viewer::check_outputs({.exports = {{folder / "x.obj"}}}, scene.value(), {});
+    REQUIRE(!result);
+    CHECK(result.error().message ==
+          "--export: \"" + (folder / "x_b.obj").string() + "\" is also the mesh of cloth \"a\"");
 }
 
 TEST_CASE("a link to itself is distinguished from a missing file")

@@ -83,7 +83,7 @@ TEST_CASE("a changed shader changes the picture, and a broken one is reported by
     session.step(1); // a frame with the last shaders that work
     CHECK(difference(window.picture(), red, 0, 320) < 2);
     write("return gradient + glow;", "return gradient + glow;");
-    REQUIRE(session.wait_for_errors("the shaders are compiled again"));
+    REQUIRE(session.wait_for_errors("the changed shaders are in use"));
     (void)picture_when(window,
                        [&](const voile::engine::Picture& picture) { return difference(picture, before, 0, 320) < 2; });
     session.close(true);
