@@ -6,6 +6,7 @@
 #include "voile/cloth_component.hpp"
 
 #include "voile/engine/app/app.hpp"
+#include "voile/engine/assets/atomic_file.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/engine/render/readback.hpp"
 #include "voile/engine/scene/static_mesh.hpp"
@@ -20,6 +21,8 @@ void run(const samples::Arguments& arguments)
 {
     samples::Progress progress(arguments.frames);
     voile::engine::App app({.title = "hello cloth", .headless = arguments.headless});
+    if (!app.has_window()) // before the simulation: an output that cannot be written is reported at once
+        (void)voile::engine::take(voile::engine::AtomicFile::create("hello_cloth.png"));
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.6f, 1.7f, 2.6f}, .target = {0, 0.55f, 0}};
     scene.focus = {0, 0.5f, 0};

@@ -9,6 +9,7 @@
 #include "voile/fabrics.hpp"
 
 #include "voile/engine/app/app.hpp"
+#include "voile/engine/assets/atomic_file.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/engine/render/readback.hpp"
 #include "voile/engine/scene/static_mesh.hpp"
@@ -77,6 +78,8 @@ void run(const samples::Arguments& arguments)
 {
     samples::Progress progress(arguments.frames);
     voile::engine::App app({.title = "a component of your own", .headless = arguments.headless});
+    if (!app.has_window()) // before the simulation: an output that cannot be written is reported at once
+        (void)voile::engine::take(voile::engine::AtomicFile::create("own_component.png"));
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {2.6f, 1.5f, 2.2f}, .target = {0, 0.9f, 0.2f}};
     scene.focus = {0, 0.8f, 0};

@@ -9,6 +9,7 @@
 #include "voile/fabrics.hpp"
 
 #include "voile/engine/app/app.hpp"
+#include "voile/engine/assets/atomic_file.hpp"
 #include "voile/engine/assets/shapes.hpp"
 #include "voile/engine/render/readback.hpp"
 #include "voile/engine/scene/deforming_mesh.hpp"
@@ -155,6 +156,8 @@ void run(const samples::Arguments& arguments)
 {
     samples::Progress progress(arguments.frames);
     voile::engine::App app({.title = "a sleeve", .headless = arguments.headless});
+    if (!app.has_window()) // before the simulation: an output that cannot be written is reported at once
+        (void)voile::engine::take(voile::engine::AtomicFile::create("skinned.png"));
     voile::engine::Scene& scene = app.scene();
     scene.camera = {.position = {1.5f, 1.15f, 0.9f}, .target = {0, 0.98f, 0.1f}, .fov = 32};
     scene.focus = {0, 0.8f, 0};

@@ -49,8 +49,9 @@ void check_order(SceneReader& reader, const Field& field, const voile::MaterialP
     const MaterialValue* value = material.find(parameter.name);
     const MaterialValue* least = material.find(parameter.rule.least_name);
     if (value != nullptr && least != nullptr && least->numbers[0] > value->numbers[0])
-        reader.fail(SceneReader::child(field, parameter.rule.least_name),
-                    std::string("is above ") + parameter.name + ", " + number_text(value->numbers[0]));
+        reader.fail(SceneReader::child(field, parameter.rule.least_name), "is " + number_text(least->numbers[0]) +
+                                                                              ", above " + parameter.name + ", " +
+                                                                              number_text(value->numbers[0]));
 }
 
 // Calls `visit` for each parameter, once for those that both kinds of material have.

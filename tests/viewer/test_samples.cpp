@@ -141,6 +141,20 @@ TEST_CASE("samples say that they prepare before they look for a device")
     }
 }
 
+TEST_CASE("samples report a picture that they cannot write before they simulate")
+{
+    for (const char* name : {"hello_cloth", "own_component", "skinned"})
+    {
+        CAPTURE(name);
+        const TestFolder folder;
+        std::filesystem::create_directory(folder / (std::string(name) + ".png"));
+        const SampleRun run = run_sample(folder, name, "--headless 2");
+        CHECK(run.status == 1);
+        REQUIRE(run.errors.size() == 2); // no frame
+        CHECK(run.errors[1].text.find(std::string(name) + ".png: cannot be written: ") != std::string::npos);
+    }
+}
+
 TEST_CASE("foreign_engine reports an output that it cannot write before it simulates")
 {
     const TestFolder folder;

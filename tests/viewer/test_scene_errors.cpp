@@ -155,7 +155,7 @@ TEST_CASE("bad words, names and pins of a cloth are refused")
     CHECK(cloth_message("\"material\": {\"preset\": \"velvet\"}")
               .starts_with("dir/s.json:1: cloths[0].material.preset is \"velvet\", which is not a material"));
     CHECK(cloth_message("\"material\": {\"static_friction\": 0.2, \"kinetic_friction\": 0.3}") ==
-          "dir/s.json:1: cloths[0].material.kinetic_friction is above static_friction, 0.2");
+          "dir/s.json:1: cloths[0].material.kinetic_friction is 0.3, above static_friction, 0.2");
     CHECK(cloth_message("\"material\": {\"stretch_stiffness\": [1, 2, 3]}") ==
           "dir/s.json:1: cloths[0].material.stretch_stiffness has 3 items; expected an array of 2 numbers");
     CHECK(cloth_message("\"material\": {\"stretch_stiffness\": 1000}") == "accepted");
