@@ -65,13 +65,15 @@ layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 
 layout(push_constant, std430) uniform Push { ContactPush push; };
 
-uint patch_index; // of the workgroup
-
 #define VOILE_NORMAL_POSITIONS proposed_positions
 #define VOILE_NORMAL_RESIDUALS proposed_residuals
 #include "shared/vertex_normal.glsl"
 #include "shared/step_input.glsl"
+#include "shared/patch.glsl"
 #include "colliders/collider_pose.glsl"
+
+uint patch_of_group() { return patch_of_batch(push.first_patch); }
+
 #define VOILE_NEAR_LISTS (NEAR_LISTS != 0)
 #include "colliders/near_colliders.glsl"
 #include "contact/contact_query.glsl"
@@ -263,7 +265,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
-    return walk_colliders(patch_index, box_around(motion.from.x, to));
+    return walk_colliders(patch_of_group(), box_around(motion.from.x, to));
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
@@ -307,7 +309,7 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
     motion.v = velocity.xyz;
     motion.cloth = cloth;
     flags = uint(velocity.w);
-    if (push.features != 0 && patches[patch_index].near_features != 0 &&
+    if (push.features != 0 && patches[patch_of_group()].near_features != 0 &&
         corrections[i].substep == counted_substep(push.substep))
     {
         motion.displacement += corrections[i].shift;
@@ -421,8 +423,7 @@ void watch_driven(uint i, uint cloth, Motion motion)
 
 void main()
 {
-    patch_index = patch_of_batch(push.first_patch);
-    const PatchVertex self = patch_vertex(patch_index);
+    const PatchVertex self = patch_vertex(patch_of_group());
     if (!self.exists)
         return;
     const uint i = self.index;

@@ -9,8 +9,8 @@
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It is valid
 // until the end of that step. So is the list of a deforming mesh, whose boxes cover the whole step.
-// The including kernel declares candidate_centers[], candidate_triangles[], patch_index (of the workgroup) and what
-// mesh_query.glsl expects, and includes near_colliders.glsl before.
+// The including kernel declares candidate_centers[], candidate_triangles[], patch_of_group() and what mesh_query.glsl
+// expects, and includes near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
 #define VOILE_CONTACT_CANDIDATES_GLSL
 
@@ -214,7 +214,7 @@ MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float qu
     MovingMeshes result = MovingMeshes(true, 0);
     if (COLLIDERS_MOVE == 0)
         return result;
-    ColliderWalk walk = walk_colliders(patch_index, box_around(motion.from.x, position_of(motion)));
+    ColliderWalk walk = walk_colliders(patch_of_group(), box_around(motion.from.x, position_of(motion)));
     uint c;
     while (next_collider(walk, c))
     {
@@ -243,7 +243,7 @@ MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float qu
 void collect_triangles(inout Candidates list, uint layers)
 {
     list.count = 0;
-    ColliderWalk walk = walk_colliders(patch_index, grown(Box(list.center, list.center), list.radius));
+    ColliderWalk walk = walk_colliders(patch_of_group(), grown(Box(list.center, list.center), list.radius));
     uint c;
     while (next_collider(walk, c))
     {
