@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of README.md and docs/ anew: those of the scenes, into docs/. Without a GPU it takes long. Look at each picture
-# before you commit it. The flag and those of a material's parameters need ffmpeg, the window Xvfb.
+# before you commit it. The flag and those of a material's parameters need ffmpeg, the window Xvfb. docs/capture.png, of RenderDoc,
+# is made by hand.
 #
 #   scripts/pictures.sh              all
 #   scripts/pictures.sh NAME ...     some of: reference drape curtains moving fabrics dressed flag debug window, and of a
