@@ -156,6 +156,5 @@ TEST_CASE("a sheet lies on the edge that a flat mesh folds into")
 TEST_CASE("deforming colliders that are driven through a sheet at up to 100 m/s take it along")
 {
     for (const Driven& shape : driven())
-        for (const float speed : {k_speeds[2]})
-            drive(shape, speed, Motion::deforming);
+        drive(shape, k_speeds[2], Motion::deforming);
 }

@@ -95,17 +95,17 @@ void insert(inout Search search, uint kind, uvec4 vertices, bool edges, float at
         found[first + search.count++] = pair;
         return;
     }
-    uint place = capacity;
+    uint slot = capacity;
     Found last = pair;
     for (uint k = 0; k < capacity; ++k)
         if (order_of(found[first + k]) > order_of(last))
         {
             last = found[first + k];
-            place = k;
+            slot = k;
         }
     search.range = min(search.range, last.distance);
-    if (place < capacity)
-        found[first + place] = pair;
+    if (slot < capacity)
+        found[first + slot] = pair;
 }
 
 bool goes_on(Search search) { return true; }

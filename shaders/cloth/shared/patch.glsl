@@ -34,9 +34,9 @@ PatchVertex patch_vertex(uint patch_index, uint thread)
 // The patch of the workgroup, in a dispatch over a batch or over its patches that are awake.
 uint patch_of_batch(uint first_patch)
 {
-    const uint place = (first_patch & ~VOILE_AWAKE_PATCHES) + gl_WorkGroupID.x;
+    const uint slot = (first_patch & ~VOILE_AWAKE_PATCHES) + gl_WorkGroupID.x;
     const bool awake = (first_patch & VOILE_AWAKE_PATCHES) != 0;
-    return awake ? patches[place].tile >> VOILE_PATCH_AWAKE_SHIFT : place;
+    return awake ? patches[slot].tile >> VOILE_PATCH_AWAKE_SHIFT : slot;
 }
 
 PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x); }

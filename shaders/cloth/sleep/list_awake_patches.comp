@@ -17,7 +17,7 @@ layout(push_constant, std430) uniform Push { AwakePush push; };
 
 shared uint shared_sum[gl_WorkGroupSize.x];
 
-// Not the bit of the patch, which other threads write beside what they list.
+// Asks the cloth, because other threads write the words of patches meanwhile.
 bool is_awake(uint patch_index) { return (cloths[patches[patch_index].cloth].flags & VOILE_CLOTH_ASLEEP) == 0; }
 
 uint count_awake(uint first, uint end)
@@ -44,14 +44,14 @@ uint inclusive_sum(uint value)
     return shared_sum[thread];
 }
 
-void list_awake(uint first, uint end, uint place)
+void list_awake(uint first, uint end, uint slot)
 {
     for (uint i = first; i < end; ++i)
         if (is_awake(i))
         {
             const uint bits = (1u << VOILE_PATCH_AWAKE_SHIFT) - 1;
-            patches[place].tile = (patches[place].tile & bits) | i << VOILE_PATCH_AWAKE_SHIFT;
-            ++place;
+            patches[slot].tile = (patches[slot].tile & bits) | i << VOILE_PATCH_AWAKE_SHIFT;
+            ++slot;
         }
 }
 
