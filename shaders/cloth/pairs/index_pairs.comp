@@ -50,6 +50,8 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 // The part of the thickness that no pair comes closer than while no list has it. Else full lists would let it come
 // closer with each search, until rounding hides which side is which.
 const float k_unlisted_floor = 0.02;
+// A list is crowded from this part of its capacity on.
+const float k_crowded_part = 0.75;
 
 // Of the pairs of an owner, those that a vertex is in on the owner's side.
 uint pairs_around(uint vertex, uint owner, uint mask)
@@ -90,6 +92,8 @@ shared uint shared_references;
 // Only vertices that have found pairs were matched.
 uint mask_of(PairList list) { return list.count == 0 ? 0 : list.mask; }
 
+bool is_crowded(PairList list) { return float(list.count) >= k_crowded_part * float(push.capacity); }
+
 uint groups_of(uint threads) { return (threads + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 
 void reserve()
@@ -129,13 +133,13 @@ void refer(Fan fan, uint at)
 // Until a pass finds the vertex in a pair, only its sweep bounds it. Where even sweeps come too near each other, the
 // vertex stays on its carry. All that falls freely has the same. Else the clock stops, and the vertex stays where it is.
 // The next sweeps are shorter, because it loses its velocity or, if a collider pushes it, by halvings.glsl.
-void bound(uint i, uint cloth, float reach, bool listed)
+void bound(uint i, uint cloth, float reach, uint listed)
 {
     PairSweep sweep;
     sweep.from = positions[i].xyz;
     sweep.reach = max(VOILE_PAIR_APPROACH * reach, 0);
     sweep.sweep = reach > 0 ? 2 * unpack_half_sweep(floatBitsToUint(midpoints[i].w)) : vec3(0);
-    sweep.listed = listed ? 1 : 0;
+    sweep.listed = listed;
     sweep.carry = pair_carries[i];
     sweep.fall = falls(sweep.carry) * ((cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0 ? 0.5 : 1);
     if (reach <= 0 && sweep.fall == 0)
@@ -182,6 +186,7 @@ void main()
         fan = fan_of(self.cloth, i);
         float reach = pair_lists[i].range;
         own = mask_of(pair_lists[i]);
+        bool crowded = false;
         for (uint k = 0; k < owner_count(fan); ++k)
         {
             uint owner;
@@ -190,12 +195,14 @@ void main()
             {
                 const PairList list = pair_lists[owner];
                 reach = min(reach, list.range);
+                crowded = crowded || is_crowded(list);
                 mask = k == 0 ? own : pairs_around(i, owner, mask_of(list));
             }
             pair_masks[mask_place(fan, k, push.vertices)] = mask;
             references += bitCount(mask);
         }
-        bound(i, self.cloth, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, references != 0);
+        const uint listed = references == 0 ? 0 : crowded ? VOILE_PAIR_CROWDED_LIST : 1;
+        bound(i, self.cloth, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, listed);
     }
     barrier();
     uint pair_place = atomicAdd(shared_pairs, bitCount(own));

@@ -130,7 +130,8 @@ void main()
     const uint halvings =
         next_halvings(halvings_of(memory), pair_bounds[i].sweep, pair_interval() * length(relative));
     pair_memories[i].pass = with_halvings(memory, halvings);
-    const uint word = pack_half_sweep(exp2(-1 - float(halvings)) * sweep_of(fan, cloth, relative));
+    const float part = exp2(-float(halvings_with(halvings, pair_bounds[i].sweep, memory)));
+    const uint word = pack_half_sweep(0.5 * part * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;
     midpoints[i] = vec4(positions[i].xyz + half_carry + unpack_half_sweep(word), uintBitsToFloat(word));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;

@@ -30,6 +30,7 @@
 // passes, sweeps are halved where they leave little room. It is kept from step to step.
 #define VOILE_PAIR_CROWDED 10
 #define VOILE_PAIR_CROWDED_PASSES 64
+#define VOILE_PAIR_CROWDED_LIST 2
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
 // How often the sweep of a vertex is halved (PairMemory): the bits of the number; by how much it rises where a sweep
@@ -141,7 +142,8 @@ struct PairSweep
     vec3 from;      // m
     float reach;    // m
     vec3 sweep;     // m
-    uint listed;    // 1: the vertex is in a listed pair
+    uint listed;    // 1: the vertex is in a listed pair; VOILE_PAIR_CROWDED_LIST: and a list with a pair
+                    // around it is almost full
     uvec2 residual; // of `from` (fine_position.glsl)
     uint carry;
     float fall; // 0: gravity does not accelerate what carries `from`; else the part of a substep after which the
