@@ -39,7 +39,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "contact/friction_law.glsl"
 #include "pairs/clock.glsl"
 #include "pairs/direction.glsl"
-#include "pairs/memory.glsl"
+#include "pairs/halvings.glsl"
 #include "pairs/pair.glsl"
 
 // The part of the thickness below which a pair comes closer slowly, by this part of what it has above the least.
@@ -48,7 +48,8 @@ const float k_near_floor = 0.25;
 // The least part of the thickness, for carries, too. Else a pair that they lead together for several passes would end
 // nearer than rounding. Pairs that begin closer may not approach.
 const float k_carry_floor = 0.02;
-// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than, m/s:
+// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than lift_of says:
+// at most, m/s,
 const float k_part = 0.2;
 const float k_lift_speed = 0.25;
 // Pairs that miss each other by less than this part of the thickness bounce: they drift until they touch again.
@@ -174,7 +175,17 @@ struct Approach
     float missing; // m, of the thickness; below 0: so far apart
     float thickness; // m
     float support;   // by how much the impulse along n is stronger than what the pair needs
+    float lift;      // m/s, at which the pair parts at most
 };
+
+// m/s: how fast a pair parts. What it gains it keeps, so layers that lie on each other and have sunk a little must not be thrown
+// up. Those that almost touch have no room to move otherwise. What moves without mass makes room by force, and so does what a
+// collider pushes into crowded cloth.
+float lift_of(float missing, float thickness, bool driven)
+{
+    const float depth = missing / thickness;
+    return k_lift_speed * (driven || is_crowded() ? 1 : depth * depth);
+}
 
 // The velocity that the pair removes or adds, and how far it has slid since the last pass if it sticks, in `drift`.
 vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
@@ -182,7 +193,7 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     drift = vec3(0);
     const float missing = approach.missing / pair_interval();
     const float along = dot(approach.velocity, approach.n);
-    const float wanted = (missing < 0 ? missing : min(k_part * missing, k_lift_speed)) - along;
+    const float wanted = (missing < 0 ? missing : min(k_part * missing, approach.lift)) - along;
     const vec3 sliding = approach.velocity - along * approach.n;
     // Packed as halfs: beyond their range it would be infinite, and the slip it adds up to not a number.
     const vec3 slid = clamp(approach.moved - dot(approach.moved, approach.n) * approach.n, vec3(-k_most_half), vec3(k_most_half));
@@ -204,6 +215,15 @@ vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
     }
     const float left = slip_speed(speed, pressure, friction.x, friction.y);
     return pressure * approach.n - (1 - left / speed) * sliding;
+}
+
+// Whether a vertex without mass moves.
+bool is_driven(Vertices vertices)
+{
+    vec3 fastest = vec3(0);
+    [[unroll]] for (uint k = 0; k < 4; ++k)
+        fastest = vertices.inverse_masses[k] == 0 ? max(fastest, abs(vertices.v[k])) : fastest;
+    return any(greaterThan(fastest, vec3(0)));
 }
 
 // m: how far vertices without mass, which nothing holds, will move towards the other side until the next pass. The first
@@ -297,7 +317,8 @@ void main()
     vec3 drift;
     const Approach approach =
         Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.moved),
-                 weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness, support_of(pair, nearest.weights, vertices, n));
+                 weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
+                 support_of(pair, nearest.weights, vertices, n), lift_of(thickness - apart, thickness, is_driven(vertices)));
     response.mobilities = nearest.weights * vertices.inverse_masses;
     const float lever = lever_of(nearest.weights, response.mobilities);
     response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
