@@ -45,13 +45,17 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 // The part of the thickness below which a pair comes closer slowly, by this part of what it has above the least.
 const float k_floor = 0.1;
 const float k_near_floor = 0.25;
-// The least part of the thickness, for carries, too. Else a pair that they lead together for several passes would end
-// nearer than rounding. Pairs that begin closer may not approach.
-const float k_carry_floor = 0.02;
-// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than lift_of says:
-// at most, m/s,
+// The least part of the thickness. Pairs that begin closer may not approach.
+const float k_least = 0.02;
+// The part of its room within which the clock may lead a pair together. What it leads together it presses together, whatever
+// springs pull at it: with twice the room, cloth gathered by pins shook itself to 50 m/s.
+const float k_carried_part = 0.5;
+// A pair that is closer than its thickness parts by this part of what is missing, per pass, but not faster than lift_of says,
+// and that is at most, m/s:
 const float k_part = 0.2;
 const float k_lift_speed = 0.25;
+// Nearest points with a smaller weight of a vertex are at an end of an edge.
+const float k_end = 1e-4;
 // Pairs that miss each other by less than this part of the thickness bounce: they drift until they touch again.
 const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
@@ -162,7 +166,7 @@ vec3 relative_velocity(vec4 weights, Vertices vertices, vec3 n)
 bool is_at_one_place(float apart, float lever, float thickness, vec3 near)
 {
     const float largest = max(max(abs(near.x), abs(near.y)), abs(near.z));
-    return apart < k_touch * max(largest, 1) || (lever < k_least_lever && apart < k_carry_floor * thickness);
+    return apart < k_touch * max(largest, 1) || (lever < k_least_lever && apart < k_least * thickness);
 }
 
 // How both sides of a pair move relative to each other, at their nearest points.
@@ -178,13 +182,18 @@ struct Approach
     float lift;      // m/s, at which the pair parts at most
 };
 
-// m/s: how fast a pair parts. What it gains it keeps, so layers that lie on each other and have sunk a little must not be thrown
-// up. Those that almost touch have no room to move otherwise. What moves without mass makes room by force, and so does what a
-// collider pushes into crowded cloth.
+// m/s: how fast a pair parts. It keeps what it gains, so layers that have sunk a little must not be thrown up. What moves
+// without mass needs room at once, and so does what a collider pushes into crowded cloth.
 float lift_of(float missing, float thickness, bool driven)
 {
-    const float depth = missing / thickness;
-    return k_lift_speed * (driven || is_crowded() ? 1 : depth * depth);
+    return k_lift_speed * (driven || is_crowded() ? 1 : missing / thickness);
+}
+
+// Whether a pair of edges is left to a vertex and a triangle that have the same nearest points: they are at an end of one edge.
+// Where layers have vertices above vertices, most pairs are such. Each would push along a direction of its own.
+bool is_covered(Pair pair, vec4 weights)
+{
+    return pair.edges && any(lessThan(abs(weights), vec4(k_end)));
 }
 
 // The velocity that the pair removes or adds, and how far it has slid since the last pass if it sticks, in `drift`.
@@ -265,7 +274,7 @@ float carry_of_planes(uint sides, Vertices vertices, Separation separation, vec3
 // could not part either: guards of slightly different normals without room leave a point.
 float spare_gap(float gap, float thickness)
 {
-    return max(0, max(gap - k_floor * thickness, k_near_floor * (gap - k_carry_floor * thickness)));
+    return max(0, max(gap - k_floor * thickness, k_near_floor * (gap - k_least * thickness)));
 }
 
 void add_load(uint vertex, float weight)
@@ -274,17 +283,18 @@ void add_load(uint vertex, float weight)
 }
 
 // How far the vertices of the own side may approach, `slack` for all, and how far the clock carries the planes
-// (PairResponse::heights). Where it would carry them farther than `room_to_carry`, it slows down.
+// (PairResponse::heights). Where it would lead them together by more than a part of `slack`, it slows down.
 // `own`: the first place of the side, and the first one after it.
-uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float room_to_carry, float carry)
+uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float carry)
 {
+    const float room = k_carried_part * slack;
     vec3 heights = vec3(0);
     float rate = 1;
     for (uint k = own.x; k < own.y; ++k)
     {
         const float nearer = (carry - dot(separation.n, vertices.carry[k])) * (own.x == 0 ? 1 : -1);
-        if (nearer > separation.from_plane[k] + room_to_carry)
-            rate = min(rate, (separation.from_plane[k] + room_to_carry) / nearer);
+        if (nearer > separation.from_plane[k] + room)
+            rate = min(rate, (separation.from_plane[k] + room) / nearer);
         heights[k - own.x] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
     }
     if (rate < 1)
@@ -314,14 +324,16 @@ void main()
     const vec3 direction = separating_direction(pair.edges, vertices.x, nearest);
     response.normal = pack_direction(direction / max(length(direction), 1e-20));
     const vec3 n = unpack_direction(response.normal);
-    vec3 drift;
     const Approach approach =
         Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.moved),
                  weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
                  support_of(pair, nearest.weights, vertices, n), lift_of(thickness - apart, thickness, is_driven(vertices)));
     response.mobilities = nearest.weights * vertices.inverse_masses;
     const float lever = lever_of(nearest.weights, response.mobilities);
-    response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
+    vec3 drift = vec3(0);
+    response.impulse = vec3(0);
+    if (!is_covered(pair, nearest.weights))
+        response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
@@ -335,9 +347,7 @@ void main()
     const float slack = sideless ? k_sideless_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
     const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(frame.carry, frame.fall));
-    const float room_to_carry = 2 * VOILE_PAIR_APPROACH * (separation.gap - k_carry_floor * thickness);
-    response.heights = heights_of(own, vertices, separation, slack,
-                                  slack + 0.5 * max(room_to_carry - max(room, needed.x + needed.y), 0), carry);
+    response.heights = heights_of(own, vertices, separation, slack, carry);
     pair_responses[entry] = response;
     for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)
         add_load(pair.vertices[k], nearest.weights[k]);
