@@ -41,6 +41,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/direction.glsl"
 #include "pairs/halvings.glsl"
 #include "pairs/pair.glsl"
+#include "pairs/push.glsl"
 
 // The part of the thickness below which a pair comes closer slowly, by this part of what it has above the least.
 const float k_floor = 0.1;
@@ -54,8 +55,6 @@ const float k_carried_part = 0.5;
 // and that is at most, m/s:
 const float k_part = 0.2;
 const float k_lift_speed = 0.25;
-// Nearest points with a smaller weight of a vertex are at an end of an edge.
-const float k_end = 1e-4;
 // Pairs that miss each other by less than this part of the thickness bounce: they drift until they touch again.
 const float k_near = 0.1;
 // The part of the drift of pairs that stick that is undone in a pass.
@@ -189,13 +188,6 @@ float lift_of(float missing, float thickness, bool driven)
     return k_lift_speed * (driven || is_crowded() ? 1 : missing / thickness);
 }
 
-// Whether a pair of edges is left to a vertex and a triangle that have the same nearest points: they are at an end of one edge.
-// Where layers have vertices above vertices, most pairs are such. Each would push along a direction of its own.
-bool is_covered(Pair pair, vec4 weights)
-{
-    return pair.edges && any(lessThan(abs(weights), vec4(k_end)));
-}
-
 // The velocity that the pair removes or adds, and how far it has slid since the last pass if it sticks, in `drift`.
 vec3 impulse_of(Approach approach, vec2 friction, out vec3 drift)
 {
@@ -324,16 +316,18 @@ void main()
     const vec3 direction = separating_direction(pair.edges, vertices.x, nearest);
     response.normal = pack_direction(direction / max(length(direction), 1e-20));
     const vec3 n = unpack_direction(response.normal);
+    const vec3 along = push_direction(pair.edges, vertices.x, n);
     const Approach approach =
-        Approach(relative_velocity(nearest.weights, vertices, n), weighted(nearest.weights, vertices.moved),
-                 weighted(nearest.weights, vertices.slip), n, thickness - apart, thickness,
-                 support_of(pair, nearest.weights, vertices, n), lift_of(thickness - apart, thickness, is_driven(vertices)));
+        Approach(relative_velocity(nearest.weights, vertices, along), weighted(nearest.weights, vertices.moved),
+                 weighted(nearest.weights, vertices.slip), along, thickness - apart, thickness,
+                 support_of(pair, nearest.weights, vertices, along), lift_of(thickness - apart, thickness, is_driven(vertices)));
     response.mobilities = nearest.weights * vertices.inverse_masses;
     const float lever = lever_of(nearest.weights, response.mobilities);
     vec3 drift = vec3(0);
     response.impulse = vec3(0);
-    if (!is_covered(pair, nearest.weights))
-        response.impulse = lever * impulse_of(approach, friction_of(pair), drift);
+    const float uncovered = uncovered_part(pair.edges, vertices.x, nearest.weights);
+    if (uncovered > 0)
+        response.impulse = uncovered * lever * impulse_of(approach, friction_of(pair), drift);
     response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
