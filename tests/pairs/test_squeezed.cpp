@@ -109,10 +109,10 @@ public:
 class Gathered : public PairHarness
 {
 public:
-    Gathered()
+    explicit Gathered(float thickness)
     {
         voile::GridCloth sheet = tests::pair_sheet(k_columns, 8, k_spacing);
-        std::get<voile::Fabric>(sheet.material).thickness = 0.008f;
+        std::get<voile::Fabric>(sheet.material).thickness = thickness;
         sheet.transform = turned(1.57f, {1, 0, 0});
         add(sheet);
         std::vector<voile::Attachment> pins;
@@ -195,20 +195,20 @@ TEST_CASE("pins that carry one curtain through the path of another force no pair
 
 TEST_CASE("pins that gather cloth closer than its thickness do not make it buzz")
 {
-    for (const float part : {0.35f, 0.1f})
+    for (const auto& [part, thickness] : {std::pair(0.35f, 0.008f), {0.08f, 0.008f}, {0.1f, 0.005f}})
     {
         CAPTURE(part);
         constexpr int k_closed = 30; // frames
-        Gathered curtain;
+        Gathered curtain(thickness);
         float most = 0; // m/s, after that
-        for (int frame = 0; frame < 2 * k_closed; ++frame)
+        for (int frame = 0; frame < 3 * k_closed; ++frame)
         {
             curtain.gather(1 - (1 - part) * std::min(1.f, static_cast<float>(frame + 1) / k_closed));
             curtain.step({.duration = 1.f / 60});
             if (frame > k_closed)
                 most = std::max(most, fastest(curtain));
         }
-        CHECK(most < 3); // it swings at 1.2 and 1.0
+        CHECK(most < 4); // it swings at up to 2.3; carried cloth shook at 35
         CHECK(curtain.intersections() == 0);
     }
 }
