@@ -65,8 +65,10 @@ void clear_total(uint cloth)
 {
     pair_islands[cloth].joined = 0;
     pair_islands[cloth].total_vertices = pair_islands[cloth].total_clear = pair_islands[cloth].total_stopped = 0;
+    pair_islands[cloth].total_mass = 0;
+    pair_islands[cloth].heaviest = 0;
     for (uint k = 0; k < 3; ++k)
-        pair_islands[cloth].total_velocity[k] = 0;
+        pair_islands[cloth].total_momentum[k] = 0;
 }
 
 void add_to_total(uint cloth)
@@ -75,21 +77,23 @@ void add_to_total(uint cloth)
     atomicAdd(pair_islands[island].total_vertices, pair_islands[cloth].vertices);
     atomicAdd(pair_islands[island].total_clear, pair_islands[cloth].clear);
     atomicMax(pair_islands[island].total_stopped, pair_islands[cloth].stopped);
+    const float part = cloths[cloth].pair_mass / max(uintBitsToFloat(pair_islands[island].heaviest), 1e-30);
+    atomicAdd(pair_islands[island].total_mass, uint(round(part * float(pair_islands[cloth].mass))));
     for (uint k = 0; k < 3; ++k)
-        atomicAdd(pair_islands[island].total_velocity[k], pair_islands[cloth].velocity[k]);
+        atomicAdd(pair_islands[island].total_momentum[k], int(round(part * float(pair_islands[cloth].momentum[k]))));
 }
 
-ivec3 total_velocity(uint island)
+ivec3 total_momentum(uint island)
 {
-    return ivec3(pair_islands[island].total_velocity[0], pair_islands[island].total_velocity[1],
-                 pair_islands[island].total_velocity[2]);
+    return ivec3(pair_islands[island].total_momentum[0], pair_islands[island].total_momentum[1],
+                 pair_islands[island].total_momentum[2]);
 }
 
 // A vertex is carried by a part of the mean way, and from there it goes as far as its sweep and its reach.
 void write_reach(uint cloth)
 {
     const uint island = island_of(cloth);
-    const vec3 carry = VOILE_PAIR_SWEEP_TIME * mean_of(total_velocity(island), pair_islands[island].total_clear);
+    const vec3 carry = VOILE_PAIR_SWEEP_TIME * mean_of(total_momentum(island), pair_islands[island].total_mass);
     const Box box = box_of(cloth);
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
                          k_packing * length(carry) + rounding(box.min) + rounding(box.max);
@@ -158,6 +162,10 @@ void find_totals(uint thread)
     wait_for_all();
     for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
         if (exists(c))
+            atomicMax(pair_islands[island_of(c)].heaviest, floatBitsToUint(cloths[c].pair_mass));
+    wait_for_all();
+    for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
+        if (exists(c))
             add_to_total(c);
     wait_for_all();
 }
@@ -194,8 +202,9 @@ void main()
         {
             pair_islands[c].vertices = pair_islands[c].total_vertices;
             pair_islands[c].clear = pair_islands[c].total_clear;
+            pair_islands[c].mass = pair_islands[c].total_mass;
             for (uint k = 0; k < 3; ++k)
-                pair_islands[c].velocity[k] = pair_islands[c].total_velocity[k];
+                pair_islands[c].momentum[k] = pair_islands[c].total_momentum[k];
             pair_islands[c].stopped = pair_islands[c].total_stopped;
         }
 }

@@ -1,4 +1,5 @@
-// How fast the vertices of an island that are clear of colliders move on average (pair_clear.comp).
+// How fast the vertices of an island that are clear of colliders move on average, by mass (pair_clear.comp): what guards cut from
+// a motion relative to that leaves their momentum as it is, on average.
 //
 // The including kernel declares pair_islands[] and push.
 #ifndef VOILE_MEAN_VELOCITY_GLSL
@@ -14,18 +15,18 @@ vec3 velocity_at_pass(vec3 velocity, uint cloth_flags)
     return velocity + ((cloth_flags & VOILE_CLOTH_VERLET) != 0 ? lag : vec3(0));
 }
 
-// m/s: of a sum of velocities.
-vec3 mean_of(ivec3 sum, uint count)
+// m/s: of sums over vertices.
+vec3 mean_of(ivec3 momentum, uint mass)
 {
-    return vec3(sum) * (VOILE_PAIR_UNIT_SPEED * float(push.places) / float(max(count, 1)));
+    return vec3(momentum) * (VOILE_PAIR_UNIT_SPEED / VOILE_PAIR_UNIT_MASS / float(max(mass, 1)));
 }
 
-ivec3 velocities_of(uint island)
+ivec3 momentum_of(uint island)
 {
-    return ivec3(pair_islands[island].velocity[0], pair_islands[island].velocity[1], pair_islands[island].velocity[2]);
+    return ivec3(pair_islands[island].momentum[0], pair_islands[island].momentum[1], pair_islands[island].momentum[2]);
 }
 
 // m/s
-vec3 mean_velocity(uint island) { return mean_of(velocities_of(island), pair_islands[island].clear); }
+vec3 mean_velocity(uint island) { return mean_of(momentum_of(island), pair_islands[island].mass); }
 
 #endif

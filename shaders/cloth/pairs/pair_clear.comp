@@ -45,7 +45,8 @@ bool is_clear_vertex(uint i, uint cloth)
 // Of some vertices of a cloth.
 struct Part
 {
-    vec3 velocity; // m/s, summed over those that are clear
+    vec3 momentum; // m/s, of its heaviest vertex, summed over those that are clear
+    float mass;    // of those, relative to the heaviest
     float clear;
     Box box;
     float vertices;
@@ -55,19 +56,20 @@ shared Part shared_parts[gl_WorkGroupSize.x];
 
 Part joined(Part a, Part b)
 {
-    return Part(a.velocity + b.velocity, a.clear + b.clear, joined(a.box, b.box), a.vertices + b.vertices);
+    return Part(a.momentum + b.momentum, a.mass + b.mass, a.clear + b.clear, joined(a.box, b.box), a.vertices + b.vertices);
 }
 
 // The order does not depend on timing: groups add whole numbers.
 void add_to_cloth(uint cloth, Part part)
 {
-    const ivec3 sum = ivec3(round(part.velocity / (VOILE_PAIR_UNIT_SPEED * float(push.places))));
+    const ivec3 sum = ivec3(round(part.momentum / (VOILE_PAIR_UNIT_SPEED * float(push.places))));
     for (uint k = 0; k < 3; ++k)
     {
-        atomicAdd(pair_islands[cloth].velocity[k], sum[k]);
+        atomicAdd(pair_islands[cloth].momentum[k], sum[k]);
         atomicMax(pair_islands[cloth].low[k], ~ordered(part.box.min[k]));
         atomicMax(pair_islands[cloth].high[k], ordered(part.box.max[k]));
     }
+    atomicAdd(pair_islands[cloth].mass, uint(round(part.mass / (VOILE_PAIR_UNIT_MASS * float(push.places)))));
     atomicAdd(pair_islands[cloth].clear, uint(part.clear));
     atomicAdd(pair_islands[cloth].vertices, uint(part.vertices));
 }
@@ -75,10 +77,11 @@ void add_to_cloth(uint cloth, Part part)
 Part part_of(PatchVertex self, bool clear)
 {
     if (!self.exists)
-        return Part(vec3(0), 0, Box(vec3(k_unbounded), vec3(-k_unbounded)), 0);
+        return Part(vec3(0), 0, 0, Box(vec3(k_unbounded), vec3(-k_unbounded)), 0);
     const vec3 x = positions[self.index].xyz;
+    const float mass = clear ? 1 / (positions[self.index].w * cloths[self.cloth].pair_mass) : 0;
     const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
-    return Part(clear ? v : vec3(0), clear ? 1 : 0, Box(x, x), 1);
+    return Part(mass * v, mass, clear ? 1 : 0, Box(x, x), 1);
 }
 
 void main()

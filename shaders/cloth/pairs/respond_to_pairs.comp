@@ -213,10 +213,10 @@ void keep_clock(uint cloth)
 // For the next search.
 void forget_part(uint cloth)
 {
-    pair_islands[cloth].vertices = pair_islands[cloth].clear = 0;
+    pair_islands[cloth].vertices = pair_islands[cloth].clear = pair_islands[cloth].mass = 0;
     for (uint k = 0; k < 3; ++k)
     {
-        pair_islands[cloth].velocity[k] = 0;
+        pair_islands[cloth].momentum[k] = 0;
         pair_islands[cloth].low[k] = pair_islands[cloth].high[k] = 0;
     }
 }

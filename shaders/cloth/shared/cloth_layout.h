@@ -87,6 +87,8 @@ struct ClothRecord
     // Mesh, N m: x.
     vec3 bending;
     float bending_time; // s; the bending force depends on x + bending_time * v
+    float pair_mass;    // kg, of its heaviest vertex
+    uint padding[3];
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 
@@ -154,9 +156,9 @@ struct Patch
 
 #ifdef __cplusplus
 static_assert(sizeof(SpringClass) == 16);
-static_assert(sizeof(ClothRecord) == 128 + 16 * VOILE_SPRING_CLASSES);
+static_assert(sizeof(ClothRecord) == 144 + 16 * VOILE_SPRING_CLASSES);
 static_assert(offsetof(ClothRecord, bending) == 112);
-static_assert(offsetof(ClothRecord, springs) == 128);
+static_assert(offsetof(ClothRecord, springs) == 144);
 static_assert(sizeof(MeshVertex) == 16);
 static_assert(sizeof(MeshSpring) == 16);
 static_assert(sizeof(MeshCorner) == 8);

@@ -59,8 +59,9 @@
 #define VOILE_PAIR_PASSES 5
 // For so many passes nothing of an island is carried after the clock has carried vertices too near each other.
 #define VOILE_PAIR_STOPPED_PASSES 16
-// Velocities are summed up in this unit, as a part of the mean.
+// Momenta are summed up in this unit, m/s of the heaviest vertex, as a part of the mean, and masses in this one of it.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
+#define VOILE_PAIR_UNIT_MASS 1e-9f
 // s: the clock of the lists ends there.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
 // The largest fall, of the square of that. Half if the clock runs as fast as time.
@@ -105,7 +106,8 @@ struct PairIsland
     // Since the last lists, of the cloth; when islands are known, in the record of the first cloth, of the island.
     uint vertices;
     uint clear;      // of colliders
-    int velocity[3]; // the sum over those, in VOILE_PAIR_UNIT_SPEED
+    uint mass;       // of those, in VOILE_PAIR_UNIT_MASS
+    int momentum[3]; // in VOILE_PAIR_UNIT_SPEED
     // The box around the vertices of the cloth. Ordered numbers (ordered.glsl), the lower corner's inverted; 0: no
     // cloth.
     uint low[3];
@@ -114,7 +116,9 @@ struct PairIsland
     // over the island.
     float reach_low[3];
     float reach_high[3];
-    int total_velocity[3];
+    uint heaviest; // kg, the bits of a float: the vertex to which the totals are relative
+    int total_momentum[3];
+    uint total_mass;
     uint total_vertices;
     uint total_clear;
     uint total_stopped;

@@ -314,6 +314,7 @@ void apply_material(ClothModel& cloth)
     if (cloth.mesh)
         record.strain_relaxation = std::min(k_strain_relaxation, static_cast<float>(3.6 / cloth.mesh->uniform.edge));
     record.inverse_density = cloth.own_inverse_mass > 0 ? 1 : static_cast<float>(1 / density(cloth.material));
+    record.pair_mass = cloth.heaviest > 0 ? 1 / (cloth.heaviest * record.inverse_density) : 0;
     if (bends_isometrically(cloth.material))
         record.flags |= VOILE_CLOTH_ISOMETRIC;
     if (cloth.self_collision)

@@ -54,6 +54,7 @@ struct ClothModel
     // Masses that the host gave, relative to those of the material: the largest inverse mass in 1/kg times the vertex's
     // area (Fabric) or mass scale (Material). 0: all are the material's.
     double own_inverse_mass = 0;
+    float heaviest = 0;                  // the least `start.w` that is not 0; 0: there is none
     glm::vec3 velocity{0.f};             // m/s, at the start
     std::vector<Attachment> attachments; // pins and others, in the order given
     std::optional<Tethers> tether_options;

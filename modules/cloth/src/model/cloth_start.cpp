@@ -78,10 +78,12 @@ void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::
             cloth.own_inverse_mass = std::max(cloth.own_inverse_mass, inverse * measure);
         }
         cloth.start.emplace_back(glm::vec3(world_positions[i]), static_cast<float>(inverse));
+        const float own = cloth.start.back().w;
+        if (own > 0 && (cloth.heaviest == 0 || own < cloth.heaviest))
+            cloth.heaviest = own;
         cloth.residuals.push_back(residual_of(world_positions[i]));
     }
-    if (cloth.own_inverse_mass > 0)
-        apply_material(cloth);
+    apply_material(cloth); // it depends on the masses
     cloth.velocity = input.velocity;
     cloth.positions.reserve(world_positions.size());
     cloth.velocities.reserve(world_positions.size());
