@@ -83,16 +83,16 @@ struct GridCloth
     // pass through each other many times keep moving and never come free.
     //
     // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
-    // This is relative to the mean velocity of the cloth that is clear of colliders; beside colliders it is relative to
-    // the world. Any displacement beyond that is lost, with its momentum. The mean is that of an island: the cloths
-    // whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are searched. Cloth in
-    // free flight falls freely, in any shape and at any speed, as long as its island flies together. That holds even if
-    // layers start very near each other, or touch. A closed sphere of 38 vertices along a seam that is not merged drove
-    // itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness lost 0.06 m/s or a little more while
-    // they parted. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a mesh that touch at
-    // the start, as along a seam that is not merged, do not collide with each other there. Neither does cloth that pins
-    // hold at one point, nor cloth that is within 1e-7 m of other cloth, or within 1e-7 of its coordinates: these count
-    // as forced.
+    // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders it is
+    // relative to the world. Any displacement beyond that is lost, with its momentum. The mean is that of an island:
+    // the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are searched.
+    // Cloth in free flight falls freely, in any shape and at any speed, as long as its island flies together. That
+    // holds even if layers start very near each other, or touch. A closed sphere of 38 vertices along a seam that is
+    // not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness lost 0.06 m/s or a
+    // little more while they parted. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a
+    // mesh that touch at the start, as along a seam that is not merged, do not collide with each other there. Neither
+    // does cloth that pins hold at one point, nor cloth that is within 1e-7 m of other cloth, or within 1e-7 of its
+    // coordinates: these count as forced.
     //
     // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
     // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
@@ -103,15 +103,17 @@ struct GridCloth
     //
     // Cloth sticks on cloth up to nine tenths of static friction and creeps there at less than 0.1 mm/s; a second sheet
     // on top of it creeps at up to 0.6 mm/s. Where vertices lie above vertices, as in equal grids that are not rotated
-    // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Beyond, cloth slides as
-    // Coulomb's law says, within 1 % of the distance. Layers that lie on each other on a plane or a sphere come to
-    // rest: three to six sheets kept less than 1e-4 J/kg, and the uppermost of six moved at 0.1 to 0.4 mm/s. Pins that
-    // gather cloth to a twentieth of its width keep single vertices beside them in motion.
+    // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Sliding cloth is slowed
+    // as Coulomb's law says, within 1 % at up to 1.5 m/s and 5 % at 2 m/s; at 3 m/s by up to 1.6 times as much. Layers
+    // that lie on each other on a plane or a sphere come to rest: two to six sheets kept less than 1e-4 J/kg, and the
+    // uppermost of six moved at 0.1 to 0.4 mm/s. Pins that gather a grid to a twentieth of its width, in their order,
+    // keep single vertices beside them in motion. Three meshes with edges of 20 mm that pins gathered to a fifth or
+    // less within 0.5 s intersected (Statistics::forced_pairs), and stayed tangled.
     //
-    // Of 40 random pairs of sheets that approached each other at 0.5 to 4 m/s, none lost more than 2 % of its momentum;
-    // of 24 at 5 to 11 m/s half lost more than 1 %, and one 18 %. Sheets that start nearer than the thickness part at
-    // up to 0.25 m/s. Very fine cloth that slides fast along a collider is slowed: with a spacing of 3 mm, from 3 m/s
-    // on.
+    // Of 40 random pairs of sheets of equal spacing that approached each other at 0.5 to 4 m/s, none lost more than 2 %
+    // of its momentum; of 24 at 5 to 11 m/s half lost more than 1 %, and one 18 %. Meshes, and fine cloth on coarse,
+    // lost up to 9 % at 4 m/s. Sheets that start nearer than the thickness part at up to 0.25 m/s. Very fine cloth that
+    // slides fast along a collider is slowed: with a spacing of 3 mm, from 3 m/s on.
     bool self_collision = false;
 
     // m/s, 0..10. The cloth falls asleep when none of its vertices has been faster than this for 0.5 s of simulated
@@ -126,7 +128,7 @@ struct GridCloth
     // - in which one of its anchors moves;
     // - if gravity, wind, gusts or the air's density have changed since the last step and act on it;
     // - after a collider of its layers was added, removed, enabled or disabled, or its friction, layers or size
-    //   changed;
+    //   changed, or an upload that adds a cloth made its edges anew;
     // - in which such a collider moves or deforms and may come near: the box that it sweeps in the step is within twice
     //   the thickness of the box around the cloth. A moving plane is near all cloths. A rotating collider sweeps a ball
     //   around its origin.
