@@ -1,6 +1,6 @@
 // Along which a pair pushes, and how much of it is left to others. Guards hold all pairs, along the direction between their
-// nearest points. Where vertices lie above vertices, up to 40 pairs have the same ones, and pushed along that direction a layer
-// slid from vertex to vertex, downhill where there is no hill.
+// nearest points. Where vertices lie above vertices, up to 40 pairs have the same ones, and a layer that was pushed along that
+// direction slid from vertex to vertex, as if each were a hill.
 #ifndef VOILE_PUSH_GLSL
 #define VOILE_PUSH_GLSL
 
