@@ -15,16 +15,15 @@
 
 struct Gather
 {
-    FinePosition x; // of the vertex
-    vec3 v;         // m/s
-    vec3 force;   // N, of the springs
-    float energy; // J, the vertex's part of what the springs store
-    vec3 bending; // N, of the isometric model
-    float bending_scale; // stability scale: bending acts on bending_scale * x + bending_damping * v
-    float bending_damping; // s
-    vec3 gust;      // m/s, at x
-    vec3 air;       // N
-    float air_rate; // N s/m, force over relative velocity
+    FinePosition x;    // of the vertex
+    vec3 v;            // m/s
+    vec3 force;        // N, of the springs
+    float energy;      // J, the vertex's part of what the springs store
+    vec3 bending;      // N, of the isometric model; while neighbors are added, without damping and stability scale
+    vec3 bending_rate; // N/s, what damping acts on
+    vec3 gust;         // m/s, at x
+    vec3 air;          // N
+    float air_rate;    // N s/m, force over relative velocity
     Viscosity viscosity;
 };
 
@@ -102,20 +101,53 @@ FinePosition position_of(uint vertex)
 // m, from the vertex to another.
 vec3 delta_to(Gather g, uint other) { return displacement(g.x, position_of(other)); }
 
-// A neighbor on a grid. If it does not exist, the vertex takes its role: differences are 0, the spring has no force,
-// and no branch keeps loads from being issued together.
-// `bending`: weight of the neighbor in the bending energy. Returns the displacement to the neighbor, m.
-vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
+// Another vertex as one sees it.
+struct Neighbor
+{
+    vec3 delta;    // m
+    vec3 velocity; // m/s, relative
+};
+
+// On a grid. If it does not exist, the vertex takes its role: differences are 0, the spring has no force, and no branch
+// keeps loads from being issued together.
+Neighbor neighbor_of(Gather g, PatchVertex self, ivec2 offset, bool exists)
 {
     const uint other = exists ? neighbor(self.index, offset, self.columns) : self.index;
-    const vec3 delta = delta_to(g, other);
-    const vec3 velocity = stage_velocities[other].xyz - g.v;
-    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, delta, velocity);
-    g.bending += bending * (g.bending_scale * delta + g.bending_damping * velocity);
-    return delta;
+    return Neighbor(delta_to(g, other), stage_velocities[other].xyz - g.v);
+}
+
+// `weight`: of the neighbor in the bending energy.
+void add_bending(inout Gather g, Neighbor other, float weight)
+{
+    g.bending += weight * other.delta;
+    g.bending_rate += weight * other.velocity;
+}
+
+// A spring to a neighbor on a grid, and bending. Returns the displacement to the neighbor, m.
+vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
+{
+    const Neighbor other = neighbor_of(g, self, offset, exists);
+    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, other.delta, other.velocity);
+    add_bending(g, other, bending);
+    return other.delta;
 }
 
 bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
+
+// Both neighbors two lines away, ahead and behind, which may have springs, bending alone, or nothing.
+void add_far_neighbors(inout Gather g, PatchVertex self, ivec2 offset, bvec2 exist, SpringClass spring, float bending)
+{
+    if (has_springs(spring))
+    {
+        add_neighbor(g, self, offset, exist.x, spring, bending);
+        add_neighbor(g, self, -offset, exist.y, spring, bending);
+    }
+    else if (bending != 0)
+    {
+        add_bending(g, neighbor_of(g, self, offset, exist.x), bending);
+        add_bending(g, neighbor_of(g, self, -offset, exist.y), bending);
+    }
+}
 
 // Whether the grid has lines next to the vertex's, on either side.
 struct AdjacentLines
@@ -193,16 +225,8 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
     add_neighbor(g, self, ivec2(-1, -1), row.next.y && column.next.y, springs[2], -twist);
     add_neighbor(g, self, ivec2(1, -1), row.next.x && column.next.y, springs[3], -twist);
     add_neighbor(g, self, ivec2(-1, 1), row.next.y && column.next.x, springs[3], -twist);
-    if (c.x != 0 || has_springs(cloths[cloth].springs[4]))
-    {
-        add_neighbor(g, self, ivec2(2, 0), row.far.x, springs[4], row_bending.far);
-        add_neighbor(g, self, ivec2(-2, 0), row.far.y, springs[4], row_bending.far);
-    }
-    if (c.y != 0 || has_springs(cloths[cloth].springs[5]))
-    {
-        add_neighbor(g, self, ivec2(0, 2), column.far.x, springs[5], column_bending.far);
-        add_neighbor(g, self, ivec2(0, -2), column.far.y, springs[5], column_bending.far);
-    }
+    add_far_neighbors(g, self, ivec2(2, 0), row.far, springs[4], row_bending.far);
+    add_far_neighbors(g, self, ivec2(0, 2), column.far, springs[5], column_bending.far);
     if (has_springs(cloths[cloth].springs[6]))
     {
         add_neighbor(g, self, ivec2(2, 2), row.far.x && column.far.x, springs[6], 0);
@@ -246,13 +270,13 @@ void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
         const bool pulls = stiffness + damping > 0;
         if (!pulls && entry.bending == 0)
             continue;
-        const vec3 delta = delta_to(g, other);
-        const vec3 relative_velocity = stage_velocities[other].xyz - g.v;
+        const Neighbor neighbor = Neighbor(delta_to(g, other), stage_velocities[other].xyz - g.v);
         if (pulls)
-            add_spring(g, stiffness, damping, entry.rest_length, delta, relative_velocity);
-        g.bending -= entry.bending * (g.bending_scale * delta + g.bending_damping * relative_velocity);
+            add_spring(g, stiffness, damping, entry.rest_length, neighbor.delta, neighbor.velocity);
+        add_bending(g, neighbor, -entry.bending);
     }
     g.bending *= cloths[cloth].bending.x;
+    g.bending_rate *= cloths[cloth].bending.x;
     if (uniform_springs && !feels_air(cloth))
         return;
     SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
@@ -284,16 +308,15 @@ Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 gust, Viscosity vis
     Gather g;
     g.x = x;
     g.v = v;
-    g.force = g.bending = g.air = vec3(0);
+    g.force = g.bending = g.bending_rate = g.air = vec3(0);
     g.energy = g.air_rate = 0;
     g.gust = gust;
     g.viscosity = viscosity;
-    g.bending_scale = scales.stiffness;
-    g.bending_damping = scales.damping * cloths[self.cloth].bending_time;
     if (self.columns > 0)
         gather_grid(g, self.cloth, self, scales);
     else
         gather_mesh(g, self.cloth, self.local, scales);
+    g.bending = scales.stiffness * g.bending + scales.damping * cloths[self.cloth].bending_time * g.bending_rate;
     return g;
 }
 
