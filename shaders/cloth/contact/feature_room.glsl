@@ -13,7 +13,7 @@ shared uint items_of_group;
 shared uint fewer_items;                            // that the workgroup would have with fewer of each vertex
 shared uint first_of_group;                         // of the batch's items
 shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
-shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen
+shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen; before, margins of vertices
 shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
 
 // The most items of a vertex.

@@ -66,7 +66,9 @@ const float k_moving_margin = 1.25;
 const uint k_margins = 4;
 const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 
-shared uint near_vertices; // of the workgroup
+// Of the workgroup.
+shared uint near_vertices;
+shared uint reaching_vertices; // the features of a collider
 
 // Each patch has as many workgroups as vertices have lanes.
 uint patch_of_group() { return push.first_patch + gl_WorkGroupID.x / push.lanes; }
@@ -211,12 +213,16 @@ bool may_touch(uint c, PatchVertex self)
     return feature_sets[c].features > 0 && (colliders[c].layers & cloths[self.cloth].layers) != 0;
 }
 
+// m: the thickness with room for rounding. `far`: m, from the origin of the collider's space.
+float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth].thickness + rounding(far); }
+
 // m: the margin for the vertex's pieces, for the collider relative to which they move fastest. Those whose features are
-// out of reach do not count: results must not depend on distant colliders.
-float find_margin(PatchVertex self, Box walked)
+// out of reach do not count: results must not depend on distant colliders. `reaches`: there are others.
+float find_margin(PatchVertex self, Box walked, out bool reaches)
 {
     const float thickness = cloths[self.cloth].thickness;
     float margin = k_resting_margin * thickness;
+    reaches = false;
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
     while (next_collider(walk, c))
@@ -225,10 +231,12 @@ float find_margin(PatchVertex self, Box walked)
             continue;
         const Surrounding around = surrounding(self, c, colliders[c].flags);
         const float wanted = k_resting_margin * thickness + k_moving_margin * around.longest;
-        const Box reached =
-            grown(joined(around.box, around.later), 1.01 * thickness + max(wanted, sudden_reach()));
-        if (overlap(reached, feature_box(c)))
-            margin = max(margin, wanted);
+        const float radius = query_radius(self, max(abs(around.box.min), abs(around.box.max)));
+        const Box reached = grown(joined(around.box, around.later), radius + max(wanted, sudden_reach()));
+        if (!overlap(reached, feature_box(c)))
+            continue;
+        margin = max(margin, wanted);
+        reaches = true;
     }
     return margin;
 }
@@ -261,9 +269,6 @@ bool find_piece(PatchVertex self, uint i, out PieceKind piece)
             return false;
     return true;
 }
-
-// m: the thickness with room for rounding. `far`: m, from the origin of the collider's space.
-float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth].thickness + rounding(far); }
 
 // Gathers the features of collider c near the workgroup. All of its threads take part, those without a vertex, too.
 Gathering gather_near(inout FeatureSearch search, bool exists, uint c, uint lane, uint index)
@@ -381,6 +386,38 @@ void list_patch()
                      atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES], 1)] = index;
 }
 
+// Of the vertices of the workgroup.
+PatchVertex vertex_of_group(uint in_group)
+{
+    const uint vertices = gl_WorkGroupSize.x / push.lanes;
+    return patch_vertex(patch_of_group(), gl_WorkGroupID.x % push.lanes * vertices + in_group);
+}
+
+// The colliders that may count for a vertex are in it.
+Box walked_box(PatchVertex self)
+{
+    const vec3 position = positions[self.index].xyz;
+    const float speed = length(velocities[self.index].xyz);
+    return grown(Box(position, position), max(2 * speed * seconds(push.substeps), sudden_reach()));
+}
+
+// Each of the first threads finds the margin of a vertex, for all threads of that vertex.
+void find_margins(uint thread)
+{
+    if (thread >= gl_WorkGroupSize.x / push.lanes)
+        return;
+    const PatchVertex self = vertex_of_group(thread);
+    if (!self.exists)
+        return;
+    bool reaches;
+    lane_counts[thread] = floatBitsToUint(find_margin(self, walked_box(self), reaches));
+    if (reaches)
+        atomicOr(reaching_vertices, 1);
+    const vec3 velocity = velocities[self.index].xyz;
+    feature_centers[self.index] =
+        FeatureCenter(positions[self.index].xyz, velocity.x, residuals[self.index], velocity.yz);
+}
+
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
@@ -391,39 +428,34 @@ void main()
     for (uint i = 0; i < k_margins; ++i)
         counts[k_margins * thread + i] = 0;
     if (thread == 0)
-        near_vertices = items_of_group = fewer_items = first_of_group = 0;
+        near_vertices = reaching_vertices = items_of_group = fewer_items = first_of_group = 0;
+    barrier();
+
+    find_margins(thread);
     barrier();
 
     FeatureSearch search;
-    search.self = patch_vertex(patch_of_group(),
-                               (gl_WorkGroupID.x % push.lanes * gl_WorkGroupSize.x + thread) / push.lanes);
+    search.self = vertex_of_group(in_group);
     search.counts = uvec4(0);
     search.near = 0;
-    search.widest = 0;
     search.deforms = false;
     search.motion = vec3(0);
     search.spread = 0;
-    Box walked = Box(vec3(0), vec3(0));
+    search.widest = uintBitsToFloat(lane_counts[in_group]);
+    const bool reaches = reaching_vertices != 0;
     bool searches = search.self.exists;
+    Box walked = Box(vec3(0), vec3(0));
     if (searches)
-    {
-        const vec3 position = positions[search.self.index].xyz;
-        const vec3 velocity = velocities[search.self.index].xyz;
-        const float reach = max(2 * length(velocity) * seconds(push.substeps), sudden_reach());
-        walked = grown(Box(position, position), reach);
-        search.widest = find_margin(search.self, walked);
-        if (lane == 0)
-            feature_centers[search.self.index] =
-                FeatureCenter(position, velocity.x, residuals[search.self.index], velocity.yz);
-    }
-    if (push.near_stride != 0) // else all colliders are walked over
+        walked = walked_box(search.self);
+    if (reaches && push.near_stride != 0) // else all colliders are walked over
         walked = joined_of_group(searches && lane == 0, GroupBoxes(walked, walked)).sweep;
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)
     {
         search.writes = round == 1;
-        search_colliders(search, searches, walked, lane);
+        if (reaches)
+            search_colliders(search, searches, walked, lane);
         if (search.writes)
             continue;
         if (search.near != 0)
