@@ -60,6 +60,7 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
     PairBound pair_bounds[];
 };
 
+layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 
@@ -368,15 +369,28 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
         predicted[i] = proposed_predicted[i];
 }
 
-// Whether the motion changes.
-bool slide_along_planes(Hold hold, inout Motion motion)
+// m/s: what a vertex keeps of its velocity where guards leave `cut` of it: as fast as after the last pass. The next one hands
+// that on to the other side, so that it has the momentum. What springs have added meanwhile is lost: vertices that are
+// pressed together would become ever faster. Beside vertices without mass, which take nothing, all of it is lost.
+vec3 kept_velocity(uint i, Hold hold, vec3 v, vec3 cut)
 {
-    const vec3 before = motion.displacement;
-    const vec3 along = along_planes(hold, before);
+    if (hold.bound.sweep.listed == 0 || hold.bound.guard.massless != 0)
+        return cut;
+    const vec3 relative = v - hold.carry;
+    const float most = max(length(pair_memories[i].velocity - hold.carry), length(cut - hold.carry));
+    return hold.carry + min(1, most / max(length(relative), 1e-30)) * relative;
+}
+
+// Whether the motion changes.
+bool slide_along_planes(uint i, Hold hold, inout Motion motion)
+{
+    const vec3 along = along_planes(hold, motion.displacement);
+    if (along == motion.displacement)
+        return false;
     if (push.substeps > 0)
-        motion.v += (along - motion.displacement) / seconds(push.substeps);
+        motion.v = kept_velocity(i, hold, motion.v, motion.v + (along - motion.displacement) / seconds(push.substeps));
     motion.displacement = along;
-    return along != before;
+    return true;
 }
 
 // Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
@@ -400,12 +414,12 @@ void hold_at_features(uint i, vec3 shifted, inout Motion motion)
 }
 
 // Cuts the motion where the guards of pairs end. Whether it does.
-bool hold_within_guards(Hold hold, inout Motion motion)
+bool hold_within_guards(uint i, Hold hold, inout Motion motion)
 {
     const float part = held_part(hold, motion.displacement - hold.carried);
     if (part < 1)
     {
-        motion.v = mix(hold.carry, motion.v, part);
+        motion.v = kept_velocity(i, hold, motion.v, mix(hold.carry, motion.v, part));
         motion.displacement = mix(hold.carried, motion.displacement, part);
     }
     ask_for_lists(hold, motion.displacement);
@@ -445,7 +459,7 @@ void main()
         {
             hold = hold_of(i, cloth, motion.from);
             impulse = drive_of(hold.bound.impulse, motion.v - hold.carry);
-            changed = slide_along_planes(hold, motion) || changed;
+            changed = slide_along_planes(i, hold, motion) || changed;
             changed = untangle(i, motion) || changed;
         }
         ClothContact contact;
@@ -478,7 +492,7 @@ void main()
         }
         if (held && step_input.driven != 0 && (drive.speed > 0 || impulse.speed > k_push))
             flags |= VOILE_VERTEX_PUSHED;
-        if (held && hold_within_guards(hold, motion))
+        if (held && hold_within_guards(i, hold, motion))
         {
             changed = true;
             keep(drive, vec3(0), motion.v);

@@ -54,7 +54,7 @@ PairGuard no_guard()
     guard.reach = k_unbounded;
     guard.from = vec3(0);
     guard.residual = uvec2(0);
-    guard.support = guard.padding = 0;
+    guard.support = guard.massless = 0;
     return guard;
 }
 

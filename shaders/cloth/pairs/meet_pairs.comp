@@ -328,7 +328,8 @@ void main()
     const float uncovered = uncovered_part(pair.edges, vertices.x, nearest.weights);
     if (uncovered > 0)
         response.impulse = uncovered * lever * impulse_of(approach, friction_of(pair), drift);
-    response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, 0)));
+    const bool massless = any(equal(vertices.inverse_masses, vec4(0)));
+    response.drift = uvec2(packHalf2x16(drift.xy), packHalf2x16(vec2(drift.z, massless ? 1 : 0)));
 
     const Separation separation = separate(pair.edges, vertices.x, n);
     const uint sides = first_side(pair);

@@ -46,6 +46,7 @@ struct Gather
     vec3 change;    // m/s
     float touching; // the sum of the weights in pairs that push or drift
     vec3 drift;     // m, weighted
+    float massless; // pairs with a vertex without mass
     PairGuard guard;
 };
 
@@ -68,13 +69,13 @@ float looseness() { return is_crowded() ? 1 / k_tight : 1; }
 
 Gather nothing()
 {
-    return Gather(vec3(0), 0, vec3(0), no_guard());
+    return Gather(vec3(0), 0, vec3(0), 0, no_guard());
 }
 
 void store_sums(uint thread, Gather sum)
 {
     shared_parts[3 * thread] = vec4(sum.change, sum.touching);
-    shared_parts[3 * thread + 1] = vec4(sum.drift, 0);
+    shared_parts[3 * thread + 1] = vec4(sum.drift, sum.massless);
 }
 
 void add_sums(uint thread, inout Gather sum)
@@ -83,6 +84,7 @@ void add_sums(uint thread, inout Gather sum)
     sum.change += change.xyz;
     sum.touching += change.w;
     sum.drift += shared_parts[3 * thread + 1].xyz;
+    sum.massless += shared_parts[3 * thread + 1].w;
 }
 
 void store_guard(uint thread, PairGuard guard)
@@ -152,12 +154,14 @@ void add_entry(uint entry, Self self, inout Gather sum)
     plane.w /= looseness();
     add_plane(sum.guard, plane, looseness());
     const bool pushed = response.impulse != vec3(0);
-    if (self.inverse_mass <= 0 || (!pushed && response.drift == uvec2(0)))
+    const vec4 drift = vec4(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y));
+    sum.massless += drift.w;
+    if (self.inverse_mass <= 0 || (!pushed && drift.xyz == vec3(0)))
         return;
     const float own = entry_of(response.mobilities, place);
     const float weight = own / self.inverse_mass;
     sum.touching += abs(weight);
-    sum.drift += weight * vec3(unpackHalf2x16(response.drift.x), unpackHalf2x16(response.drift.y).x);
+    sum.drift += weight * drift.xyz;
     const float mobility = split_mobility(pair, response);
     if (pushed && mobility > 0)
         sum.change += own / mobility * response.impulse;
@@ -252,4 +256,5 @@ void main()
     pair_bounds[i].guard.reach = sum.guard.reach;
     pair_bounds[i].guard.from = positions[i].xyz;
     pair_bounds[i].guard.residual = residuals[i];
+    pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
 }

@@ -164,7 +164,7 @@ struct PairGuard
     float reach;    // m
     uvec2 residual; // of `from`
     uint support;   // the direction (direction.glsl) in which a collider drives it, while it has VOILE_VERTEX_SUPPORTED
-    uint padding;
+    uint massless;  // 1: a pair has a vertex without mass
 };
 
 // What bounds the motion of a vertex that collides with other cloth.
@@ -202,7 +202,8 @@ struct PairResponse
     uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side; how far along
                      // the normal the clock carries the planes of both sides until the next pass, if it runs as fast
                      // as time
-    uvec2 drift;     // m, as halfs: how far a pair that sticks, or just misses, has slid since the last pass
+    uvec2 drift;     // m, as halfs: how far a pair that sticks, or just misses, has slid since the last pass; and 1 if a
+                     // vertex of it has no mass
 };
 
 struct PairPush
