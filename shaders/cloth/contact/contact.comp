@@ -60,7 +60,6 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
     PairBound pair_bounds[];
 };
 
-layout(VOILE_BINDING(pair_memories)) readonly buffer PairMemories { PairMemory pair_memories[]; };
 layout(VOILE_BINDING(pair_islands)) readonly buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(tangles)) readonly buffer Tangles { Tangle tangles[]; };
 
@@ -371,13 +370,16 @@ void copy_proposed(uint i, uint cloth, vec4 proposed)
 
 // m/s: what a vertex keeps of its velocity where guards leave `cut` of it: as fast as after the last pass. The next one hands
 // that on to the other side, so that it has the momentum. What springs have added meanwhile is lost: vertices that are
-// pressed together would become ever faster. Beside vertices without mass, which take nothing, all of it is lost.
+// pressed together would become ever faster. All is lost without room, beside vertices without mass, which take nothing, and
+// while colliders or anchors move (drive.glsl).
 vec3 kept_velocity(uint i, Hold hold, vec3 v, vec3 cut)
 {
-    if (hold.bound.sweep.listed == 0 || hold.bound.guard.massless != 0)
+    const PairGuard guard = hold.bound.guard;
+    const float room = min(guard.reach, min(guard.planes[0].w, guard.planes[1].w));
+    if (hold.bound.sweep.listed == 0 || room <= 0 || guard.massless != 0 || step_input.driven != 0)
         return cut;
     const vec3 relative = v - hold.carry;
-    const float most = max(length(pair_memories[i].velocity - hold.carry), length(cut - hold.carry));
+    const float most = max(pair_bounds[i].speed, length(cut - hold.carry));
     return hold.carry + min(1, most / max(length(relative), 1e-30)) * relative;
 }
 

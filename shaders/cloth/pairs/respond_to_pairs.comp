@@ -257,4 +257,6 @@ void main()
     pair_bounds[i].guard.from = positions[i].xyz;
     pair_bounds[i].guard.residual = residuals[i];
     pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
+    const vec3 carried = clock_rate(self.y) * carry_until_next(pair_carries[i], free_fall_until_next(self.y));
+    pair_bounds[i].speed = length(v - carried / pair_interval());
 }

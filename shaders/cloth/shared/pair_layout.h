@@ -173,7 +173,7 @@ struct PairBound
     PairSweep sweep;
     PairGuard guard; // void unless sweep.listed
     vec3 impulse;    // m/s, the change of velocity by the last pass
-    uint padding;
+    float speed;     // m/s, after it, relative to what carries the vertex
 };
 
 // What a vertex keeps from pass to pass.
