@@ -108,7 +108,8 @@ TEST_CASE("sheets of different mass and spacing that meet keep their momentum")
     for (const auto& [lower, upper] : {std::pair(Sheet{voile::silk(), 8, 0.02f}, Sheet{voile::leather(), 8, 0.02f}),
                                        {Sheet{voile::cotton(), 5, 0.037f}, Sheet{voile::cotton(), 13, 0.012f}}})
     {
-        CAPTURE(upper.rows);
+        const uint32_t rows = upper.rows;
+        CAPTURE(rows);
         PairHarness harness;
         for (const auto& [side, of] : {std::pair(-1.f, lower), {1.f, upper}})
         {

@@ -113,8 +113,10 @@ TEST_CASE("cloth slides down on cloth as Coulomb's law says")
 
 TEST_CASE("cloth that slides fast on cloth is slowed as Coulomb's law says")
 {
-    for (const auto& [speed, spacing] : {std::pair(1.f, 0.02f), {1.5f, 0.03f}})
+    for (const auto& scene : {std::pair(1.f, 0.02f), {1.5f, 0.03f}})
     {
+        const float speed = scene.first;
+        const float spacing = scene.second;
         CAPTURE(speed);
         Incline incline(0, voile::Integrator::verlet, spacing);
         take(incline.solver.set_velocity(incline.cloths[1], {speed, 0, 0}));

@@ -195,8 +195,10 @@ TEST_CASE("pins that carry one curtain through the path of another force no pair
 
 TEST_CASE("pins that gather cloth closer than its thickness do not make it buzz")
 {
-    for (const auto& [part, thickness] : {std::pair(0.35f, 0.008f), {0.08f, 0.008f}, {0.1f, 0.005f}})
+    for (const auto& scene : {std::pair(0.35f, 0.008f), {0.08f, 0.008f}, {0.1f, 0.005f}})
     {
+        const float part = scene.first;
+        const float thickness = scene.second;
         CAPTURE(part);
         constexpr int k_closed = 30; // frames
         Gathered curtain(thickness);
@@ -257,8 +259,10 @@ TEST_CASE("a lining that hangs from every third vertex of the curtain's row come
 // By an eighth of the thickness in a substep, 44 a frame.
 TEST_CASE("a pinned sheet that is driven at 1 m/s takes cloth along that rests or flies towards it")
 {
-    for (const auto& [speed, height] : {std::pair(0.f, 0.05f), {2.f, 0.13f}, {5.f, 0.02f}, {5.f, 0.1f}})
+    for (const auto& scene : {std::pair(0.f, 0.05f), {2.f, 0.13f}, {5.f, 0.02f}, {5.f, 0.1f}})
     {
+        const float speed = scene.first;
+        const float height = scene.second;
         PairHarness harness;
         voile::GridCloth sheet = tests::pair_sheet(6, 6, 0.02f);
         sheet.material = soft_cotton(0.003f);

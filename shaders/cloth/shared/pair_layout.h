@@ -202,8 +202,8 @@ struct PairResponse
     uvec2 heights;   // m, as halfs: how far the vertices of the own side may approach the other side; how far along
                      // the normal the clock carries the planes of both sides until the next pass, if it runs as fast
                      // as time
-    uvec2 drift;     // m, as halfs: how far a pair that sticks, or just misses, has slid since the last pass; and 1 if a
-                     // vertex of it has no mass
+    uvec2 drift; // m, as halfs: how far a pair that sticks, or just misses, has slid since the last pass; and 1 if a
+                 // vertex of it has no mass
 };
 
 struct PairPush
