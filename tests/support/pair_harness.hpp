@@ -3,6 +3,7 @@
 
 #include "support/cloth_harness.hpp"
 #include "support/exact_intersections.hpp"
+#include "support/momenta.hpp"
 
 #include "voile/fabrics.hpp"
 
@@ -67,6 +68,20 @@ public:
 
     std::vector<voile::ClothId> cloths;
 };
+
+// Of all cloths together; the angular momenta are about their own centers and not summed.
+inline Momenta momenta_of(PairHarness& harness)
+{
+    Momenta sum;
+    for (const voile::ClothId cloth : harness.cloths)
+    {
+        const Momenta of = momenta_of(harness, cloth);
+        sum.linear += of.linear;
+        sum.moment += of.moment;
+        sum.speeds += of.speeds;
+    }
+    return sum;
+}
 
 // A grid of cotton that collides with itself, flat in x and z around the origin.
 inline voile::GridCloth pair_sheet(uint32_t columns, uint32_t rows, float spacing)

@@ -58,17 +58,11 @@ layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 #include "contact/rounding.glsl"
 #include "contact/triangle.glsl"
 
-// The margin of cloth at rest, as a fraction of the thickness.
-const float k_resting_margin = 0.5;
-// Of moving cloth, as a fraction of the displacement that it will have at its velocity.
-const float k_moving_margin = 1.25;
 // Each margin is half of the one before.
 const uint k_margins = 4;
 const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 
-// Of the workgroup.
-shared uint near_vertices;
-shared uint reaching_vertices; // the features of a collider
+shared uint near_vertices; // of the workgroup
 
 // Each patch has as many workgroups as vertices have lanes.
 uint patch_of_group() { return push.first_patch + gl_WorkGroupID.x / push.lanes; }
@@ -199,47 +193,7 @@ void visit_leaf(inout FeatureSearch search, uint first, uint count)
 #include "colliders/padded.glsl"
 #include "contact/feature_gathering.glsl"
 #include "contact/feature_room.glsl"
-
-// Of all features of a collider, in its space.
-Box feature_box(uint c)
-{
-    if (is_deforming(colliders[c].flags))
-        return padded_box(colliders[c].first_node);
-    return Box(feature_sets[c].box_min, feature_sets[c].box_max);
-}
-
-bool may_touch(uint c, PatchVertex self)
-{
-    return feature_sets[c].features > 0 && (colliders[c].layers & cloths[self.cloth].layers) != 0;
-}
-
-// m: the thickness with room for rounding. `far`: m, from the origin of the collider's space.
-float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth].thickness + rounding(far); }
-
-// m: the margin for the vertex's pieces, for the collider relative to which they move fastest. Those whose features are
-// out of reach do not count: results must not depend on distant colliders. `reaches`: there are others.
-float find_margin(PatchVertex self, Box walked, out bool reaches)
-{
-    const float thickness = cloths[self.cloth].thickness;
-    float margin = k_resting_margin * thickness;
-    reaches = false;
-    ColliderWalk walk = walk_colliders(patch_of_group(), walked);
-    uint c;
-    while (next_collider(walk, c))
-    {
-        if (!may_touch(c, self))
-            continue;
-        const Surrounding around = surrounding(self, c, colliders[c].flags);
-        const float wanted = k_resting_margin * thickness + k_moving_margin * around.longest;
-        const float radius = query_radius(self, max(abs(around.box.min), abs(around.box.max)));
-        const Box reached = grown(joined(around.box, around.later), radius + max(wanted, sudden_reach()));
-        if (!overlap(reached, feature_box(c)))
-            continue;
-        margin = max(margin, wanted);
-        reaches = true;
-    }
-    return margin;
-}
+#include "contact/feature_margin.glsl"
 
 // The number of pieces that a vertex may have, and one of them. False: not this one.
 uint piece_count(PatchVertex self) { return self.columns > 0 ? 7 : 3 * corner_count(self); }
@@ -386,38 +340,6 @@ void list_patch()
                      atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES], 1)] = index;
 }
 
-// Of the vertices of the workgroup.
-PatchVertex vertex_of_group(uint in_group)
-{
-    const uint vertices = gl_WorkGroupSize.x / push.lanes;
-    return patch_vertex(patch_of_group(), gl_WorkGroupID.x % push.lanes * vertices + in_group);
-}
-
-// The colliders that may count for a vertex are in it.
-Box walked_box(PatchVertex self)
-{
-    const vec3 position = positions[self.index].xyz;
-    const float speed = length(velocities[self.index].xyz);
-    return grown(Box(position, position), max(2 * speed * seconds(push.substeps), sudden_reach()));
-}
-
-// Each of the first threads finds the margin of a vertex, for all threads of that vertex.
-void find_margins(uint thread)
-{
-    if (thread >= gl_WorkGroupSize.x / push.lanes)
-        return;
-    const PatchVertex self = vertex_of_group(thread);
-    if (!self.exists)
-        return;
-    bool reaches;
-    lane_counts[thread] = floatBitsToUint(find_margin(self, walked_box(self), reaches));
-    if (reaches)
-        atomicOr(reaching_vertices, 1);
-    const vec3 velocity = velocities[self.index].xyz;
-    feature_centers[self.index] =
-        FeatureCenter(positions[self.index].xyz, velocity.x, residuals[self.index], velocity.yz);
-}
-
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
@@ -445,10 +367,12 @@ void main()
     const bool reaches = reaching_vertices != 0;
     bool searches = search.self.exists;
     Box walked = Box(vec3(0), vec3(0));
-    if (searches)
-        walked = walked_box(search.self);
     if (reaches && push.near_stride != 0) // else all colliders are walked over
+    {
+        if (searches)
+            walked = walked_box(search.self);
         walked = joined_of_group(searches && lane == 0, GroupBoxes(walked, walked)).sweep;
+    }
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)

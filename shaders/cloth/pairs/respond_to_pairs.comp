@@ -236,27 +236,31 @@ void main()
     const uint lane = thread % push.threads;
     const uint place = gl_GlobalInvocationID.x / push.threads;
     const bool exists = place < pair_passes[VOILE_PAIR_RESPOND].entries;
-    const uvec4 self = exists ? paired_vertices[place] : uvec4(0);
-    const uint i = self.x;
+    const uvec4 entry = exists ? paired_vertices[place] : uvec4(0);
+    const uint i = entry.x;
+    Self self;
     Gather sum = nothing();
     if (exists)
-        sum = gather(self_of(self), lane);
+    {
+        self = self_of(entry);
+        sum = gather(self, lane);
+    }
     merge(thread, lane, sum);
     if (!exists || lane != 0)
         return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
     // Integration begins with the impulses, so that springs respond to what they leave.
     const vec4 before = velocities[i];
-    const bool asleep = (cloths[self.y].flags & VOILE_CLOTH_ASLEEP) != 0; // it does not move in this step
+    const bool asleep = (cloths[entry.y].flags & VOILE_CLOTH_ASLEEP) != 0; // it does not move in this step
     const vec3 v = asleep ? vec3(0) : before.xyz + sum.change;
     velocities[i] = vec4(v, before.w);
     pair_bounds[i].impulse = sum.change;
-    pair_memories[i] = remembered(i, self.y, v, sum);
+    pair_memories[i] = remembered(i, entry.y, v, sum);
     pair_bounds[i].guard.planes = sum.guard.planes;
     pair_bounds[i].guard.reach = sum.guard.reach;
     pair_bounds[i].guard.from = positions[i].xyz;
     pair_bounds[i].guard.residual = residuals[i];
     pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
-    const vec3 carried = clock_rate(self.y) * carry_until_next(pair_carries[i], free_fall_until_next(self.y));
+    const vec3 carried = self.rate * carry_until_next(self.carry, self.fall);
     pair_bounds[i].speed = length(v - carried / pair_interval());
 }

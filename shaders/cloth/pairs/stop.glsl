@@ -1,0 +1,66 @@
+// Stops vertices at the guards of their pairs (hold.glsl), and asks for new lists.
+//
+// The including kernel declares pair_searches[] and what hold.glsl expects.
+#ifndef VOILE_STOP_GLSL
+#define VOILE_STOP_GLSL
+
+#include "pairs/hold.glsl"
+
+// m/s: what a vertex keeps of its velocity where guards leave `cut` of it: as fast as after the last pass. The next one hands
+// that on to the other side, so that it has the momentum. What springs have added meanwhile is lost: vertices that are
+// pressed together would become ever faster. All is lost without room, beside vertices without mass, which take nothing, and
+// while colliders or anchors move (drive.glsl).
+vec3 kept_velocity(uint i, Hold hold, vec3 v, vec3 cut)
+{
+    const PairGuard guard = hold.bound.guard;
+    const float room = min(guard.reach, min(guard.planes[0].w, guard.planes[1].w));
+    if (hold.bound.sweep.listed == 0 || room <= 0 || guard.massless != 0 || step_input.driven != 0)
+        return cut;
+    const vec3 relative = v - hold.carry;
+    const float most = max(pair_bounds[i].speed, length(cut - hold.carry));
+    return hold.carry + min(1, most / max(length(relative), 1e-30)) * relative;
+}
+
+// Whether the motion changes.
+bool slide_along_planes(uint i, Hold hold, inout Motion motion)
+{
+    const vec3 along = along_planes(hold, motion.displacement);
+    if (along == motion.displacement)
+        return false;
+    if (push.substeps > 0)
+        motion.v = kept_velocity(i, hold, motion.v, motion.v + (along - motion.displacement) / seconds(push.substeps));
+    motion.displacement = along;
+    return true;
+}
+
+// Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
+void ask_for_lists(Hold hold, vec3 displacement)
+{
+    if (wants_lists(hold, displacement) && pair_searches[VOILE_PAIR_OF_PLACES].wanted == 0)
+        for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
+            pair_searches[k].wanted = 1;
+}
+
+// Cuts the motion where the guards of pairs end. Whether it does.
+bool hold_within_guards(uint i, Hold hold, inout Motion motion)
+{
+    const float part = held_part(hold, motion.displacement - hold.carried);
+    if (part < 1)
+    {
+        motion.v = kept_velocity(i, hold, motion.v, mix(hold.carry, motion.v, part));
+        motion.displacement = mix(hold.carried, motion.displacement, part);
+    }
+    ask_for_lists(hold, motion.displacement);
+    return part < 1;
+}
+
+// Nothing holds a vertex without mass.
+void watch_driven(uint i, uint cloth, Motion motion)
+{
+    const Hold hold = hold_of(i, cloth, motion.from);
+    ask_for_lists(hold, motion.displacement);
+    if (!is_in_sweep(hold, motion.displacement))
+        atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
+}
+
+#endif
