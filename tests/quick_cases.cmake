@@ -1,29 +1,11 @@
-# The cases that `scripts/test.sh --quick` runs: some of every subject, together under 3 minutes on two cores. ctest
-# reads this file after it has found all cases (tests/CMakeLists.txt) and labels those named here `quick`. A name
-# without a case, or a subject without a name, becomes a failing test.
-cmake_policy(VERSION 3.25)
-
-function(quick_problem text)
-    add_test("quick_cases.cmake: ${text}" /bin/sh -c "exit 1")
-    set_tests_properties("quick_cases.cmake: ${text}" PROPERTIES LABELS quick)
-endfunction()
+# The cases that `scripts/test.sh --quick` runs: some of every subject, together under 3 minutes on two cores. The tests
+# with these cases have the label `quick` (register_cases.cmake).
 
 # quick(subject case ...): without cases, all cases of the subject.
 function(quick subject)
     list(APPEND quick_subjects ${subject})
     set(quick_subjects ${quick_subjects} PARENT_SCOPE)
-    set(names ${ARGN})
-    list(TRANSFORM names PREPEND "${subject}:")
-    if(NOT names)
-        set(names ${${subject}_TESTS})
-    endif()
-    foreach(name IN LISTS names)
-        if(name IN_LIST ${subject}_TESTS)
-            set_tests_properties("${name}" PROPERTIES LABELS quick)
-        elseif(${subject}_TESTS) # otherwise the subject is not built, and another test fails
-            quick_problem("no case is named \"${name}\"")
-        endif()
-    endforeach()
+    set(quick_cases_of_${subject} ${ARGN} PARENT_SCOPE)
 endfunction()
 
 quick(test_assets)
@@ -174,10 +156,3 @@ quick(test_window
     "a changed shader changes the picture, and a broken one is reported by its line"
     "a period takes one step while paused, and R starts again"
     "a window is resized, and Escape closes it")
-
-get_cmake_property(variables VARIABLES)
-foreach(variable IN LISTS variables)
-    if(variable MATCHES "^(test_.*)_TESTS$" AND NOT CMAKE_MATCH_1 IN_LIST quick_subjects)
-        quick_problem("the subject ${CMAKE_MATCH_1} has no quick case")
-    endif()
-endforeach()

@@ -163,6 +163,10 @@ if(TARGET cloth_bench)
 endif()
 
 # Subjects that start programs: those make pipelines when they are first bound (support/late_pipelines.cpp).
+set(starting_programs test_viewer test_samples)
+if(TARGET test_window)
+    list(APPEND starting_programs test_window)
+endif()
 if(UNIX AND NOT APPLE)
     add_library(late_pipelines MODULE support/late_pipelines.cpp)
     target_link_libraries(late_pipelines PRIVATE voile_options Vulkan::Headers)
@@ -173,22 +177,9 @@ if(UNIX AND NOT APPLE)
   \"library_path\": \"./$<TARGET_FILE_NAME:late_pipelines>\", \"api_version\": \"1.3.0\", \"implementation_version\": \"1\",
   \"description\": \"Makes compute pipelines when they are first bound\" } }
 ")
-    set(subjects test_viewer test_samples)
-    if(TARGET test_window)
-        list(APPEND subjects test_window)
-    endif()
-    foreach(subject IN LISTS subjects)
+    foreach(subject IN LISTS starting_programs)
         add_dependencies(${subject} late_pipelines)
     endforeach()
-    file(CONFIGURE OUTPUT late_pipelines.cmake @ONLY CONTENT [[
-foreach(subject IN ITEMS @subjects@)
-    foreach(name IN LISTS ${subject}_TESTS)
-        set_tests_properties("${name}" PROPERTIES ENVIRONMENT
-            "VK_ADD_LAYER_PATH=@layers@;VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines")
-    endforeach()
-endforeach()
-]])
-    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/late_pipelines.cmake)
     # The hosts of the module, too. "foreign_engine: a sheet falls on a ball" makes all pipelines in advance.
     set_tests_properties("async_compute: each frame is drawn from its own vertices" PROPERTIES ENVIRONMENT
         "VK_ADD_LAYER_PATH=${layers};VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines:VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
