@@ -38,7 +38,7 @@ pack=$work/voile_tests
 mkdir -p "$pack"/{bin,lib,layers,sources/tests,sources/samples,sources/docs}
 
 # The tests that ctest lists: a build folder keeps programs of deleted tests.
-mapfile -t tests < <(sed -n 's/^include(".*\/\(test_[a-z_]*\)_include-.*/\1/p' build/release/tests/CTestTestfile.cmake | sort -u)
+mapfile -t tests < <(sed -n 's/^set(subjects \(.*\))$/\1/p' build/release/tests/cases.cmake | tr ';' '\n' | sort -u)
 for program in "${tests[@]}" viewer hello_cloth own_component skinned batch async_compute foreign_engine; do
   [ -x "$programs/$program" ] || fail "$programs/$program is not built; run scripts/build.sh"
   strip --strip-all -o "$pack/bin/$program" "$programs/$program"

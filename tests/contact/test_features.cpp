@@ -295,7 +295,7 @@ TEST_CASE("each vertex of a workgroup finds the features that are near no other 
 // else.
 TEST_CASE("cloth moves equally in every run where there is no room for all features, on any number of threads")
 {
-    // Of lavapipe. Each case is a process of its own in ctest, so no device has read it yet.
+    // Of lavapipe. In ctest this case has a process of its own (register_cases.cmake), so no device has read it yet.
     setenv("LP_NUM_THREADS", "4", 1); // NOLINT(concurrency-mt-unsafe)
     const auto fall = [](uint32_t items)
     {
