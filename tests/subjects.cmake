@@ -185,8 +185,13 @@ if(UNIX AND NOT APPLE)
         "VK_ADD_LAYER_PATH=${layers};VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines:VK_LAYER_KHRONOS_validation;VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
     set_property(TEST "consumer: find_package" "consumer: add_subdirectory" APPEND PROPERTY ENVIRONMENT
         VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
-    if(XVFB_RUN)
-        set_property(TEST "window: frames on a virtual display" APPEND PROPERTY ENVIRONMENT
-            VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
+    set(by_viewer "bake: Blender reads OBJ and PC2")
+    if(EXISTS ${VOILE_USD_PYTHON})
+        list(APPEND by_viewer "bake: USD, OBJ and PC2 agree")
     endif()
+    if(XVFB_RUN)
+        list(APPEND by_viewer "window: frames on a virtual display")
+    endif()
+    set_property(TEST ${by_viewer} APPEND PROPERTY ENVIRONMENT
+        VK_ADD_LAYER_PATH=${layers} VK_INSTANCE_LAYERS=VK_LAYER_VOILE_late_pipelines)
 endif()

@@ -105,7 +105,7 @@ std::vector<std::vector<glm::vec4>> fallen(const std::vector<Drop>& drops, bool 
     std::vector<voile::ClothId> ids;
     for (const Drop& drop : drops)
     {
-        voile::GridCloth grid = flat_sheet(16, k_size, 0);
+        voile::GridCloth grid = flat_sheet(10, k_size, 0);
         tests::fabric_of(grid).stretch_stiffness = {25, 25};
         tests::fabric_of(grid).shear_stiffness = 5;
         grid.integrator = voile::Integrator::verlet;
@@ -187,7 +187,7 @@ voile::engine::Mesh hollow_ball()
     return mesh;
 }
 
-// The loader's functions, but for a device that binds at most one MiB.
+// The functions of the tests' handles, but for a device that binds at most one MiB.
 VKAPI_ATTR void VKAPI_CALL properties_of_small_buffers(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
 {
     const voile::Handles& handles = tests::device().context().handles;
@@ -201,14 +201,14 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL find_function(VkInstance instance, cons
 {
     if (std::string_view(name) == "vkGetPhysicalDeviceProperties")
         return reinterpret_cast<PFN_vkVoidFunction>(properties_of_small_buffers);
-    return tests::device().context().handles.get_instance_proc_addr(instance, name);
+    return tests::test_handles().get_instance_proc_addr(instance, name);
 }
 
 } // namespace
 
 TEST_CASE("a collider larger than the device's buffers is refused, and the others keep working")
 {
-    voile::Handles handles = tests::device().context().handles;
+    voile::Handles handles = tests::test_handles();
     handles.get_instance_proc_addr = find_function;
     voile::Solver solver = voile::engine::take(voile::Solver::create(handles, {}));
     const voile::engine::Mesh small = voile::engine::make_sphere({0, 0, 0}, 1, 16);

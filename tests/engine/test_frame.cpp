@@ -1,5 +1,6 @@
 // The frame loop: its host cost in steady state.
 #include "bench/allocations.hpp"
+#include "support/kept_pipelines.hpp"
 
 #include "voile/cloth_component.hpp"
 #include "voile/engine/app/app.hpp"
@@ -52,7 +53,8 @@ namespace
 // Allocations of a step and outputs whose passes are those of earlier steps.
 uint64_t allocations_of_a_step(const voile::SolverOptions& options, const voile::engine::Device& device)
 {
-    voile::Solver solver = voile::engine::take(voile::Solver::create(device.context().handles, options));
+    tests::KeptPipelines pipelines(device.context());
+    voile::Solver solver = voile::engine::take(voile::Solver::create(pipelines.handles(), options));
     const voile::ClothId sheet = voile::engine::take(solver.add_cloth(voile::GridCloth{.columns = 8, .rows = 8}));
     constexpr VkDeviceSize k_bytes = 64 * 24;
     const voile::gpu::Buffer vertices = voile::engine::take(voile::gpu::create_buffer(
