@@ -189,7 +189,7 @@ TEST_CASE("a closing bowl keeps the cloth inside")
         CAPTURE(speed);
         const voile::engine::Mesh open = bowl(0.4f, 0);
         ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(20, 0.4f, -0.22f)));
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(14, 0.4f, -0.22f)));
         const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(deforming(open)));
         harness.upload();
         harness.step({}, 25);

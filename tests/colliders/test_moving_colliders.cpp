@@ -44,7 +44,7 @@ TEST_CASE("a collider that rises to the cloth acts like a cloth that falls on th
         for (int moving = 0; moving < 2; ++moving)
         {
             ClothHarness harness;
-            voile::GridCloth grid = flat_sheet(24, 0.8f, 0.15f);
+            voile::GridCloth grid = flat_sheet(16, 0.8f, 0.15f);
             grid.velocity = moving == 1 ? glm::vec3(0) : -velocity;
             const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
             const voile::ColliderId with = voile::engine::take(harness.solver.add_collider(kind));
@@ -244,11 +244,11 @@ TEST_CASE("a mesh pushes cloth to the chosen side")
     {
         CAPTURE(static_cast<int>(sides));
         ClothHarness harness;
-        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(12, 0.4f, -0.2f)));
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(flat_sheet(8, 0.4f, -0.2f)));
         voile::MeshCollider with = collider(ball);
         with.sidedness = sides;
         (void)voile::engine::take(harness.solver.add_collider(with));
-        voile::GridCloth below = flat_sheet(12, 0.3f, 1.2f);
+        voile::GridCloth below = flat_sheet(8, 0.3f, 1.2f);
         below.layers = 2;
         const voile::ClothId falling = voile::engine::take(harness.solver.add_cloth(below));
         voile::engine::Mesh ground = voile::engine::make_ground(2, 1);

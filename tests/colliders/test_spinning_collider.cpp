@@ -14,12 +14,12 @@
 namespace
 {
 
-constexpr uint32_t k_frames = 30;
+constexpr uint32_t k_frames = 24;
 constexpr double k_rounding = 2e-6; // m, for float coordinates near 1, rotated by the motion
 
 voile::GridCloth sheet_above_the_ears()
 {
-    voile::GridCloth grid = tests::flat_sheet(48, 1.5f, 0.62f);
+    voile::GridCloth grid = tests::flat_sheet(36, 1.5f, 0.62f);
     voile::Fabric fabric = voile::cotton();
     for (float& stiffness : fabric.stretch_stiffness)
         stiffness *= 0.25f;

@@ -54,7 +54,7 @@ TEST_CASE("a soft sheet that swings down keeps its strain limit at the end of ev
             harness.upload();
             const auto start = harness.positions(id);
             double worst = 0;
-            for (int frame = 0; frame < 60; ++frame)
+            for (int frame = 0; frame < 45; ++frame)
             {
                 harness.step({});
                 worst = std::max(worst, static_cast<double>(harness.statistics().max_stretch));

@@ -48,7 +48,7 @@ std::vector<Driven> driven()
 voile::GridCloth sheet()
 {
     voile::GridCloth grid;
-    grid.columns = grid.rows = 32;
+    grid.columns = grid.rows = 24;
     grid.width = grid.depth = 1.5f;
     grid.transform = glm::rotate(tests::moved({0.013f, 0, 0.007f}), 0.3f, glm::vec3(0, 1, 0)); // parallel to no axis
     grid.integrator = voile::Integrator::verlet;

@@ -22,46 +22,47 @@ constexpr voile::Step k_step = tests::k_sleep_step;
 
 TEST_CASE("another cloth that falls on it wakes cloth with self_collision, and both sleep again")
 {
-    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
-        for (const float speed : {0.5f, 10.f})
+    for (const auto& scene : {std::pair(voile::Integrator::rk4, 0.5f), std::pair(voile::Integrator::verlet, 10.f)})
+    {
+        const voile::Integrator integrator = scene.first;
+        const float speed = scene.second;
+        CAPTURE(static_cast<int>(integrator));
+        CAPTURE(speed);
+        tests::PairHarness harness;
+        voile::GridCloth grid = tests::pair_sheet(8, 8, 0.02f);
+        grid.integrator = integrator;
+        grid.sleep_speed = 0.05f;
+        grid.transform = moved({0, 0.004f, 0});
+        const voile::ClothId lower = harness.add(grid);
+        take(harness.solver.add_collider(voile::PlaneCollider{.friction = {{0.8f, 0.6f}}}));
+        harness.upload();
+        REQUIRE(steps_to_sleep(harness, k_step, 90) > 0);
+        // Buffers are replaced by larger ones, in which what is not kept is not a number.
+        grid.columns = grid.rows = 14;
+        grid.width = grid.depth = 0.26f;
+        grid.transform = moved({0.011f, 0.3f, 0.007f});
+        grid.velocity = {0, -speed, 0};
+        const voile::ClothId upper = harness.add(grid);
+        harness.upload();
+        check_rests(harness, lower, k_step, 1);
+        bool woke = false;
+        for (int frame = 0; frame < 60; ++frame)
         {
-            CAPTURE(static_cast<int>(integrator));
-            CAPTURE(speed);
-            tests::PairHarness harness;
-            voile::GridCloth grid = tests::pair_sheet(8, 8, 0.02f);
-            grid.integrator = integrator;
-            grid.sleep_speed = 0.05f;
-            grid.transform = moved({0, 0.004f, 0});
-            const voile::ClothId lower = harness.add(grid);
-            take(harness.solver.add_collider(voile::PlaneCollider{.friction = {{0.8f, 0.6f}}}));
-            harness.upload();
-            REQUIRE(steps_to_sleep(harness, k_step, 90) > 0);
-            // Buffers are replaced by larger ones, in which what is not kept is not a number.
-            grid.columns = grid.rows = 14;
-            grid.width = grid.depth = 0.26f;
-            grid.transform = moved({0.011f, 0.3f, 0.007f});
-            grid.velocity = {0, -speed, 0};
-            const voile::ClothId upper = harness.add(grid);
-            harness.upload();
-            check_rests(harness, lower, k_step, 1);
-            bool woke = false;
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                harness.step(k_step);
-                CHECK(harness.intersections() == 0);
-                woke = woke || sleeping(harness) == 0;
-            }
-            CHECK(woke);
-            CHECK(harness.statistics().penetrating_vertices == 0);
-            CHECK(steps_to_sleep(harness, k_step, 300, 2) > 0);
-            check_rests(harness, lower, k_step, 10);
-            check_rests(harness, upper, k_step, 10);
-            CHECK(harness.intersections() == 0);
-            // What lies on another cloth falls when that goes.
-            take(harness.solver.set_enabled(lower, false));
             harness.step(k_step);
-            CHECK(sleeping(harness) == 0);
+            CHECK(harness.intersections() == 0);
+            woke = woke || sleeping(harness) == 0;
         }
+        CHECK(woke);
+        CHECK(harness.statistics().penetrating_vertices == 0);
+        CHECK(steps_to_sleep(harness, k_step, 300, 2) > 0);
+        check_rests(harness, lower, k_step, 10);
+        check_rests(harness, upper, k_step, 10);
+        CHECK(harness.intersections() == 0);
+        // What lies on another cloth falls when that goes.
+        take(harness.solver.set_enabled(lower, false));
+        harness.step(k_step);
+        CHECK(sleeping(harness) == 0);
+    }
 }
 
 namespace

@@ -340,7 +340,7 @@ TEST_CASE("random changes of other cloths change no bit of a cloth")
         World together(seed, true);
         World alone(seed, false);
         Draw draw(seed);
-        for (uint32_t i = 0; i < 24; ++i)
+        for (uint32_t i = 0; i < 18; ++i)
         {
             CAPTURE(i);
             const bool changes = draw.chance(0.3);

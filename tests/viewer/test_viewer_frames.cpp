@@ -270,7 +270,7 @@ TEST_CASE("the dressed figure starts to walk, and no cloth intersects cloth or f
     CHECK(run.output.find("intersections: 0 pairs of cloth, 0 of cloth and collider") != std::string::npos);
 }
 
-TEST_CASE("the dressed figure has walked for 100 frames in coarse clothes, and no cloth intersects cloth")
+TEST_CASE("the dressed figure has walked for a cycle in coarse clothes, and no cloth intersects cloth")
 {
     const TestFolder folder;
     const fs::path built = tests::program("../scenes");
@@ -284,7 +284,8 @@ TEST_CASE("the dressed figure has walked for 100 frames in coarse clothes, and n
     voile::engine::take(voile::engine::save_obj(folder / "skirt.obj", scenes::make_skirt(k_coarseness)));
     voile::engine::take(
         voile::engine::save_obj(folder / "cape.obj", scenes::make_cape(scenes::Figure().at(0), k_coarseness)));
-    const Run run = run_viewer((folder / "dressed.json").string() + " --headless --size 16x16 --frames 100 --verify");
+    const Run run = run_viewer((folder / "dressed.json").string() + " --headless --size 16x16 --frames " +
+                               std::to_string(scenes::k_walk_frames) + " --verify");
     CAPTURE(run.errors);
     CAPTURE(run.output);
     CHECK(run.exit_code == 0); // and so all vertices are finite
