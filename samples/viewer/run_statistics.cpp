@@ -141,6 +141,7 @@ void RunStatistics::completed(const Stage& stage, const voile::engine::FrameInfo
     entry.contact_overflows = measured.overflowing_vertices;
     entry.forced_pairs = measured.forced_pairs;
     entry.tangled_pairs = measured.tangled_pairs;
+    entry.pair_searches = measured.pair_searches;
     entry.sleeping_cloths = measured.sleeping_cloths;
     if (frame.timestamps != nullptr)
         for (const voile::gpu::PassTime& pass : frame.timestamps->read(frame.slot))

@@ -47,6 +47,7 @@ Json measurements_json(const Measurements& values)
             {"contact_overflows", count(values.contact_overflows)},
             {"forced_pairs", count(values.forced_pairs)},
             {"tangled_pairs", count(values.tangled_pairs)},
+            {"pair_searches", count(values.pair_searches)},
             {"sleeping_cloths", count(values.sleeping_cloths)}};
 }
 
@@ -132,6 +133,7 @@ Measurements larger_of(const Measurements& a, const Measurements& b)
             std::max(a.contact_overflows, b.contact_overflows),
             std::max(a.forced_pairs, b.forced_pairs),
             std::max(a.tangled_pairs, b.tangled_pairs),
+            std::max(a.pair_searches, b.pair_searches),
             std::max(a.sleeping_cloths, b.sleeping_cloths)};
 }
 

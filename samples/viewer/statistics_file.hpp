@@ -56,6 +56,7 @@ struct Measurements
     std::optional<uint64_t> contact_overflows; // vertices near more of them than they can keep: slower, not less exact
     std::optional<uint64_t> forced_pairs;      // of cloths; pins left them no room
     std::optional<uint64_t> tangled_pairs;     // of cloths that are pulled apart
+    std::optional<uint64_t> pair_searches;     // of a step, for near pairs of cloths
     std::optional<uint64_t> sleeping_cloths;
 };
 

@@ -75,6 +75,7 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                             "contact_overflows",
                             "forced_pairs",
                             "tangled_pairs",
+                            "pair_searches",
                             "sleeping_cloths"};
     CHECK(keys(json["summary"]["maxima"]) == measurements);
     Keys last = measurements;
@@ -102,6 +103,7 @@ TEST_CASE("the keys are those that scripts rely on, in their order")
                                              "contact_overflows",
                                              "forced_pairs",
                                              "tangled_pairs",
+                                             "pair_searches",
                                              "sleeping_cloths",
                                              "gpu_frame_ms",
                                              "gpu_cloth_ms",

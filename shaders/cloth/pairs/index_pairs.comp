@@ -175,7 +175,11 @@ void main()
     for (uint c = gl_LocalInvocationID.x; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
         begin_clock(c);
     if (gl_GlobalInvocationID.x == 0)
+    {
+        pair_searches[VOILE_PAIR_URGENCY].entries = 0;
+        ++pair_searches[VOILE_PAIR_SEARCHED].entries;
         pair_passes[VOILE_PAIR_FIND] = pair_passes[VOILE_PAIR_SIFT] = PairDispatch(0, 1, 1, 0);
+    }
     if (gl_LocalInvocationID.x == 0)
         shared_pairs = shared_vertices = shared_references = 0;
     uint own = 0;

@@ -36,6 +36,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/pair.glsl"
 #include "pairs/guard.glsl"
 #include "pairs/halvings.glsl"
+#include "pairs/patience.glsl"
 
 // m: the longest drift that is undone, as a part of the thickness.
 const float k_longest_slip = 0.02;
@@ -228,6 +229,8 @@ void forget_part(uint cloth)
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
+    if (gl_GlobalInvocationID.x == 0)
+        age_lists();
     for (uint c = thread; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
     {
         keep_clock(c);

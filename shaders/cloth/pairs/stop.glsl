@@ -5,6 +5,7 @@
 #define VOILE_STOP_GLSL
 
 #include "pairs/hold.glsl"
+#include "pairs/patience.glsl"
 
 // m/s: what a vertex keeps of its velocity where guards leave `cut` of it: as fast as after the last pass. The next one hands
 // that on to the other side, so that it has the momentum. What springs have added meanwhile is lost: vertices that are
@@ -33,12 +34,26 @@ bool slide_along_planes(uint i, Hold hold, inout Motion motion)
     return true;
 }
 
-// Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
-void ask_for_lists(Hold hold, vec3 displacement)
+// Whether a vertex may be held where its sweep ends. What colliders and anchors drive would get through other cloth, what
+// is fast would fall behind its neighbors, what is in no pair would lose its velocity, and so would what the clock carries
+// once it ends.
+bool can_wait(Hold hold, Motion motion)
 {
-    if (wants_lists(hold, displacement) && pair_searches[VOILE_PAIR_OF_PLACES].wanted == 0)
-        for (uint k = 0; k < VOILE_PAIR_SEARCHES; ++k)
-            pair_searches[k].wanted = 1;
+    const PairSweep sweep = hold.bound.sweep;
+    const float way = k_patience * push.pair_ahead * seconds(push.substeps) * length(motion.v - hold.carry);
+    return step_input.driven == 0 && sweep.listed != 0 && sweep.reach > 0 && hold.left == vec3(0) &&
+           way <= cloths[motion.cloth].pair_range;
+}
+
+// Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
+void ask_for_lists(Hold hold, Motion motion)
+{
+    if (!wants_lists(hold, motion.displacement) || are_lists_wanted())
+        return;
+    if (can_wait(hold, motion))
+        ask_for_lists();
+    else
+        want_lists();
 }
 
 // Cuts the motion where the guards of pairs end. Whether it does.
@@ -50,7 +65,7 @@ bool hold_within_guards(uint i, Hold hold, inout Motion motion)
         motion.v = kept_velocity(i, hold, motion.v, mix(hold.carry, motion.v, part));
         motion.displacement = mix(hold.carried, motion.displacement, part);
     }
-    ask_for_lists(hold, motion.displacement);
+    ask_for_lists(hold, motion);
     return part < 1;
 }
 
@@ -58,7 +73,7 @@ bool hold_within_guards(uint i, Hold hold, inout Motion motion)
 void watch_driven(uint i, uint cloth, Motion motion)
 {
     const Hold hold = hold_of(i, cloth, motion.from);
-    ask_for_lists(hold, motion.displacement);
+    ask_for_lists(hold, motion);
     if (!is_in_sweep(hold, motion.displacement))
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
 }

@@ -26,6 +26,12 @@
 #define VOILE_PAIR_FORCED 0
 // The dispatch whose `entries` count the pairs of an edge and a triangle that intersect at the step's start.
 #define VOILE_PAIR_TANGLED 1
+// The dispatch whose `entries` say how urgent new lists are, and the one with the urgency at which they are made
+// (patience.glsl).
+#define VOILE_PAIR_URGENCY 2
+#define VOILE_PAIR_MOST_URGENCY 3
+// The dispatch whose `entries` count the searches of a step.
+#define VOILE_PAIR_SEARCHED 4
 // The pass, + 1, that made the last lists that left little room to a pin, or to a vertex that is pushed. For some
 // passes, sweeps are halved where they leave little room. It is kept from step to step.
 #define VOILE_PAIR_CROWDED 10

@@ -57,6 +57,7 @@ struct StatisticsRecord
     uint overflowing_vertices; // vertices near more triangles than a list can contain; they traverse in every substep
     uint forced_pairs;         // in which vertices without mass took more room than there was, in the last step
     uint tangled_pairs;        // of cloths that collide with themselves, that intersected when the last step started
+    uint pair_searches;        // of the last step, for near pairs of cloths that collide with themselves
     uint sleeping_cloths;      // counted at their first vertices
 };
 
@@ -68,8 +69,8 @@ struct StatisticsResult
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StatisticsRecord) == 52);
-static_assert(sizeof(StatisticsResult) == 68);
+static_assert(sizeof(StatisticsRecord) == 56);
+static_assert(sizeof(StatisticsResult) == 72);
 #endif
 
 VOILE_SHARED_END

@@ -4,7 +4,7 @@
 
 shared StatisticsRecord partial[gl_WorkGroupSize.x];
 
-StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0); } // -1: all springs shrunk to a point
+StatisticsRecord no_statistics() { return StatisticsRecord(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0); } // -1: all springs shrunk to a point
 
 StatisticsRecord merge(StatisticsRecord a, StatisticsRecord b)
 {

@@ -34,6 +34,7 @@ void main()
     {
         result[push.slot].cloths.forced_pairs = pair_searches[VOILE_PAIR_FORCED].entries;
         result[push.slot].cloths.tangled_pairs = pair_searches[VOILE_PAIR_TANGLED].entries;
+        result[push.slot].cloths.pair_searches = pair_searches[VOILE_PAIR_SEARCHED].entries;
     }
     result[push.slot].intersections = IntersectionCounters(0, 0, 0, 0);
 }

@@ -101,6 +101,12 @@ struct Tuning
     // pairs, for vertices that have few. Results are equal. 0: 32,768, or no sifting on CPU devices.
     uint32_t sifting_vertices = 0;
 
+    // A search for near pairs is for all cloths with self-collision. It is due when so many vertices have used up their
+    // moves, or after four passes of contact between cloths if fewer have; these wait where they are. What colliders or
+    // anchors push, what is fast and what has no near pair does not wait. 0: one in 1,024 of those vertices, at least
+    // one.
+    uint32_t waiting_vertices = 0;
+
     // s. Two Verlet substeps within this time share one query for contact with colliders. Between two queries a vertex
     // stays above the plane of the surface that it last touched, with friction. 0: a query in every substep. RK4,
     // normal_ray, and cloths whose near pairs are resolved in every substep always query in every substep.

@@ -53,6 +53,13 @@ uint32_t most_sifted(const Tuning& tuning, uint32_t vertices)
     return vertices >= (tuning.sifting_vertices > 0 ? tuning.sifting_vertices : k_many) ? k_most : 0;
 }
 
+// Of vertices that want new lists of pairs; fewer wait.
+uint32_t enough_vertices(const Tuning& tuning, uint32_t vertices)
+{
+    constexpr uint32_t k_vertices_of_one = 1024;
+    return tuning.waiting_vertices > 0 ? tuning.waiting_vertices : std::max(vertices / k_vertices_of_one, 1u);
+}
+
 // Even, unless it is 1, so that two substeps can share contact.
 uint32_t usual_period(float substeps)
 {
@@ -141,6 +148,7 @@ void PairRecorder::write_sizes()
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
+    sizes[VOILE_PAIR_MOST_URGENCY].entries = enough_vertices(solver_.options.tuning, places);
     write_dispatches(recorder_, device[buffer::pair_bounds].handle(), 0,
                      std::as_bytes(std::span(sizes).first(VOILE_PAIR_CROWDED)),
                      std::array{device[buffer::tangles].handle(), device[buffer::pair_islands].handle()});

@@ -224,6 +224,7 @@ Statistics Solver::statistics(uint32_t slot) const
     result.overflowing_vertices = record.overflowing_vertices;
     result.forced_pairs = record.forced_pairs;
     result.tangled_pairs = record.tangled_pairs;
+    result.pair_searches = record.pair_searches;
     result.sleeping_cloths = record.sleeping_cloths;
     if (const shared::IntersectionCounters& pairs = read.intersections; pairs.counted != 0)
         result.intersections = {pairs.cloth_pairs, pairs.collider_pairs, pairs.uncertain_pairs};

@@ -1,0 +1,116 @@
+// Searches for near pairs are due when enough vertices want one. Others wait (Tuning::waiting_vertices).
+#include "support/pair_harness.hpp"
+
+#include <doctest/doctest.h>
+
+namespace
+{
+
+using tests::at;
+using tests::PairHarness;
+using tests::turned;
+using voile::engine::take;
+
+constexpr uint32_t k_never_enough = 1u << 30;
+
+// Lists of two pairs leave little room, so that vertices often want new ones.
+voile::SolverOptions with_waiting(uint32_t vertices)
+{
+    voile::SolverOptions options;
+    options.tuning.pair_capacity = 2;
+    options.tuning.waiting_vertices = vertices;
+    return options;
+}
+
+// Sheets that fall on each other and on the ground.
+void add_stack(PairHarness& harness)
+{
+    (void)take(harness.solver.add_collider(voile::PlaneCollider{}));
+    for (int i = 0; i < 5; ++i)
+    {
+        const auto level = static_cast<float>(i);
+        voile::GridCloth sheet = tests::pair_sheet(9, 9, 0.02f);
+        sheet.transform = at({0, 0.02f + 0.015f * level, 0}) * turned(0.4f * level, {0.1f, 1, 0.05f});
+        harness.add(sheet);
+    }
+    harness.upload();
+}
+
+struct Fall
+{
+    int first_intersection;
+    uint64_t searches = 0;
+};
+
+Fall fall(uint32_t waiting_vertices)
+{
+    PairHarness harness(with_waiting(waiting_vertices));
+    add_stack(harness);
+    Fall result{};
+    result.first_intersection = harness.first_intersection(
+        {.duration = 1.f / 60}, 40,
+        [&](int frame) { result.searches += frame > 0 ? harness.statistics().pair_searches : 0; });
+    CHECK(harness.statistics().forced_pairs == 0);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("sheets whose vertices wait for a search do not intersect, and search less often")
+{
+    const Fall hasty = fall(1);
+    const Fall patient = fall(k_never_enough);
+    CHECK(hasty.first_intersection == -1);
+    CHECK(patient.first_intersection == -1);
+    CAPTURE(hasty.searches);
+    CAPTURE(patient.searches);
+    CHECK(static_cast<double>(patient.searches) < 0.95 * static_cast<double>(hasty.searches)); // 360 and 411
+}
+
+TEST_CASE("cloth that a moving collider drives does not wait")
+{
+    std::vector<glm::vec4> ends[2];
+    uint64_t searches[2] = {};
+    for (size_t run = 0; run < 2; ++run)
+    {
+        PairHarness harness(with_waiting(run == 0 ? 1 : k_never_enough));
+        const voile::ColliderId ball = take(harness.solver.add_collider(voile::SphereCollider{.radius = 0.05f}));
+        for (const float height : {0.06f, 0.075f})
+        {
+            voile::GridCloth sheet = tests::pair_sheet(9, 9, 0.02f);
+            sheet.transform = at({0, height, 0}) * turned(10 * height, {0, 1, 0});
+            harness.add(sheet);
+        }
+        harness.upload();
+        for (int frame = 1; frame <= 6; ++frame)
+        {
+            take(harness.solver.move_collider(ball, at({0, 0.03f * static_cast<float>(frame), 0})));
+            harness.step({.duration = 1.f / 60});
+            searches[run] += harness.statistics().pair_searches;
+        }
+        ends[run] = harness.positions(harness.cloths[1]);
+    }
+    CHECK(searches[0] > 30); // vertices want lists
+    CHECK(searches[0] == searches[1]);
+    CHECK(ends[0] == ends[1]);
+}
+
+TEST_CASE("searches are counted: one if nothing moves, none without self_collision")
+{
+    PairHarness harness;
+    voile::GridCloth grid = tests::pair_sheet(4, 4, 0.02f);
+    const voile::ClothId sheet = harness.add(grid);
+    harness.upload();
+    harness.step({.duration = 1e-3f, .gravity = {0, 0, 0}, .air_density = 0});
+    CHECK(harness.statistics().pair_searches == 1);
+    harness.step({.duration = 0.1f});
+    CHECK(harness.statistics().pair_searches > 1); // it falls until the time of the lists ends
+    CHECK(harness.statistics().pair_searches < 34); // one per 3 ms
+    take(harness.solver.remove(sheet));
+    voile::GridCloth alone = tests::pair_sheet(4, 4, 0.02f);
+    alone.self_collision = false;
+    harness.add(alone);
+    harness.upload();
+    harness.step({.duration = 1e-3f});
+    CHECK(harness.statistics().pair_searches == 0);
+}
