@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Contact of feature edges and feature vertices of colliders with the triangles and edges of all cloths: the response of
 // each vertex. The contact of vertices misses colliders between them.
 //
@@ -108,10 +109,14 @@ void visit_feature(SweptFeature feature)
 {
     if (feature.now.a != feature.now.b)
     {
-        if (piece.edge_b)
-            visit_edge(feature, piece.b);
-        if (piece.edge_c)
-            visit_edge(feature, piece.c);
+        [[dont_unroll]] for (uint k = 0; k < 2; ++k)
+        {
+            SweptVertex b = piece.b;
+            if (k == 1)
+                b = piece.c;
+            if (k == 0 ? piece.edge_b : piece.edge_c)
+                visit_edge(feature, b);
+        }
         return;
     }
     if (!piece.triangle)
@@ -124,23 +129,19 @@ void visit_feature(SweptFeature feature)
         respond(impulse_of(touch), triangle_portions(touch).x, collider_index, motion_of(feature));
 }
 
-void visit_slot(uint slot)
-{
-    const DeformingSet set = deforming_set(collider_index);
-    const uint first = feature_slots[slot] >> VOILE_SLOT_FEATURE_BITS;
-    const uint count = feature_slots[slot] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
-    for (uint f = first; f < first + count; ++f)
-        if (protrudes(set, f))
-            visit_feature(swept_feature(f));
-}
-
 // Of a mesh that deforms a leaf is a slot.
 void visit_leaf(inout FeatureQuery query, uint first, uint count)
 {
-    if (is_deforming(collider_flags))
-        visit_slot(first);
-    else
-        for (uint f = first; f < first + count; ++f)
+    const bool deforms = is_deforming(collider_flags);
+    DeformingSet set;
+    if (deforms)
+    {
+        set = deforming_set(collider_index);
+        count = feature_slots[first] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
+        first = feature_slots[first] >> VOILE_SLOT_FEATURE_BITS;
+    }
+    for (uint f = first; f < first + count; ++f)
+        if (!deforms || protrudes(set, f))
             visit_feature(swept_feature(f));
 }
 
@@ -346,27 +347,37 @@ void clear_touched()
     cells[self.vertex.index].touched[word + 1] = 0;
 }
 
-// Finds the guard of the vertex that the threads of its lanes traverse for, if any of its pieces needs one.
-void traverse_for_guards(uint patch_index, uint part, bool exists)
+// The contacts of the vertex that the threads of its lanes traverse for, in the first of them. All threads of the workgroup
+// call it.
+void merge_responses(uint part, bool exists)
 {
     const uint thread = gl_LocalInvocationID.x;
-    finds_guards = true;
-    if (exists && any_guarded)
-        visit_colliders(patch_index, part, push.lanes);
-    finds_guards = false;
+    store_response(thread);
+    barrier();
+    if (part != 0 || !exists)
+        return;
+    for (uint other = thread + 1; other < thread + push.lanes; ++other)
+        merge(stored_response(other));
+    find_change();
+}
+
+void merge_guards(uint part, bool exists)
+{
+    const uint thread = gl_LocalInvocationID.x;
     barrier(); // the first lane has read all responses
     store_guard(thread);
     barrier();
-    if (part == 0 && exists)
-        for (uint other = thread + 1; other < thread + push.lanes; ++other)
-            merge_stored_guard(other);
+    if (part != 0 || !exists)
+        return;
+    for (uint other = thread + 1; other < thread + push.lanes; ++other)
+        merge_stored_guard(other);
 }
 
-// The response of the `index`-th vertex of those that traverse.
+// The response of the `index`-th vertex of those that traverse, and its guard, if any of its pieces needs one. A loop, for
+// drivers copy what it calls, which is most of this kernel.
 void traverse(uint patch_index, uint index)
 {
-    const uint thread = gl_LocalInvocationID.x;
-    const uint part = thread % push.lanes;
+    const uint part = gl_LocalInvocationID.x % push.lanes;
     response = no_response();
     clear_guard();
     any_guarded = false;
@@ -376,17 +387,16 @@ void traverse(uint patch_index, uint index)
         self.vertex = patch_vertex(patch_index, traversing[index]);
         exists = load_self();
     }
-    if (exists)
-        visit_colliders(patch_index, part, push.lanes);
-    store_response(thread);
-    barrier();
-    if (part == 0 && exists)
+    [[dont_unroll]] for (uint round = 0; round < 2; ++round)
     {
-        for (uint other = thread + 1; other < thread + push.lanes; ++other)
-            merge(stored_response(other));
-        find_change();
+        finds_guards = round == 1;
+        if (exists && (round == 0 || any_guarded))
+            visit_colliders(patch_index, part, push.lanes);
+        if (round == 0)
+            merge_responses(part, exists);
     }
-    traverse_for_guards(patch_index, part, exists);
+    finds_guards = false;
+    merge_guards(part, exists);
     if (part == 0 && exists)
         write_correction();
     barrier();

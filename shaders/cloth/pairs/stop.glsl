@@ -45,12 +45,12 @@ bool can_wait(Hold hold, Motion motion)
            way <= cloths[motion.cloth].pair_range;
 }
 
-// Many vertices ask at the same time. Most find that it is known, because writes to one word queue.
-void ask_for_lists(Hold hold, Motion motion)
+// Many vertices ask at the same time. Most find that it is known, because writes to one word queue. `waits`: if it can.
+void ask_for_lists(Hold hold, Motion motion, bool waits)
 {
     if (!wants_lists(hold, motion.displacement) || are_lists_wanted())
         return;
-    if (can_wait(hold, motion))
+    if (waits && can_wait(hold, motion))
         ask_for_lists();
     else
         want_lists();
@@ -65,7 +65,7 @@ bool hold_within_guards(uint i, Hold hold, inout Motion motion)
         motion.v = kept_velocity(i, hold, motion.v, mix(hold.carry, motion.v, part));
         motion.displacement = mix(hold.carried, motion.displacement, part);
     }
-    ask_for_lists(hold, motion);
+    ask_for_lists(hold, motion, true);
     return part < 1;
 }
 
@@ -73,7 +73,7 @@ bool hold_within_guards(uint i, Hold hold, inout Motion motion)
 void watch_driven(uint i, uint cloth, Motion motion)
 {
     const Hold hold = hold_of(i, cloth, motion.from);
-    ask_for_lists(hold, motion);
+    ask_for_lists(hold, motion, false);
     if (!is_in_sweep(hold, motion.displacement))
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
 }
