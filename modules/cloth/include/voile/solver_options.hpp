@@ -59,10 +59,11 @@ struct Tuning
     // pairs, for vertices that have few. Results are equal. 0: 32,768, or no sifting on CPU devices.
     uint32_t sifting_vertices = 0;
 
-    // A search for near pairs is for all cloths with self-collision. It is due when so many vertices have used up their
-    // moves, or after four passes of contact between cloths if fewer have; these wait where they are. What colliders or
-    // anchors push, what is fast and what has no near pair does not wait. 0: one in 1,024 of those vertices, at least
-    // one.
+    // A search for near pairs is for all cloths with self_collision. It is due when so many vertices want one because
+    // their moves are used up (pair_capacity), or after four passes of contact between cloths if fewer do; these stay
+    // where they are meanwhile. While any collider or anchor moves none waits, nor does what is fast or has no near
+    // pair. 0: one in 1,024 of the vertices with self_collision, at least one. If most wait and lists are short, stacks
+    // at rest keep up to three times the energy, and cloths that hit each other lose up to 8 % more of their momentum.
     uint32_t waiting_vertices = 0;
 
     // s. Two Verlet substeps within this time share one query for contact with colliders. Between two queries a vertex

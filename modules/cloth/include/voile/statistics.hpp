@@ -66,15 +66,16 @@ struct Statistics
     uint32_t candidates = 0;           // triangles in the lists of near triangles of all vertices
     uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
                                        // every substep, which is slower but misses nothing
-    uint32_t forced_pairs = 0;  // of cloths that collide with themselves: how often in the last step vertices without
-                                // mass, such as pins, left a pair of near primitives too little room, so that it
-                                // may intersect; counted once per pass over the pairs
-    uint32_t tangled_pairs = 0; // of cloths that collide with themselves: pairs of an edge and a triangle that
-                                // intersected when the last step started, as in IntersectionCounts::cloth_pairs,
-                                // except parts of a mesh that touch at the start; the solver pulls them apart
-    uint32_t pair_searches = 0; // of cloths that collide with themselves: how often the last step searched for near
-                                // pairs, at least once, and at most once per pass over them (Tuning::waiting_vertices)
-    uint32_t sleeping_cloths = 0;                      // at the end of the last step (GridCloth::sleep_speed)
+    uint32_t forced_pairs = 0;    // of cloths that collide with themselves: how often in the last step vertices without
+                                  // mass, such as pins, left a pair of near primitives too little room, so that it
+                                  // may intersect; counted once per pass over the pairs
+    uint32_t tangled_pairs = 0;   // of cloths that collide with themselves: pairs of an edge and a triangle that
+                                  // intersected when the last step started, as in IntersectionCounts::cloth_pairs,
+                                  // except parts of a mesh that touch at the start; the solver pulls them apart
+    uint32_t pair_searches = 0;   // of cloths that collide with themselves: how often the last step searched
+                                  // for near pairs, at most once per pass over them, and at least once if such
+                                  // a cloth is enabled, also if it sleeps (Tuning::waiting_vertices)
+    uint32_t sleeping_cloths = 0; // at the end of the last step (GridCloth::sleep_speed)
     std::optional<IntersectionCounts> intersections{}; // none: not counted
 };
 
