@@ -99,22 +99,29 @@ TEST_CASE("cloth that a moving collider drives does not wait")
     CHECK(ends[0] == ends[1]);
 }
 
-TEST_CASE("searches are counted: one if nothing moves, none without self_collision")
+TEST_CASE("searches are counted: one if nothing moves or all sleeps, none of disabled cloth or without self_collision")
 {
+    constexpr voile::Step k_nothing_happens{.duration = 0.1f, .gravity = {0, 0, 0}, .air_density = 0};
     PairHarness harness;
     voile::GridCloth grid = tests::pair_sheet(4, 4, 0.02f);
+    grid.sleep_speed = 0.1f;
     const voile::ClothId sheet = harness.add(grid);
     harness.upload();
-    harness.step({.duration = 1e-3f, .gravity = {0, 0, 0}, .air_density = 0});
+    harness.step(k_nothing_happens);
+    CHECK(harness.statistics().pair_searches == 1);
+    harness.step(k_nothing_happens, 7);
+    CHECK(harness.statistics().sleeping_cloths == 1);
     CHECK(harness.statistics().pair_searches == 1);
     harness.step({.duration = 0.1f});
     CHECK(harness.statistics().pair_searches > 1);  // it falls until the time of the lists ends
     CHECK(harness.statistics().pair_searches < 34); // one per 3 ms
+    take(harness.solver.set_enabled(sheet, false));
+    harness.step(k_nothing_happens);
+    CHECK(harness.statistics().pair_searches == 0);
     take(harness.solver.remove(sheet));
-    voile::GridCloth alone = tests::pair_sheet(4, 4, 0.02f);
-    alone.self_collision = false;
-    harness.add(alone);
+    grid.self_collision = false;
+    harness.add(grid);
     harness.upload();
-    harness.step({.duration = 1e-3f});
+    harness.step(k_nothing_happens);
     CHECK(harness.statistics().pair_searches == 0);
 }
