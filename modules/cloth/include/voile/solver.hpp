@@ -273,12 +273,14 @@ public:
     [[nodiscard]] RecordReport record_report() const;
 
     // Save and restore the state of all cloths, bit for bit: after restoring, the same steps give the same bits as
-    // after saving. Materials, attachments, anchors and colliders are not part of a snapshot. Masses and pins are those
-    // that the solver has when it restores; a vertex that is heavier than it was keeps its momentum, as in
-    // set_material. Changes that wait for the next record, such as reset, are made after restoring. Cloths that slept
-    // when the snapshot was saved sleep on if nothing that may wake cloths has changed or moved since, and if the bytes
-    // are this snapshot's own. Otherwise all cloths wake, and bits differ. Errors: nothing uploaded yet, out of memory;
-    // a snapshot of another solver; cloths were uploaded or removed since create_snapshot; nothing saved to restore.
+    // after saving. They are not those of a run that does not save: what cloths with self_collision remember of the
+    // contact before is in no snapshot, so saving forgets it, too. Materials, attachments, anchors and colliders are
+    // not part of a snapshot. Masses and pins are those that the solver has when it restores; a vertex that is heavier
+    // than it was keeps its momentum, as in set_material. Changes that wait for the next record, such as reset, are
+    // made after restoring. Cloths that slept when the snapshot was saved sleep on if nothing that may wake cloths has
+    // changed or moved since, and if the bytes are this snapshot's own. Otherwise all cloths wake, and bits differ.
+    // Errors: nothing uploaded yet, out of memory; a snapshot of another solver; cloths were uploaded or removed since
+    // create_snapshot; nothing saved to restore.
     [[nodiscard]] Result<Snapshot> create_snapshot() const;
     Result<void> record_save(VkCommandBuffer cmd, const Snapshot& snapshot) const;
     Result<void> record_restore(VkCommandBuffer cmd, const Snapshot& snapshot);
