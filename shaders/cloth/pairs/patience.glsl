@@ -23,8 +23,8 @@ void want_lists()
         pair_searches[k].wanted = 1;
 }
 
-// By a vertex that can wait. Whether it must not depends on the sum, and so on no timing.
-void ask_for_lists()
+// Of a vertex that can wait. Whether it does depends on a sum, and so on no timing.
+void wait_for_lists()
 {
     if (atomicAdd(pair_searches[VOILE_PAIR_URGENCY].entries, 1) + 1 >= most_urgency())
         want_lists();

@@ -40,9 +40,9 @@ bool slide_along_planes(uint i, Hold hold, inout Motion motion)
 bool can_wait(Hold hold, Motion motion)
 {
     const PairSweep sweep = hold.bound.sweep;
-    const float way = k_patience * push.pair_ahead * seconds(push.substeps) * length(motion.v - hold.carry);
+    const float ahead = k_patience * push.pair_ahead * seconds(push.substeps) * length(motion.v - hold.carry);
     return step_input.driven == 0 && sweep.listed != 0 && sweep.reach > 0 && hold.left == vec3(0) &&
-           way <= cloths[motion.cloth].pair_range;
+           ahead <= cloths[motion.cloth].pair_range;
 }
 
 // Many vertices ask at the same time. Most find that it is known, because writes to one word queue. `waits`: if it can.
@@ -51,7 +51,7 @@ void ask_for_lists(Hold hold, Motion motion, bool waits)
     if (!wants_lists(hold, motion.displacement) || are_lists_wanted())
         return;
     if (waits && can_wait(hold, motion))
-        ask_for_lists();
+        wait_for_lists();
     else
         want_lists();
 }
