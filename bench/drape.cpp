@@ -164,17 +164,29 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
     result.substeps = solver.stable_substeps(k_frame, step.max_substeps);
     result.dispatches = solver.dispatches(step);
     result.has_budget = solver.stability(scene.cloth, step).needed > result.substeps;
+    PassTimes passes(queue);
     std::vector<double> times; // ms
     Positions x;
     for (uint32_t frame = 0; frame < k_frames; ++frame)
     {
         // The host reads the state between frames, and the device lowers its clocks while it waits. The frame first
-        // runs unmeasured in a second scene, so that it is measured as in a continuous run.
-        const auto warm_up = [&](VkCommandBuffer cmd) { voile::engine::take(other.solver.record(cmd, step)); };
+        // runs unmeasured in a second scene, whose passes are timed on request, so that it is measured as in a
+        // continuous run.
+        const auto warm_up = [&](VkCommandBuffer cmd)
+        {
+            if (settings.passes)
+                passes.record(cmd, other.solver, step);
+            else
+                voile::engine::take(other.solver.record(cmd, step));
+        };
         const double time =
             queue.time([&](VkCommandBuffer cmd) { voile::engine::take(solver.record(cmd, step)); }, warm_up) / 1000;
         if (frame >= k_first_timed)
+        {
             times.push_back(time);
+            if (settings.passes)
+                passes.read();
+        }
         const voile::VertexStreams streams = solver.vertices(scene.cloth);
         x = voile::engine::download_values<glm::vec4>(queue.device(), streams.positions, streams.offset,
                                                       streams.vertices);
@@ -183,12 +195,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
             result.height = mean_height(x);
     }
     if (settings.passes)
-    {
-        const voile::Snapshot start = voile::engine::take(solver.create_snapshot());
-        queue.run([&](VkCommandBuffer cmd) { voile::engine::take(solver.record_save(cmd, start)); });
-        print_passes(queue, solver, step,
-                     [&](VkCommandBuffer cmd) { voile::engine::take(solver.record_restore(cmd, start)); });
-    }
+        passes.print(result.substeps);
     const std::vector<double> stretches = structural_stretches(x, item.side, size);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
     if (item.subject != DrapeSubject::pinned_cotton)

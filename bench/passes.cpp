@@ -1,6 +1,7 @@
 #include "passes.hpp"
 
 #include <cstdio>
+#include <numeric>
 
 namespace bench
 {
@@ -33,7 +34,8 @@ void PassTimes::read()
 void PassTimes::print(uint32_t substeps) const
 {
     for (const auto& [name, values] : times_)
-        std::printf("    %-24s %8.3f us a substep\n", name.c_str(), quantile(values, 0.5) / substeps);
+        std::printf("    %-24s %8.3f us a substep, mean %8.3f\n", name.c_str(), quantile(values, 0.5) / substeps,
+                    std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()) / substeps);
 }
 
 void print_passes(TimedQueue& queue, voile::Solver& solver, const voile::Step& step, const TimedQueue::Record& restore)

@@ -28,7 +28,7 @@ public:
     // Records a step. Read the times once it has completed.
     void record(VkCommandBuffer cmd, voile::Solver& solver, const voile::Step& step);
     void read();
-    // The medians of all steps, in microseconds per substep.
+    // The medians and means of all steps, in microseconds per substep.
     void print(uint32_t substeps) const;
 
 private:

@@ -3,6 +3,8 @@
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
+#include "voile/fabrics.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -261,6 +263,41 @@ TEST_CASE("a spring holds a vertex at m g / k below its target")
         // Backward Euler is half of g h^2 ahead: 3.4e-6 m.
         for (const glm::vec4& x : harness.positions(id))
             CHECK(std::abs(2 - static_cast<double>(x.y) - sag) < 5e-6 + 1e-4 * sag);
+    }
+}
+
+TEST_CASE("what hangs at rest on springs has no velocity")
+{
+    struct Case
+    {
+        voile::Integrator integrator;
+        float stiffness; // N/m
+        double fastest;  // m/s, measured: 3.5e-5, 8.9e-6, 9.6e-7, 3.1e-4, 1.1e-5
+    };
+    using enum voile::Integrator;
+    for (const Case& item : {Case{verlet, 20, 1e-4}, Case{verlet, 2e3f, 4e-5}, Case{verlet, 1e6f, 4e-6},
+                             Case{rk4, 2e3f, 1e-3}, Case{rk4, 1e6f, 5e-5}})
+    {
+        CAPTURE(item.stiffness);
+        CAPTURE(static_cast<int>(item.integrator));
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(24);
+        grid.width = grid.depth = 0.46f;
+        grid.material = voile::cotton();
+        grid.integrator = item.integrator;
+        grid.transform = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        std::vector<voile::Attachment> attachments;
+        for (uint32_t i = 0; i < grid.columns; ++i)
+            attachments.push_back(voile::spring(i, item.stiffness, 1e-3f * item.stiffness));
+        voile::engine::take(harness.solver.set_attachments(id, attachments));
+        harness.upload();
+        harness.step({}, 120);
+        double fastest = 0; // of the attached vertices
+        const std::vector<glm::vec4> velocities = harness.velocities(id);
+        for (uint32_t i = 0; i < grid.columns; ++i)
+            fastest = std::max(fastest, static_cast<double>(glm::length(glm::vec3(velocities[i]))));
+        CHECK(fastest < item.fastest);
     }
 }
 

@@ -7,6 +7,11 @@
 // position and velocity of its anchor point and w the inverse mass. The change of velocity moves the vertex for the
 // drift time of its integrator, so that a vertex at rest stays at rest. Max-distance constraints and backstops project
 // the position and remove the velocity that leads out.
+//
+// What springs balance must not leave a velocity. Verlet's last half kick is without the spring, so the vertex ends the
+// step without it, as if it were taut. RK4's stages are without it, too: where the forces of the cloth change within a
+// substep, the mean that moves the vertex differs from the one that accelerates it. So the more a spring holds its
+// vertex, the more the vertex moves by the mean of its velocities before and after the substep instead.
 #include "shared/attachment_layout.h"
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
@@ -20,6 +25,9 @@ layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 positi
 layout(VOILE_BINDING(proposed_velocities)) buffer ProposedVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
 layout(VOILE_BINDING(proposed_residuals)) buffer ProposedResiduals { uvec2 residuals[]; };
+layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; };
+layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
+layout(VOILE_BINDING(earlier_velocities)) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
 
 layout(push_constant, std430) uniform Push { AttachmentPush push; };
 
@@ -36,6 +44,13 @@ bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 poi
     shift -= outside * n;
     v -= max(dot(v - point_velocity, n), 0) * n;
     return true;
+}
+
+// m: what is missing of the way at the mean of the velocities before and after the substep.
+vec3 way_to_mean(uint i, FinePosition here, vec3 shift, vec3 v, float h)
+{
+    const FinePosition earlier = FinePosition(earlier_positions[i].xyz, unpack_residual(earlier_residuals[i]));
+    return 0.5 * h * (earlier_velocities[i].xyz + v) - displacement(earlier, here) - shift;
 }
 
 void main()
@@ -61,16 +76,19 @@ void main()
     const float stiffness = attachment.stiffness;
     const float w = position.w;
     const vec3 pull = stiffness * (h * v - to_vertex) + attachment.damping * point_velocity;
-    const vec3 spring_velocity = (v + h * w * pull) / (1 + h * w * (attachment.damping + h * stiffness));
+    const float grip = h * w * (attachment.damping + h * stiffness); // 0: the vertex is free
+    const vec3 spring_velocity = (v + h * w * pull) / (1 + grip);
     const bool verlet = is_verlet(cloths[attachment.cloth].flags);
     shift += drift_time(verlet, h, 1) * (spring_velocity - v);
     v = spring_velocity;
+    if (!verlet && grip > 0)
+        shift += grip / (1 + grip) * way_to_mean(attachment.vertex, here, shift, v, h);
 
     const vec3 offset = to_vertex + shift;
     const float distance = length(offset);
-    bool taut = false;
+    bool taut = grip > 0;
     if (distance > attachment.max_distance)
-        taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity);
+        taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity) || taut;
     if ((attachment.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * attachment.normal);

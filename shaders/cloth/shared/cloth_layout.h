@@ -36,7 +36,7 @@
 
 // Flags of a vertex. Their sum is the w of its velocity.
 #define VOILE_VERTEX_TOUCHES 1         // it touches a collider
-#define VOILE_VERTEX_TAUT 2            // a tether, a max-distance constraint or a backstop limits it
+#define VOILE_VERTEX_TAUT 2            // a spring holds it, or a tether, a max-distance constraint or a backstop limits it
 #define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
 #define VOILE_VERTEX_SUPPORTED 8       // while colliders move: one of them holds it against other cloth
 #define VOILE_VERTEX_PUSHED 16         // a moving collider or pin pushes it, maybe through other cloth

@@ -143,7 +143,10 @@ void Describer::add_attachments()
             {{binding::proposed_positions, proposed.positions},
              {binding::proposed_residuals, proposed.residuals},
              {binding::proposed_velocities, proposed.velocities},
-             {binding::proposed_predicted, predicted}});
+             {binding::proposed_predicted, predicted},
+             {binding::earlier_positions, earlier.positions},
+             {binding::earlier_residuals, earlier.residuals},
+             {binding::earlier_velocities, earlier.velocities}});
         add(sets_.proposed_tethers[parity], kernels_.tethers,
             {{binding::proposed_positions, proposed.positions},
              {binding::proposed_residuals, proposed.residuals},
