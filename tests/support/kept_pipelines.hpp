@@ -1,19 +1,21 @@
 // Makes compute pipelines when they are first bound, and keeps them from one solver to the next. A software device
 // takes longer to make those of a solver than most tests take to run, and most tests bind a few of them. Solvers get
 // handles whose functions return a promise in place of a pipeline: of the same code with the same constants the same
-// one. Nothing is destroyed before the process ends. The viewer makes all pipelines in advance.
+// one. Shader modules of the same code are the same, too: the validation layer takes longer to check those of a solver
+// than the rest of its creation takes. Nothing is destroyed before the process ends. The viewer makes all pipelines in
+// advance.
 #pragma once
 
 #include "voile/engine/gpu/device.hpp"
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace tests
@@ -45,6 +47,8 @@ public:
     {
         for (const auto& [key, promise] : promises_)
             fn_.vkDestroyPipeline(context_.device(), promise->pipeline, nullptr); // if any
+        for (const auto& [code, module] : modules_)
+            fn_.vkDestroyShaderModule(context_.device(), module, nullptr);
         for (const VkPipelineLayout layout : layouts_)
             fn_.vkDestroyPipelineLayout(context_.device(), layout, nullptr);
         for (const VkDescriptorSetLayout layout : set_layouts_)
@@ -63,7 +67,7 @@ private:
     // A pipeline that is made when it is first bound.
     struct Promise
     {
-        std::string code;
+        VkShaderModule module = VK_NULL_HANDLE;
         std::vector<VkSpecializationMapEntry> entries;
         std::vector<char> constants;
         VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -89,6 +93,8 @@ private:
         const std::string_view wanted = name;
         if (wanted == "vkCreateShaderModule")
             return reinterpret_cast<PFN_vkVoidFunction>(&create_module);
+        if (wanted == "vkDestroyShaderModule")
+            return reinterpret_cast<PFN_vkVoidFunction>(&keep_module);
         if (wanted == "vkCreateComputePipelines")
             return reinterpret_cast<PFN_vkVoidFunction>(&create_pipeline);
         if (wanted == "vkCmdBindPipeline")
@@ -105,9 +111,15 @@ private:
     static VkResult VKAPI_CALL create_module(VkDevice device, const VkShaderModuleCreateInfo* info,
                                              const VkAllocationCallbacks* allocator, VkShaderModule* module)
     {
+        const std::string_view code(reinterpret_cast<const char*>(info->pCode), info->codeSize);
+        if (const auto kept = s_kept->modules_.find(code); kept != s_kept->modules_.end())
+        {
+            *module = kept->second;
+            return VK_SUCCESS;
+        }
         const VkResult result = s_kept->fn_.vkCreateShaderModule(device, info, allocator, module);
         if (result == VK_SUCCESS)
-            s_kept->code_[*module].assign(reinterpret_cast<const char*>(info->pCode), info->codeSize);
+            s_kept->modules_.emplace(code, *module);
         return result;
     }
 
@@ -117,7 +129,7 @@ private:
                                                VkPipeline* pipeline)
     {
         const VkSpecializationInfo& constants = *info->stage.pSpecializationInfo;
-        std::string key = s_kept->code_[info->stage.module];
+        std::string key(reinterpret_cast<const char*>(&info->stage.module), sizeof(VkShaderModule));
         key.append(reinterpret_cast<const char*>(constants.pMapEntries),
                    constants.mapEntryCount * sizeof(VkSpecializationMapEntry));
         key.append(static_cast<const char*>(constants.pData), constants.dataSize);
@@ -125,7 +137,7 @@ private:
         if (!promise)
         {
             promise = std::make_unique<Promise>();
-            promise->code = s_kept->code_[info->stage.module];
+            promise->module = info->stage.module;
             promise->entries.assign(constants.pMapEntries, constants.pMapEntries + constants.mapEntryCount);
             const auto* data = static_cast<const char*>(constants.pData);
             promise->constants.assign(data, data + constants.dataSize);
@@ -137,24 +149,18 @@ private:
 
     void make(Promise& promise) const
     {
-        VkShaderModuleCreateInfo module{};
-        module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-        module.codeSize = promise.code.size();
-        module.pCode = reinterpret_cast<const uint32_t*>(promise.code.data());
         const VkSpecializationInfo constants{static_cast<uint32_t>(promise.entries.size()), promise.entries.data(),
                                              promise.constants.size(), promise.constants.data()};
         VkComputePipelineCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
         info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+        info.stage.module = promise.module;
         info.stage.pName = "main";
         info.stage.pSpecializationInfo = &constants;
         info.layout = promise.layout;
-        VkResult result = fn_.vkCreateShaderModule(context_.device(), &module, nullptr, &info.stage.module);
-        if (result == VK_SUCCESS)
-            result =
-                fn_.vkCreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, &promise.pipeline);
-        fn_.vkDestroyShaderModule(context_.device(), info.stage.module, nullptr);
+        const VkResult result =
+            fn_.vkCreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, &promise.pipeline);
         if (result != VK_SUCCESS)
             throw std::runtime_error("no pipeline \"" + promise.name + "\": VkResult " + std::to_string(result));
         voile::gpu::set_name(context_, VK_OBJECT_TYPE_PIPELINE, promise.pipeline, promise.name.c_str());
@@ -175,6 +181,7 @@ private:
         return VK_SUCCESS;
     }
 
+    static void VKAPI_CALL keep_module(VkDevice, VkShaderModule, const VkAllocationCallbacks*) {}
     static void VKAPI_CALL keep_pipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*) {}
     static void VKAPI_CALL keep_layout(VkDevice, VkPipelineLayout layout, const VkAllocationCallbacks*)
     {
@@ -190,8 +197,8 @@ private:
     const voile::gpu::Context& context_;
     voile::gpu::DeviceFunctions fn_;
     PFN_vkGetDeviceProcAddr get_device_function_ = nullptr;
-    std::unordered_map<VkShaderModule, std::string> code_;     // of each module that was made last under its handle
-    std::map<std::string, std::unique_ptr<Promise>> promises_; // by code and constants
+    std::map<std::string, VkShaderModule, std::less<>> modules_; // by code
+    std::map<std::string, std::unique_ptr<Promise>> promises_;   // by module and constants
     std::vector<VkPipelineLayout> layouts_;
     std::vector<VkDescriptorSetLayout> set_layouts_;
 };
