@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace voile::gpu
 {
@@ -100,8 +101,10 @@ private:
     uint64_t end_of_member(const Type& type, size_t member);
     [[nodiscard]] uint32_t value_of(uint32_t spec_id, uint32_t otherwise) const;
 
+    [[nodiscard]] std::string name_of(uint32_t id) const;
+
     std::span<const SpecializationConstant> specialization_;
-    std::unordered_map<uint32_t, std::string> names_;
+    std::vector<std::pair<uint32_t, std::span<const uint32_t>>> names_; // of the many, few are asked for
     std::unordered_map<uint32_t, Decorations> decorations_;
     std::unordered_map<uint32_t, Type> types_;
     std::unordered_map<uint32_t, uint32_t> values_; // of whole numbers
@@ -151,6 +154,12 @@ uint32_t Reader::evaluate(uint32_t operation, std::span<const uint32_t> operands
     default:
         return 0; // no length of an array
     }
+}
+
+std::string Reader::name_of(uint32_t id) const
+{
+    const auto name = std::ranges::find(names_, id, &std::pair<uint32_t, std::span<const uint32_t>>::first);
+    return name != names_.end() ? text_of(name->second) : std::string();
 }
 
 uint32_t Reader::value_of(uint32_t spec_id, uint32_t otherwise) const
@@ -232,7 +241,8 @@ Result<void> Reader::add_binding(uint32_t pointer, uint32_t id, uint32_t storage
                      " is no buffer of set 0"};
     const uint32_t block_id = types_[pointer].operands[1];
     const Type& block = types_[block_id];
-    ShaderBinding binding{number, names_[block_id].empty() ? names_[id] : names_[block_id], false, false, 0, uniform};
+    std::string block_name = name_of(block_id);
+    ShaderBinding binding{number, block_name.empty() ? name_of(id) : std::move(block_name), false, false, 0, uniform};
     for (size_t i = 0; i < block.operands.size(); ++i)
     {
         Decorations member = i < block.members.size() ? block.members[i] : Decorations{};
@@ -266,7 +276,7 @@ void Reader::read(uint32_t opcode, std::span<const uint32_t> words)
     switch (opcode)
     {
     case k_name:
-        names_[words[0]] = text_of(words.subspan(1));
+        names_.emplace_back(words[0], words.subspan(1));
         break;
     case k_decorate:
         decorations_[words[0]][words[1]] = words.size() > 2 ? words[2] : 1;
@@ -320,7 +330,7 @@ Result<ShaderInterface> Reader::finish()
         return status_.error();
     for (const auto& [id, decorations] : decorations_)
         if (const auto spec_id = decorations.find(k_spec_id); spec_id != decorations.end())
-            interface_.constants.push_back({spec_id->second, names_[id]});
+            interface_.constants.push_back({spec_id->second, name_of(id)});
     std::ranges::sort(interface_.bindings, {}, &ShaderBinding::number);
     const auto twice = std::ranges::adjacent_find(interface_.bindings, {}, &ShaderBinding::number);
     if (twice != interface_.bindings.end())
