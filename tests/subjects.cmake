@@ -85,6 +85,10 @@ set(consumer_linker_flags ${CMAKE_EXE_LINKER_FLAGS})
 if(VOILE_SANITIZE)
     set(consumer_linker_flags -fsanitize=${VOILE_SANITIZE})
 endif()
+set(consumer_options "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # as the project's own sources
+    list(APPEND consumer_options "-DCMAKE_CXX_FLAGS=--param=ggc-min-heapsize=1048576")
+endif()
 set(consumer_prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 add_test(NAME "consumer: clean" COMMAND ${CMAKE_COMMAND} -E rm -rf ${consumer_prefix} ${consumer_prefix}_before)
 add_test(NAME "consumer: install"
@@ -97,7 +101,7 @@ add_test(NAME "consumer: find_package"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer
                  ${CMAKE_CURRENT_BINARY_DIR}/consumer --build-generator ${CMAKE_GENERATOR}
                  --build-options -DCMAKE_PREFIX_PATH=${consumer_prefix} "-DCMAKE_EXE_LINKER_FLAGS=${consumer_linker_flags}"
-                                 -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+                                 ${consumer_options}
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties("consumer: clean" PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties("consumer: install" PROPERTIES FIXTURES_SETUP installed DEPENDS "consumer: clean")
@@ -107,7 +111,7 @@ set_tests_properties("consumer: find_package" PROPERTIES FIXTURES_REQUIRED insta
 add_test(NAME "consumer: add_subdirectory"
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer/subdirectory
                  ${CMAKE_CURRENT_BINARY_DIR}/subdirectory_consumer --build-generator ${CMAKE_GENERATOR}
-                 --build-options -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+                 --build-options ${consumer_options}
                  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 # They take long and use one core each, so they begin first.
 set_tests_properties("consumer: find_package" "consumer: add_subdirectory" PROPERTIES
