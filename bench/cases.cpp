@@ -116,26 +116,26 @@ Cloths add_verlet_sheet(voile::Solver& solver)
 }
 
 // The sheet as a triangle mesh, with the diagonals of the solver's grids.
-voile::ClothId add_mesh_sheet(voile::Solver& solver, bool shuffled, voile::BendingModel bending)
+voile::ClothId add_mesh_sheet(voile::Solver& solver, uint32_t side, bool shuffled, voile::BendingModel bending)
 {
-    constexpr uint32_t k_side = 128;
-    const voile::GridCloth grid = drape_grid(k_side);
-    std::vector<uint32_t> order(size_t{k_side} * k_side);
+    const voile::GridCloth grid = drape_grid(side);
+    std::vector<uint32_t> order(size_t{side} * side);
     std::iota(order.begin(), order.end(), 0u);
     if (shuffled) // files may have their vertices in any order
         std::shuffle(order.begin(), order.end(), std::mt19937(1));
     std::vector<glm::vec3> positions(order.size());
     std::vector<glm::uvec3> triangles;
-    for (uint32_t row = 0; row < k_side; ++row)
-        for (uint32_t column = 0; column < k_side; ++column)
+    for (uint32_t row = 0; row < side; ++row)
+        for (uint32_t column = 0; column < side; ++column)
         {
-            const uint32_t corner = row * k_side + column;
-            const auto along = [&](uint32_t i) { return grid.width * (static_cast<float>(i) / (k_side - 1) - 0.5f); };
+            const uint32_t corner = row * side + column;
+            const auto along = [&](uint32_t i)
+            { return grid.width * (static_cast<float>(i) / static_cast<float>(side - 1) - 0.5f); };
             positions[order[corner]] = {along(column), 0.85f, along(row)};
-            if (row + 1 == k_side || column + 1 == k_side)
+            if (row + 1 == side || column + 1 == side)
                 continue;
-            triangles.emplace_back(order[corner], order[corner + k_side], order[corner + 1]);
-            triangles.emplace_back(order[corner + 1], order[corner + k_side], order[corner + k_side + 1]);
+            triangles.emplace_back(order[corner], order[corner + side], order[corner + 1]);
+            triangles.emplace_back(order[corner + 1], order[corner + side], order[corner + side + 1]);
         }
     voile::MeshCloth mesh;
     mesh.positions = positions;
@@ -146,11 +146,11 @@ voile::ClothId add_mesh_sheet(voile::Solver& solver, bool shuffled, voile::Bendi
     return voile::engine::take(solver.add_cloth(mesh));
 }
 
-template <bool shuffled, bool isometric>
+template <uint32_t side, bool shuffled, bool isometric>
 Cloths add_mesh_sheet(voile::Solver& solver)
 {
-    return {
-        add_mesh_sheet(solver, shuffled, isometric ? voile::BendingModel::isometric : voile::BendingModel::springs)};
+    return {add_mesh_sheet(solver, side, shuffled,
+                           isometric ? voile::BendingModel::isometric : voile::BendingModel::springs)};
 }
 
 // The sheet of 128 x 128 with one additional feature, to measure the feature's cost.
@@ -317,14 +317,18 @@ constexpr Case k_cases[] = {
     {"strain-limit-128", "a strain limit of 5 %, once per frame", add_changed_sheet<limit_strain>},
     {"tethers-128", "a row of pins, a tether for every other vertex", add_pinned_sheet<true>},
     {"max-distance-128", "a row of pins, a max-distance constraint for every other vertex", add_pinned_sheet<false>},
-    {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<false, false>, k_nearest, 0, false,
+    {"mesh-128", "the same sheet as a mesh of triangles", add_mesh_sheet<128, false, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
-    {"mesh-128-compact", "its lists of springs not interleaved", add_mesh_sheet<false, false>, k_nearest, 0, false,
+    {"mesh-64", "the sheet of 64 x 64", add_mesh_sheet<64, false, false>, k_nearest, 0, false, k_interleaved, 0, 0,
+     false, 12},
+    {"mesh-256", "the sheet of 256 x 256", add_mesh_sheet<256, false, false>, k_nearest, 0, false, k_interleaved, 0, 0,
+     false, 12},
+    {"mesh-128-compact", "its lists of springs not interleaved", add_mesh_sheet<128, false, false>, k_nearest, 0, false,
      voile::MeshLayout::compact, 0, 0, false, 12},
-    {"mesh-128-shuffled", "its vertices in random order", add_mesh_sheet<true, false>, k_nearest, 0, false,
+    {"mesh-128-shuffled", "its vertices in random order", add_mesh_sheet<128, true, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, false, 12},
-    {"mesh-128-isometric", "isometric bending", add_mesh_sheet<false, true>, k_nearest, 0, false, k_interleaved, 0, 0,
-     false, 18},
+    {"mesh-128-isometric", "isometric bending", add_mesh_sheet<128, false, true>, k_nearest, 0, false, k_interleaved, 0,
+     0, false, 18},
     {"icosphere-1280", "the sheet of 128 x 128 after 1.5 s on a sphere of 1,280 triangles", add_icosphere<3>, k_nearest,
      k_sphere_frames, true, k_interleaved, 0, 0, false, 0, 3},
     {"icosphere-20480", "of 20,480", add_icosphere<5>, k_nearest, k_sphere_frames, true, k_interleaved, 0, 0, false, 0,

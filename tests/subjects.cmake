@@ -25,7 +25,7 @@ voile_add_test(test_viewer
 add_dependencies(test_viewer viewer scene_meshes)
 voile_add_test(test_statistics SOURCES statistics/test_statistics.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_mesh_cloth SOURCES forces/test_mesh_cloth.cpp geometry/test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_membrane SOURCES forces/test_membrane.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_membrane SOURCES forces/test_membrane.cpp forces/test_shared_forces.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_verlet SOURCES integration/test_verlet.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_static_friction SOURCES contact/test_static_friction.cpp contact/test_contact_interval.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_energy SOURCES integration/test_energy.cpp integration/test_energy_random.cpp LIBRARIES voile::cloth voile::engine)

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // The energy that a step, or the strain limit with its contact pass, adds to each cloth. Per patch: the energy of the
 // springs in one of the two states, the work of all conservative forces in that state along the displacements between
 // the states, and the terms of the kinetic energy.

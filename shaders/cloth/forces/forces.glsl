@@ -244,65 +244,19 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
     }
 }
 
-#include "forces/membrane.glsl"
-
-// Springs of a mesh vertex, with the entries of the isometric model beside them, and the triangles around it, with the
-// membrane of a Fabric.
-void gather_mesh(inout Gather g, uint cloth, uint local, StabilityScales scales)
+// The force of bending, N, from what neighbors have added to it and to its rate.
+void end_bending(inout Gather g, uint cloth, StabilityScales scales)
 {
-    const uint first_vertex = cloths[cloth].first_vertex;
-    const bool uniform_springs = (cloths[cloth].flags & VOILE_CLOTH_UNIFORM_SPRINGS) != 0;
-    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + local];
-    // The next entry is loaded while the current one is computed.
-    MeshSpring next;
-    if (vertex.springs > 0)
-        next = mesh_springs[vertex.first_spring];
-    for (uint s = 0; s < vertex.springs; ++s)
-    {
-        const MeshSpring entry = next;
-        next = mesh_springs[vertex.first_spring + min(s + 1, vertex.springs - 1) * MESH_STRIDE];
-        const uint other = first_vertex + (entry.neighbor & ~VOILE_OPPOSITE_BIT);
-        const bool opposite = (entry.neighbor & VOILE_OPPOSITE_BIT) != 0;
-        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
-        const float weight = uniform_springs && entry.weight > 0 ? 1 : entry.weight;
-        const float stiffness = scales.stiffness * weight * spring.stiffness;
-        const float damping = scales.damping * weight * spring.damping;
-        const bool pulls = stiffness + damping > 0;
-        if (!pulls && entry.bending == 0)
-            continue;
-        const Neighbor neighbor = Neighbor(delta_to(g, other), stage_velocities[other].xyz - g.v);
-        if (pulls)
-            add_spring(g, stiffness, damping, entry.rest_length, neighbor.delta, neighbor.velocity);
-        add_bending(g, neighbor, -entry.bending);
-    }
-    g.bending *= cloths[cloth].bending.x;
-    g.bending_rate *= cloths[cloth].bending.x;
-    if (uniform_springs && !feels_air(cloth))
-        return;
-    SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
-    for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
-        membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
-    MeshCorner next_corner;
-    if (vertex.corners > 0)
-        next_corner = mesh_corners[vertex.first_corner];
-    for (uint t = 0; t < vertex.corners; ++t)
-    {
-        const uint entry = vertex.first_corner + t * MESH_STRIDE;
-        const MeshCorner corner = next_corner;
-        next_corner = mesh_corners[vertex.first_corner + min(t + 1, vertex.corners - 1) * MESH_STRIDE];
-        const uint b = first_vertex + corner.b;
-        const uint c = first_vertex + corner.c;
-        const FinePosition x_b = position_of(b);
-        const FinePosition x_c = position_of(c);
-        if (!uniform_springs)
-            add_membrane(g, membrane, membrane_corners[entry], TriangleCorner(x_b, stage_velocities[b].xyz),
-                         TriangleCorner(x_c, stage_velocities[c].xyz));
-        if (feels_air(cloth))
-            add_air(g, cloth, displacement(g.x, x_b), displacement(g.x, x_c), 1.0 / 3);
-    }
+    // Precise, so that compilers do not merge it with the sum of shares.
+    precise const vec3 force =
+        scales.stiffness * g.bending + scales.damping * cloths[cloth].bending_time * g.bending_rate;
+    g.bending = force;
 }
 
-// All forces on a vertex except gravity and linear drag.
+#include "forces/mesh_forces.glsl"
+
+// All forces on a vertex except gravity and linear drag. Where threads share those of a mesh, all of a patch call it, and
+// the first ones of its vertices get them.
 Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 gust, Viscosity viscosity, StabilityScales scales)
 {
     Gather g;
@@ -312,11 +266,13 @@ Gather gather(PatchVertex self, FinePosition x, vec3 v, vec3 gust, Viscosity vis
     g.energy = g.air_rate = 0;
     g.gust = gust;
     g.viscosity = viscosity;
-    if (self.columns > 0)
-        gather_grid(g, self.cloth, self, scales);
-    else
+    if (self.columns == 0)
+    {
         gather_mesh(g, self.cloth, self.local, scales);
-    g.bending = scales.stiffness * g.bending + scales.damping * cloths[self.cloth].bending_time * g.bending_rate;
+        return g;
+    }
+    gather_grid(g, self.cloth, self, scales);
+    end_bending(g, self.cloth, scales);
     return g;
 }
 

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // One substep of velocity Verlet (Swope et al. 1982) for the cloths that use it: kick and drift in one dispatch.
 //
 // The half kicks at the end of one substep and at the beginning of the next are merged: a step of n substeps is n + 1
 // dispatches that kick by h/2, h, ..., h, h/2 and drift by h, ..., h, 0. Between them velocities are half a substep
 // later than positions. Damping and air need velocities at the time of the positions. Each dispatch writes a prediction
 // for the next (stability.h), which keeps the second order.
-// One thread per vertex.
+// One thread per vertex, or several per vertex of a mesh (mesh_forces.glsl).
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/contact_layout.h"
@@ -32,6 +33,7 @@ layout(VOILE_BINDING(contact_planes)) buffer ContactPlanes { ContactPlane planes
 
 layout(push_constant, std430) uniform Push { StagePush push; };
 
+#define VOILE_SHARES_FORCES
 #include "forces/forces.glsl"
 #include "contact/contact_vertex.glsl"
 #include "integration/integrator.glsl"
@@ -66,15 +68,21 @@ void respond_to_plane(uint i, inout Motion motion)
 
 void main()
 {
-    const PatchVertex self = patch_vertex(patch_of_batch(push.first_patch));
-    if (!self.exists)
+    const uint patch_index = patch_of_batch(push.first_patch);
+    const PatchVertex own = patch_vertex(patch_index);
+    const bool first = own.exists && gl_LocalInvocationID.x < PATCH_SIZE;
+    if (!first && (FORCE_THREADS == 1 || own.columns > 0))
         return;
+    // All threads of a mesh share its forces.
+    const PatchVertex self = FORCE_THREADS == 1 || own.exists ? own : patch_vertex(patch_index, 0);
     const uint i = self.index;
     // No branch around the gather: all loads are issued together.
     const vec4 stage_x = stage_positions[i];
     const vec4 before = velocities[i];
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 forced = acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz);
+    if (!first)
+        return;
     const vec3 a = stage_x.w > 0 ? forced : vec3(0);
     // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.

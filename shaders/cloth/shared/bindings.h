@@ -14,7 +14,9 @@
     VOILE_CONSTANT(4, colliders_convex)                                                                                \
     VOILE_CONSTANT(5, near_lists)                                                                                      \
     VOILE_CONSTANT(6, from_leaves)                                                                                     \
-    VOILE_CONSTANT(7, pairs)
+    VOILE_CONSTANT(7, pairs)                                                                                           \
+    VOILE_CONSTANT(8, force_threads)                                                                                   \
+    VOILE_CONSTANT(9, force_shares)
 
 #ifdef __cplusplus
 

@@ -4,6 +4,7 @@
 #ifndef VOILE_PATCH_GLSL
 #define VOILE_PATCH_GLSL
 
+#include "shared/patch_size.glsl"
 #include "shared/patch_vertex.glsl"
 
 PatchVertex patch_vertex(uint patch_index, uint thread)
@@ -39,6 +40,6 @@ uint patch_of_batch(uint first_patch)
     return awake ? patches[slot].tile >> VOILE_PATCH_AWAKE_SHIFT : slot;
 }
 
-PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x); }
+PatchVertex patch_vertex(uint patch_index) { return patch_vertex(patch_index, gl_LocalInvocationID.x % PATCH_SIZE); }
 
 #endif

@@ -19,6 +19,11 @@
 #define VOILE_EDIT_TRANSFORM 2 // transforms positions by the matrix, velocities by its linear part
 #define VOILE_EDIT_VELOCITY 3  // sets all velocities to one value
 
+// The forces of a mesh's vertex are summed up in so many shares where threads may take one each.
+#define VOILE_FORCE_SHARES 4
+// Of shared memory, per vertex of a workgroup whose threads share forces, at most (mesh_forces.glsl).
+#define VOILE_SHARED_FORCE_BYTES 128
+
 VOILE_SHARED_BEGIN(voile)
 
 // What may differ between two steps with the same passes. Passes read it from a uniform buffer, so that their commands

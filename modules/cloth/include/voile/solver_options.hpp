@@ -45,6 +45,13 @@ struct Tuning
     // slower and merges contacts in another order. Two equal runs are bit-identical.
     std::optional<uint32_t> feature_items{};
 
+    // Up to this number of vertices in the cloths that take the same substeps with one integrator, four invocations
+    // share the forces of a mesh's vertex. More vertices keep a GPU busy with one each. Results are equal to the bit,
+    // whatever the number. 0: 20,000, or none on CPU devices, which sum up forces in another order then. None also
+    // where workgroups have less than four times workgroup_size invocations, or shared memory less than 128 bytes times
+    // that.
+    uint32_t sharing_vertices = 0;
+
     // The cost of a substep's dispatches without any vertices, as the number of vertices whose substep takes as long.
     // Cloths that need fewer substeps than others get their own dispatches if these cost less than the substeps that
     // they save. 0: 100,000, or 256 on CPU devices.

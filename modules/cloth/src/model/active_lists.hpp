@@ -35,6 +35,7 @@ constexpr Batch batch_at(uint32_t index)
 struct BatchLists
 {
     EntryRange patches;
+    bool meshes = false;    // any patch is of a mesh
     EntryRange attachments; // others than pins
     EntryRange tethers;
 };

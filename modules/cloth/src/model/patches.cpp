@@ -80,10 +80,14 @@ void list_patches(const Model& model, const LevelOf& level_of, uint32_t workgrou
     for (uint32_t i = 0; i < VOILE_SUBSTEP_BATCHES; ++i)
     {
         EntryRange& patches = lists.batches[i].patches;
+        lists.batches[i].meshes = false;
         patches.first = lists.patch_count();
         for (const auto [index, cloth] : model.cloths)
             if (is_in_batch(cloth, batch_at(i), level_of))
+            {
                 add_patches(cloth, index, workgroup_size, lists.patches);
+                lists.batches[i].meshes |= cloth.record.columns == 0;
+            }
         patches.count = lists.patch_count() - patches.first;
     }
 }

@@ -14,6 +14,8 @@ struct Kernels
 {
     gpu::Kernel stage; // of RK4, any of the four
     gpu::Kernel verlet;
+    gpu::Kernel stage_shared; // the same for few vertices: several threads share the forces of one
+    gpu::Kernel verlet_shared;
     gpu::Kernel pins;
     gpu::Kernel attachments;
     gpu::Kernel tethers;

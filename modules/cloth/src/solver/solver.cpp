@@ -29,6 +29,20 @@ uint32_t feature_threads(const gpu::Context& context, const SolverOptions& optio
     return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.tuning.workgroup_size);
 }
 
+// Measured: bench/NOTES.md, "Forces that threads share".
+uint32_t sharing_vertices(const gpu::Context& context, const SolverOptions& options)
+{
+    constexpr uint32_t k_few = 20000;
+    const VkPhysicalDeviceLimits& limits = context.limits;
+    const uint32_t threads = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+    const uint32_t group = options.tuning.workgroup_size;
+    if (threads / VOILE_FORCE_SHARES < group || limits.maxComputeSharedMemorySize / VOILE_SHARED_FORCE_BYTES < group)
+        return 0;
+    if (options.tuning.sharing_vertices > 0)
+        return options.tuning.sharing_vertices;
+    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 0 : k_few;
+}
+
 // Measured: bench/NOTES.md, "Levels of substeps".
 uint32_t dispatch_vertices(const gpu::Context& context, const SolverOptions& options)
 {
@@ -116,14 +130,16 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
                                        {"compact", "interleaved"});
         !layout)
         return layout.error();
-    auto kernels = create_kernels(context.value(), options);
+    SolverOptions with = options;
+    with.tuning.sharing_vertices = sharing_vertices(context.value(), options);
+    auto kernels = create_kernels(context.value(), with);
     if (!kernels)
         return kernels.error();
     if (auto sets = check_sets(kernels.value()); !sets)
         return sets.error();
     auto state = std::make_unique<State>();
     state->context = context.value();
-    state->options = options;
+    state->options = with;
     state->options.shaders = {};
     state->options.tuning.feature_threads = feature_threads(state->context, options);
     state->options.tuning.dispatch_vertices = dispatch_vertices(state->context, options);

@@ -106,15 +106,26 @@ shared::StagePush BatchRecorder::make_push(float substeps) const
     return push;
 }
 
+bool BatchRecorder::shares_forces() const
+{
+    return lists_.meshes && lists_.patches.count * group_ <= solver_.options.tuning.sharing_vertices;
+}
+
+const gpu::Kernel& BatchRecorder::verlet_kernel() const
+{
+    return shares_forces() ? kernels_.verlet_shared : kernels_.verlet;
+}
+
 void BatchRecorder::record_rk4(uint32_t substep)
 {
     constexpr float k_stage_times[] = {0, 0.5f, 0.5f, 1}; // of the substep
     const auto& sets = device_.sets.stages[has_contact_ && in_stage_b(substep) ? 1 : 0];
+    const gpu::Kernel& stage_kernel = shares_forces() ? kernels_.stage_shared : kernels_.stage;
     for (uint32_t stage = 1; stage <= 4; ++stage)
     {
         shared::StagePush push = make_push(static_cast<float>(substep) + k_stage_times[stage - 1]);
         push.stage = stage;
-        dispatch_awake(kernels_.stage, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
+        dispatch_awake(stage_kernel, stage == 4 && !has_contact_ ? device_.sets.last_stage_alone : sets[stage - 1],
                        push);
     }
 }
@@ -127,7 +138,7 @@ void BatchRecorder::record_verlet(shared::StagePush push, uint32_t substep)
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
     if (substep == 0)
         set = device_.sets.verlet_first;
-    dispatch_awake(kernels_.verlet, set, push);
+    dispatch_awake(verlet_kernel(), set, push);
 }
 
 void BatchRecorder::finish()
@@ -136,7 +147,7 @@ void BatchRecorder::finish()
         return;
     shared::StagePush push = make_push(static_cast<float>(substeps_));
     push.kick = of_level_0(0.5f);
-    dispatch_awake(kernels_.verlet, in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
+    dispatch_awake(verlet_kernel(), in_stage_b(substeps_) ? device_.sets.verlet_last_back : device_.sets.verlet_last,
                    push);
 }
 

@@ -69,6 +69,8 @@ private:
     };
     [[nodiscard]] ItemRange feature_items() const;
     void record_contact(uint32_t substep);
+    [[nodiscard]] bool shares_forces() const;
+    [[nodiscard]] const gpu::Kernel& verlet_kernel() const;
     [[nodiscard]] const gpu::Kernel& contact_kernel() const;
     // Substeps from one contact pass to the next: `first`, and so many more.
     struct ContactInterval
