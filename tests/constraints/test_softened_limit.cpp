@@ -32,7 +32,7 @@ voile::GridCloth pinned(uint32_t side)
     return grid;
 }
 
-// The drape scene: a heart on the ground.
+// The drape scene: a heart on the ground. The cloth is there after nine frames of its fall, 14 mm above the heart.
 voile::GridCloth over_heart(ClothHarness& harness, uint32_t side)
 {
     const voile::engine::Mesh heart = scenes::make_drape_heart();
@@ -40,7 +40,8 @@ voile::GridCloth over_heart(ClothHarness& harness, uint32_t side)
         harness.solver.add_collider(voile::MeshCollider{.positions = heart.positions, .triangles = heart.triangles}));
     (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
     voile::GridCloth grid = cotton(side);
-    grid.transform[3] = {0, 0.85f, 0, 1};
+    grid.transform[3] = {0, 0.7584f, 0, 1};
+    grid.velocity = {0, -1.032f, 0};
     return grid;
 }
 
@@ -65,7 +66,8 @@ double stretch_99(const std::vector<glm::vec4>& x, uint32_t side)
     return *at;
 }
 
-// The largest over all frames. It is reached after 29 frames in the drape scene, after 49 on two corners.
+// The largest over all frames. In the drape scene it is reached after 19 frames. On two corners it grows
+// from 0.059 to 0.063 in the ten frames after the last of 64 x 64, from 0.067 to 0.070 after that of 128 x 128.
 double worst_stretch(ClothHarness& harness, const voile::GridCloth& grid, const voile::Step& step, uint32_t frames)
 {
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
@@ -88,28 +90,28 @@ TEST_CASE("cotton of 64 x 64 in 16 and 8 of 175 substeps keeps its size as it ha
     {
         CAPTURE(substeps);
         ClothHarness harness;
-        CHECK(worst_stretch(harness, pinned(64), {.max_substeps = substeps}, 50) < 0.08);
+        CHECK(worst_stretch(harness, pinned(64), {.max_substeps = substeps}, 40) < 0.08);
     }
     ClothHarness harness; // what the limit is for
-    CHECK(worst_stretch(harness, pinned(64), {.max_substeps = 16, .softened_strain_limit = 0}, 40) > 0.2);
+    CHECK(worst_stretch(harness, pinned(64), {.max_substeps = 16, .softened_strain_limit = 0}, 33) > 0.2);
 }
 
 TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size as it hangs from two corners")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, pinned(128), {.max_substeps = 16}, 50) < 0.08);
+    CHECK(worst_stretch(harness, pinned(128), {.max_substeps = 16}, 42) < 0.08);
 }
 
 TEST_CASE("cotton of 64 x 64 in 16 of 175 substeps keeps its size in the drape scene")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, over_heart(harness, 64), {.max_substeps = 16}, 31) < 0.08);
+    CHECK(worst_stretch(harness, over_heart(harness, 64), {.max_substeps = 16}, 21) < 0.08);
 }
 
 TEST_CASE("cotton of 128 x 128 in 16 of 353 substeps keeps its size in the drape scene")
 {
     ClothHarness harness;
-    CHECK(worst_stretch(harness, over_heart(harness, 128), {.max_substeps = 16}, 31) < 0.08);
+    CHECK(worst_stretch(harness, over_heart(harness, 128), {.max_substeps = 16}, 21) < 0.08);
 }
 
 // Cloth lies on a sphere by shearing.
