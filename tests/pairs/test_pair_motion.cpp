@@ -1,4 +1,5 @@
 // Cloth that collides with itself moves as far as it should.
+#include "support/close_to.hpp"
 #include "support/collider_scenes.hpp"
 #include "support/intersection_harness.hpp"
 #include "support/momenta.hpp"
@@ -116,7 +117,7 @@ TEST_CASE("fine cloth beside a sphere falls about as without self-collision")
         if (collides)
             CHECK(harness.intersections() == 0);
     }
-    CHECK(heights[1] == doctest::Approx(heights[0]).epsilon(0.04)); // measured: 1 %
+    CHECK(heights[1] == tests::close_to(heights[0], 0.04)); // measured: 1.1 %
 }
 
 // With passes every 0.4 ms whatever moves, the ball gets into the sheet in the third frame, with 48 intersections.
@@ -132,7 +133,7 @@ TEST_CASE("a ball that is driven at 8 m/s into a sheet that collides with itself
     }
     const voile::ColliderId collider = take(harness.solver.add_collider(
         voile::MeshCollider{.positions = ball.positions, .triangles = ball.triangles, .deforms = deforms}));
-    voile::GridCloth sheet = tests::flat_sheet(30, 0.44f, 0.2f);
+    voile::GridCloth sheet = tests::flat_sheet(20, 0.29f, 0.2f);
     voile::Fabric fabric = voile::cotton();
     fabric.thickness = 0.003f;
     sheet.material = fabric;
@@ -173,7 +174,7 @@ TEST_CASE("a ball drives one sheet into another one, and takes both along")
             take(harness.solver.add_collider(voile::SphereCollider{.center = {0, -0.12f, 0}, .radius = 0.08f}));
         for (const float height : {0.f, 0.02f})
         {
-            voile::GridCloth sheet = tests::pair_sheet(16, 16, 0.025f);
+            voile::GridCloth sheet = tests::pair_sheet(12, 12, 0.025f);
             sheet.integrator = integrator;
             sheet.transform = at({0, height, 0});
             harness.add(sheet);
