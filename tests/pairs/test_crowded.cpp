@@ -98,7 +98,7 @@ float height_of_middle(PairHarness& harness, voile::ClothId cloth)
 TEST_CASE("a strip that is twisted by three turns and let go does not intersect itself")
 {
     Strip strip;
-    constexpr int k_frames = 40;
+    constexpr int k_frames = 28;
     const voile::Step step{.duration = 1.f / 60, .gravity = {0, 0, 0}};
     const auto twist = [&](int frame)
     {

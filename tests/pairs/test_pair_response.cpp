@@ -1,4 +1,5 @@
 // Momentum, friction, and changes while cloths collide.
+#include "support/close_to.hpp"
 #include "support/momenta.hpp"
 #include "support/pair_harness.hpp"
 
@@ -95,7 +96,7 @@ TEST_CASE("cloth slides down on cloth as Coulomb's law says")
         incline.step({.duration = 1.f / 60}, 15);
         const double t = 0.25;
         const double expected = 0.5 * 9.81 * (std::sin(angle) - k_kinetic * std::cos(angle)) * t * t;
-        CHECK(incline.slid() == doctest::Approx(expected).epsilon(0.01)); // measured: 0.1 %
+        CHECK(incline.slid() == tests::close_to(expected, 0.01)); // measured: 0.1 %
         CHECK(incline.intersections() == 0);
     }
 }
@@ -114,8 +115,7 @@ TEST_CASE("cloth that slides fast on cloth is slowed as Coulomb's law says")
         const double before = velocity();
         incline.step({.duration = 1.f / 60}, 3);
         const double expected = k_kinetic * 9.81 * 3 / 60;
-        CHECK(before - velocity() ==
-              doctest::Approx(expected).epsilon(0.01)); // measured: 0.1 %; it was 1.1 and 1.3 times
+        CHECK(before - velocity() == tests::close_to(expected, 0.01)); // measured: 0.1 %; it was 1.1 and 1.3 times
     }
 }
 
@@ -129,8 +129,8 @@ TEST_CASE("cloth sticks on cloth up to nine tenths of static friction")
             Incline incline(std::atan(slope), integrator);
             incline.step({.duration = 1.f / 60}, 12);
             const double before = incline.slid();
-            incline.step({.duration = 1.f / 60}, 24);
-            CHECK(std::abs(incline.slid() - before) < 0.4 * 1e-4); // m, 0.1 mm/s
+            incline.step({.duration = 1.f / 60}, 12);
+            CHECK(std::abs(incline.slid() - before) < 0.2 * 1e-4); // m, 0.1 mm/s
         }
 }
 
@@ -196,7 +196,7 @@ TEST_CASE("layers of cloth on a plane come to rest, and do not creep")
     fabric.thickness = 0.008f;
     for (float* stiffness : {&fabric.stretch_stiffness[0], &fabric.stretch_stiffness[1], &fabric.shear_stiffness})
         *stiffness *= 0.1f;
-    voile::GridCloth sheet = tests::pair_sheet(10, 10, 0.02f);
+    voile::GridCloth sheet = tests::pair_sheet(7, 7, 0.02f);
     sheet.material = fabric;
     for (const auto integrator : {voile::Integrator::verlet, voile::Integrator::rk4})
     {
