@@ -9,7 +9,7 @@
 TEST_CASE("hello_cloth draws a cloth on a sphere")
 {
     const TestFolder folder;
-    const SampleRun run = run_sample(folder, "hello_cloth", "--headless");
+    const SampleRun run = run_sample(folder, "hello_cloth", "--headless 30");
     check_progress(run);
     CHECK(run.output == "wrote hello_cloth.png\n");
     const auto picture = voile::engine::load_png(folder / "hello_cloth.png");

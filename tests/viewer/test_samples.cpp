@@ -184,7 +184,7 @@ TEST_CASE("own_component swings a ball through a curtain")
 TEST_CASE("skinned puts a sleeve on an arm that bends")
 {
     const TestFolder folder;
-    const SampleRun run = run_sample(folder, "skinned", "--headless 30");
+    const SampleRun run = run_sample(folder, "skinned", "--headless 25");
     check_progress(run);
     const std::string& output = run.output;
     CHECK(output.find("wrote skinned.png\n") != std::string::npos);
