@@ -89,7 +89,7 @@ void drive(const Driven& shape, float speed, Motion motion)
     const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(mesh));
     harness.upload();
     float lowest = 0;
-    const uint32_t frames = speed < 10 ? 5 : 3;
+    const uint32_t frames = speed < 10 ? 5 : 2;
     for (uint32_t frame = 1; frame <= frames; ++frame)
     {
         const float way = speed * k_frame * static_cast<float>(frame);

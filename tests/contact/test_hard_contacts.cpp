@@ -18,6 +18,7 @@ constexpr float k_thick = 0.003f; // cotton's
 constexpr float k_thin = 0.001f;
 const Shot k_shots[] = {{24, 1.2f, 5, k_thick, 8}, {24, 1.2f, 20, k_thin, 5}, {24, 1.2f, 60, k_thin, 4}};
 const Shot k_drop = {20, 1, 5, k_thick, 0, 1.225f};
+const Shot k_small_drop = {16, 0.8f, 5, k_thick, 0, 1.225f};
 constexpr float k_dense_air = 6; // kg/m^3; hanging parts soon stop swinging in it, but cloth slides slowly
 
 void shoot(const Scene& scene)
@@ -27,10 +28,9 @@ void shoot(const Scene& scene)
 }
 
 // `frames`: at most, until the hanging parts have stopped swinging.
-void let_rest(const Scene& scene, uint32_t frames, float air_density = k_drop.air_density)
+void let_rest(const Scene& scene, uint32_t frames, float air_density = k_drop.air_density, Shot drop = k_drop)
 {
     CAPTURE(scene.name);
-    Shot drop = k_drop;
     drop.frames = frames;
     drop.until_rest = true;
     drop.air_density = air_density;
@@ -141,16 +141,16 @@ TEST_CASE("cloth comes to rest on a needle")
     Scene upright = upright_needle();
     upright.top.reset(); // all of it hangs from one point, which can come through
     let_rest(at_length(upright), 240);
-    let_rest(at_length(lying_needle()), 110, k_dense_air);
+    let_rest(at_length(lying_needle()), 110, k_dense_air, k_small_drop);
 }
 
 TEST_CASE("cloth comes to rest on the edge of a box")
 {
-    let_rest(at_length(edge_of_a_box(false)), 160, k_dense_air);
+    let_rest(at_length(edge_of_a_box(false)), 160, k_dense_air, k_small_drop);
 }
 
 TEST_CASE("cloth comes to rest in a bowl")
 {
     let_rest(round_bowl(), 90);
-    let_rest(corner(), 200);
+    let_rest(corner(), 200, k_drop.air_density, k_small_drop);
 }
