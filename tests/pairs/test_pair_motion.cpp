@@ -120,7 +120,7 @@ TEST_CASE("fine cloth beside a sphere falls about as without self-collision")
     CHECK(heights[1] == tests::close_to(heights[0], 0.04)); // measured: 1.1 %
 }
 
-// With passes every 0.4 ms whatever moves, the ball gets into the sheet in the third frame, with 48 intersections.
+// With passes every 0.4 ms whatever moves, the ball gets into the sheet, with up to 85 intersections.
 TEST_CASE("a ball that is driven at 8 m/s into a sheet that collides with itself stays outside")
 {
     tests::IntersectionHarness harness;
@@ -158,7 +158,7 @@ TEST_CASE("a ball that is driven at 8 m/s into a sheet that collides with itself
         CHECK(counts.cloth_pairs == 0);
         const voile::Statistics statistics = harness.statistics();
         CHECK(statistics.penetrating_vertices == 0);
-        CHECK(statistics.max_stretch < 0.5f); // measured: 0.13, and 1.1 with passes every 0.4 ms
+        CHECK(statistics.max_stretch < 0.5f); // measured: 0.11, and 2.2 with passes every 0.4 ms
     }
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("a ball drives one sheet into another one, and takes both along")
             harness.step({.duration = 1.f / 60, .gravity = {0, 0, 0}});
             const voile::Statistics statistics = harness.statistics();
             CHECK(statistics.penetrating_vertices == 0);
-            CHECK(statistics.max_stretch < 0.2f); // measured: 0.09
+            CHECK(statistics.max_stretch < 0.2f); // measured: 0.07
         }
         CHECK(harness.intersections() == 0);
     }
