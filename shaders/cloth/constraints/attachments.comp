@@ -15,6 +15,7 @@
 #include "shared/attachment_layout.h"
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
+#include "shared/pair_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
@@ -35,6 +36,8 @@ layout(push_constant, std430) uniform Push { AttachmentPush push; };
 #include "shared/step_input.glsl"
 #include "integration/integrator.glsl"
 
+const float k_firm_grip = 0.05;
+
 // Projects a vertex that is `outside` m beyond a bound back along n, and removes the velocity that leads out. False: it
 // is inside.
 bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 point_velocity)
@@ -51,6 +54,13 @@ vec3 way_to_mean(uint i, FinePosition here, vec3 shift, vec3 v, float h)
 {
     const FinePosition earlier = FinePosition(earlier_positions[i].xyz, unpack_residual(earlier_residuals[i]));
     return 0.5 * h * (earlier_velocities[i].xyz + v) - displacement(earlier, here) - shift;
+}
+
+// Whether the spring acts within the time of a sweep (pairs/clear.glsl).
+bool is_firm(AttachmentRecord attachment, float w)
+{
+    const float t = VOILE_PAIR_SWEEP_TIME;
+    return t * w * (attachment.damping + t * attachment.stiffness) > k_firm_grip;
 }
 
 void main()
@@ -86,7 +96,7 @@ void main()
 
     const vec3 offset = to_vertex + shift;
     const float distance = length(offset);
-    bool taut = grip > 0;
+    bool taut = false;
     if (distance > attachment.max_distance)
         taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity) || taut;
     if ((attachment.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
@@ -98,7 +108,8 @@ void main()
     positions[attachment.vertex].xyz = next.x;
     residuals[attachment.vertex] = pack_residual(next);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
-    velocities[attachment.vertex] = vec4(v, taut && h > 0 ? uint(velocity.w) | VOILE_VERTEX_TAUT : velocity.w);
+    const uint flags = (taut || grip > 0 ? VOILE_VERTEX_TAUT : 0) | (taut || is_firm(attachment, w) ? VOILE_VERTEX_HELD : 0);
+    velocities[attachment.vertex] = vec4(v, h > 0 ? uint(velocity.w) | flags : velocity.w);
     if (verlet)
         predicted[attachment.vertex].xyz += v - velocity.xyz;
 }

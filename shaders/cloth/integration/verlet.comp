@@ -87,7 +87,8 @@ void main()
     // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
-    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE);
+    const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE |
+                                           VOILE_VERTEX_HELD);
     const float kick = touches == 0 ? seconds(push.kick) : ends ? 0 : seconds(push.substeps);
     Motion motion;
     motion.from = x;

@@ -40,6 +40,7 @@
 #define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
 #define VOILE_VERTEX_SUPPORTED 8       // while colliders move: one of them holds it against other cloth
 #define VOILE_VERTEX_PUSHED 16         // a moving collider or pin pushes it, maybe through other cloth
+#define VOILE_VERTEX_HELD 32           // as VOILE_VERTEX_TAUT, but not by a spring that hardly acts within a few milliseconds
 
 VOILE_SHARED_BEGIN(voile)
 
