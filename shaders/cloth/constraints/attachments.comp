@@ -108,7 +108,8 @@ void main()
     positions[attachment.vertex].xyz = next.x;
     residuals[attachment.vertex] = pack_residual(next);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
-    const uint flags = (taut || grip > 0 ? VOILE_VERTEX_TAUT : 0) | (taut || is_firm(attachment, w) ? VOILE_VERTEX_HELD : 0);
+    const uint flags = (taut || grip > 0 ? VOILE_VERTEX_TAUT : 0) | (taut ? VOILE_VERTEX_BOUND : 0) |
+                       (is_firm(attachment, w) ? VOILE_VERTEX_HELD : 0);
     velocities[attachment.vertex] = vec4(v, h > 0 ? uint(velocity.w) | flags : velocity.w);
     if (verlet)
         predicted[attachment.vertex].xyz += v - velocity.xyz;

@@ -73,7 +73,7 @@ void main()
     positions[tether.vertex].xyz = start + shift;
     residuals[tether.vertex] = uvec2(0);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
-    velocities[tether.vertex] = vec4(v, push.substeps > 0 ? uint(before.w) | VOILE_VERTEX_TAUT | VOILE_VERTEX_HELD : before.w);
+    velocities[tether.vertex] = vec4(v, push.substeps > 0 ? uint(before.w) | VOILE_VERTEX_TAUT | VOILE_VERTEX_BOUND : before.w);
     if (is_verlet(cloths[tether.cloth].flags))
         predicted[tether.vertex].xyz += v - before.xyz;
 }

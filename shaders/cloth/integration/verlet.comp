@@ -88,7 +88,7 @@ void main()
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE |
-                                           VOILE_VERTEX_HELD);
+                                           VOILE_VERTEX_HELD | VOILE_VERTEX_BOUND);
     const float kick = touches == 0 ? seconds(push.kick) : ends ? 0 : seconds(push.substeps);
     Motion motion;
     motion.from = x;

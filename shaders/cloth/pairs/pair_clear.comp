@@ -38,7 +38,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 bool is_clear_vertex(uint i, uint cloth)
 {
     const float margin = cloths[cloth].thickness + (k_neighborhood_radius + 1) * cloths[cloth].springs[0].rest_length;
-    const bool held = (uint(velocities[i].w) & VOILE_VERTEX_HELD) != 0;
+    const bool held = (uint(velocities[i].w) & (VOILE_VERTEX_HELD | VOILE_VERTEX_BOUND)) != 0;
     const bool moves = positions[i].w > 0 && !held && (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) == 0;
     return moves &&
            is_clear(positions[i].xyz, VOILE_PAIR_SWEEP_TIME * velocities[i].xyz, margin, cloths[cloth].layers);

@@ -36,11 +36,12 @@
 
 // Flags of a vertex. Their sum is the w of its velocity.
 #define VOILE_VERTEX_TOUCHES 1         // it touches a collider
-#define VOILE_VERTEX_TAUT 2            // a spring holds it, or a tether, a max-distance constraint or a backstop limits it
+#define VOILE_VERTEX_TAUT 2            // an attachment or a tether acts on it
 #define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
 #define VOILE_VERTEX_SUPPORTED 8       // while colliders move: one of them holds it against other cloth
 #define VOILE_VERTEX_PUSHED 16         // a moving collider or pin pushes it, maybe through other cloth
-#define VOILE_VERTEX_HELD 32           // as VOILE_VERTEX_TAUT, but not by a spring that hardly acts within a few milliseconds
+#define VOILE_VERTEX_HELD 32           // a spring holds it that acts within a few milliseconds
+#define VOILE_VERTEX_BOUND 64          // a tether, a max-distance constraint or a backstop limits it
 
 VOILE_SHARED_BEGIN(voile)
 
