@@ -65,11 +65,11 @@ vec3 mesh_normal(Fan fan)
     return sum;
 }
 
-// The part of a neighborhood that is clear.
+// The part of a neighborhood that is clear. In a strip of two or three lines the vertex may be all of it.
 float grid_clearance(Fan fan)
 {
-    float clear = 0;
-    float count = 1e-30;
+    float clear = pair_flats[fan.center].x;
+    float count = 1;
     for (uint k = 0; k < 16; ++k)
     {
         const ivec2 offset = ivec2(k_neighborhood[k & 3u], k_neighborhood[k >> 2]);
