@@ -310,6 +310,19 @@ void record_copies(gpu::Recorder& recorder, const Solver::State& solver, std::sp
     staging.record(recorder, staged, *solver.device);
 }
 
+// New memory may have anything: what another solver remembered had the same numbers of passes.
+void clear_memories(gpu::Recorder& recorder, const DeviceState& device)
+{
+    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+    constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
+    recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_transfer,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+    for (const buffer::Name name : {buffer::pair_memories, buffer::pair_bounds})
+        recorder.fill(device[name].handle(), 0);
+    recorder.barrier(k_transfer, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute | k_transfer,
+                     k_storage | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
+}
+
 } // namespace
 
 Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
@@ -375,6 +388,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR, k_copy_accesses,
                      after.stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR, after.accesses | k_storage);
     forget_candidates(recorder, *device);
+    clear_memories(recorder, *device);
     // What a recorded step reads may not have been written: steps can be recorded and not submitted.
     clear_dispatch(recorder, (*device)[buffer::feature_dispatch].handle());
     for (size_t i = 0; i < 2; ++i)
