@@ -35,7 +35,8 @@ struct Attachment
 
     // Pull towards the point, N/m, 0..1e9. Infinite, the default, makes a pin: the vertex has no inverse mass and
     // follows the anchor exactly. A spring is integrated implicitly (backward Euler; under RK4 it loses half as much
-    // energy) and is stable at any stiffness. At rest its vertex has no velocity, whatever it carries. Under Verlet that velocity is half a substep old.
+    // energy) and is stable at any stiffness. At rest its vertex has no velocity, unless a collider keeps it from where
+    // the spring pulls it. Under Verlet that velocity is half a substep old.
     float stiffness = std::numeric_limits<float>::infinity();
 
     // Damping of the spring, N s/m, 0..1e6, against the point's velocity.
