@@ -334,6 +334,36 @@ TEST_CASE("softened cloth on springs hangs as still as on pins")
     }
 }
 
+// Where Verlet's substeps share contact, springs pulled vertices back as far as they had left.
+TEST_CASE("springs to points inside a sphere hold no vertex there")
+{
+    for (const float stiffness : {20.f, 200.f})
+    {
+        CAPTURE(stiffness);
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(3);
+        grid.width = grid.depth = 0.04f;
+        voile::Material loose;
+        loose.vertex_mass = 4e-5f;
+        loose.thickness = 0.003f;
+        grid.material = loose;
+        grid.integrator = voile::Integrator::verlet;
+        grid.transform = glm::mat4(1);
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        (void)voile::engine::take(
+            harness.solver.add_collider(voile::SphereCollider{.center = {0, -0.04f, 0}, .radius = 0.05f}));
+        std::vector<voile::Attachment> attachments;
+        for (uint32_t i = 0; i < 9; ++i)
+            attachments.push_back(voile::spring(i, stiffness, 0.01f * stiffness));
+        voile::engine::take(harness.solver.set_attachments(id, attachments));
+        harness.upload();
+        harness.step({.substeps = 80}, 40);
+        CHECK(harness.statistics().penetrating_vertices == 0); // 5 of 9
+        for (const glm::vec4& v : harness.velocities(id))
+            CHECK(glm::length(glm::vec3(v)) < 1e-5); // 0.24
+    }
+}
+
 TEST_CASE("a max-distance constraint keeps a vertex near a moving point, a backstop in front of it")
 {
     ClothHarness harness;

@@ -173,11 +173,12 @@ vec3 carrying_velocity(Motion motion, Depenetration depenetration)
     return part * part * part * velocity;
 }
 
-// Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step.
-Drive depenetrate(uint i, inout Motion motion, Depenetration depenetration)
+// Moves a vertex that is inside a collider. Verlet has done so in the substeps after the first contact pass of a step, but
+// attachments and tethers may have pulled it back. `flags`: VOILE_VERTEX_...
+Drive depenetrate(uint i, uint flags, inout Motion motion, Depenetration depenetration)
 {
     const vec3 surface = carrying_velocity(motion, depenetration);
-    if (push.kicks == 1)
+    if (push.kicks == 1 || (flags & VOILE_VERTEX_TAUT) != 0)
         leave(motion, depenetration.velocity, surface, seconds(push.substeps));
     if (push.result == VOILE_CONTACT_KEEPS_START)
         planes[i] = ContactPlane(depenetration.velocity, 0, surface, VOILE_PLANE_OF_EXIT);
@@ -348,7 +349,7 @@ void main()
         Drive drive = k_no_drive;
         if (depenetration.solid != 0)
         {
-            drive = depenetrate(i, motion, depenetration);
+            drive = depenetrate(i, flags, motion, depenetration);
             changed = true;
         }
         const vec3 shifted = motion.displacement;
