@@ -136,7 +136,7 @@ if(DOXYGEN)
 endif()
 add_test(NAME "recipes: vcpkg and Conan"
          COMMAND ${CMAKE_COMMAND} -DVERSION=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_recipes.cmake)
-voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp constraints/test_springs.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_edits SOURCES solver/test_edits.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp contact/test_fast_colliders.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)

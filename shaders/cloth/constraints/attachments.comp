@@ -49,8 +49,8 @@ bool keep_inside(inout vec3 shift, inout vec3 v, vec3 n, float outside, vec3 poi
     return true;
 }
 
-// m: what is missing of the way at the mean of the velocities before and after the substep.
-vec3 way_to_mean(uint i, FinePosition here, vec3 shift, vec3 v, float h)
+// m: what is missing of the displacement at the mean of the velocities before and after the substep.
+vec3 missing_displacement(uint i, FinePosition here, vec3 shift, vec3 v, float h)
 {
     const FinePosition earlier = FinePosition(earlier_positions[i].xyz, unpack_residual(earlier_residuals[i]));
     return 0.5 * h * (earlier_velocities[i].xyz + v) - displacement(earlier, here) - shift;
@@ -92,7 +92,7 @@ void main()
     shift += drift_time(verlet, h, 1) * (spring_velocity - v);
     v = spring_velocity;
     if (!verlet && grip > 0)
-        shift += grip / (1 + grip) * way_to_mean(attachment.vertex, here, shift, v, h);
+        shift += grip / (1 + grip) * missing_displacement(attachment.vertex, here, shift, v, h);
 
     const vec3 offset = to_vertex + shift;
     const float distance = length(offset);

@@ -247,7 +247,7 @@ void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales s
 // The force of bending, N, from what neighbors have added to it and to its rate.
 void end_bending(inout Gather g, uint cloth, StabilityScales scales)
 {
-    // Precise, so that compilers do not merge it with the sum of shares.
+    // Precise, so that compilers do not merge it with the sum of parts.
     precise const vec3 force =
         scales.stiffness * g.bending + scales.damping * cloths[cloth].bending_time * g.bending_rate;
     g.bending = force;

@@ -3,8 +3,8 @@
 #extension GL_EXT_control_flow_attributes : require
 // One stage of the classical Runge-Kutta method (Kutta 1901) for the cloths that use it.
 //
-// A thread evaluates the acceleration of one vertex, or a share of a mesh's (mesh_forces.glsl), from the stage's positions and velocities of the vertex and of its
-// neighbors, and writes the next stage's state. Stage 4 writes the result of the substep from the velocities of all
+// A thread evaluates the acceleration of one vertex, or a part of a mesh's (mesh_forces.glsl), from the stage's positions
+// and velocities of the vertex and of its neighbors, and writes the next stage's state. Stage 4 writes the result of the substep from the velocities of all
 // stages. They are k1 to k4 of the positions, and their differences contain k1 to k3 of the velocities, so no stage
 // stores sums. All stages share one kernel. Four kernels, each with the forces in it, are slower beside contact
 // (bench/NOTES.md).
@@ -51,13 +51,10 @@ void write_position(uint i, FinePosition x, float inverse_mass)
 
 void main()
 {
-    const uint patch_index = patch_of_batch(push.first_patch);
-    const PatchVertex own = patch_vertex(patch_index);
-    const bool first = own.exists && gl_LocalInvocationID.x < PATCH_SIZE;
-    if (!first && (FORCE_THREADS == 1 || own.columns > 0))
+    const PatchVertex own = patch_vertex(patch_of_batch(push.first_patch));
+    if (is_idle(own))
         return;
-    // All threads of a mesh share its forces.
-    const PatchVertex self = FORCE_THREADS == 1 || own.exists ? own : patch_vertex(patch_index, 0);
+    const PatchVertex self = force_vertex(own);
     const uint i = self.index;
     const vec4 stage_x = stage_positions[i];
     const vec3 stage_v = stage_velocities[i].xyz;
@@ -67,7 +64,7 @@ void main()
     const FinePosition x = push.stage == 1 ? here : base_position(i);
     const vec3 v = push.stage == 1 ? stage_v : base_velocities[i].xyz;
     const vec3 forced = acceleration(false, self, here, inverse_mass, stage_v);
-    if (!first)
+    if (!is_first(own))
         return;
     const vec3 a = inverse_mass > 0 ? forced : vec3(0);
     const float h = seconds(push.substeps);

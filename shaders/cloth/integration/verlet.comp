@@ -68,23 +68,20 @@ void respond_to_plane(uint i, inout Motion motion)
 
 void main()
 {
-    const uint patch_index = patch_of_batch(push.first_patch);
-    const PatchVertex own = patch_vertex(patch_index);
-    const bool first = own.exists && gl_LocalInvocationID.x < PATCH_SIZE;
-    if (!first && (FORCE_THREADS == 1 || own.columns > 0))
+    const PatchVertex own = patch_vertex(patch_of_batch(push.first_patch));
+    if (is_idle(own))
         return;
-    // All threads of a mesh share its forces.
-    const PatchVertex self = FORCE_THREADS == 1 || own.exists ? own : patch_vertex(patch_index, 0);
+    const PatchVertex self = force_vertex(own);
     const uint i = self.index;
     // No branch around the gather: all loads are issued together.
     const vec4 stage_x = stage_positions[i];
     const vec4 before = velocities[i];
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
     const vec3 forced = acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz);
-    if (!first)
+    if (!is_first(own))
         return;
     const vec3 a = stage_x.w > 0 ? forced : vec3(0);
-    // A vertex that touches a collider or hangs on a taut tether ends the step with the velocity of that contact.
+    // A vertex that touches a collider, or hangs on a spring or a taut tether, ends the step with the velocity of that.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
     const uint touches = uint(before.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TAUT | VOILE_VERTEX_TOUCHES_FEATURE |

@@ -19,8 +19,8 @@
 #define VOILE_EDIT_TRANSFORM 2 // transforms positions by the matrix, velocities by its linear part
 #define VOILE_EDIT_VELOCITY 3  // sets all velocities to one value
 
-// The forces of a mesh's vertex are summed up in so many shares where threads may take one each.
-#define VOILE_FORCE_SHARES 4
+// The forces of a mesh's vertex are summed up in so many parts where threads may take one each.
+#define VOILE_FORCE_PARTS 4
 // Of shared memory, per vertex of a workgroup whose threads share forces, at most (mesh_forces.glsl).
 #define VOILE_SHARED_FORCE_BYTES 128
 

@@ -53,26 +53,26 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     };
     const Specialization plain{.workgroup_size = group};
     const Specialization with_lists{.workgroup_size = group, .interleaved = interleaved};
-    const uint32_t shares = options.tuning.sharing_vertices > 0 ? VOILE_FORCE_SHARES : 1;
+    const uint32_t parts = options.tuning.sharing_vertices > 0 ? VOILE_FORCE_PARTS : 1;
     const auto add_integrators = [&](gpu::Kernel& stage, gpu::Kernel& verlet, uint32_t threads)
     {
         const Specialization with{.workgroup_size = group * threads,
                                   .interleaved = interleaved,
                                   .force_threads = threads,
-                                  .force_shares = shares};
+                                  .force_parts = parts};
         add(stage, "cloth rk4 stage", shaders::k_integrate_comp, with);
         add(verlet, "cloth verlet", shaders::k_verlet_comp, with);
     };
     add_integrators(kernels.stage, kernels.verlet, 1);
     if (options.tuning.sharing_vertices > 0)
-        add_integrators(kernels.stage_shared, kernels.verlet_shared, VOILE_FORCE_SHARES);
+        add_integrators(kernels.stage_shared, kernels.verlet_shared, VOILE_FORCE_PARTS);
     add(kernels.pins, "cloth pins", shaders::k_pin_comp, plain);
     add(kernels.attachments, "cloth attachments", shaders::k_attachments_comp, plain);
     add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
     add(kernels.limit_coarse, "cloth wide strain limit", shaders::k_limit_coarse_comp, plain);
     add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
     add(kernels.limit_work, "cloth limit work", shaders::k_limit_work_comp,
-        {.workgroup_size = group, .interleaved = interleaved, .force_shares = shares});
+        {.workgroup_size = group, .interleaved = interleaved, .force_parts = parts});
     add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);
     add(kernels.limit_guard, "cloth limit guard", shaders::k_limit_guard_comp, plain);
     add(kernels.edit, "cloth edit", shaders::k_edit_comp, plain);

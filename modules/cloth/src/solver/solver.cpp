@@ -36,7 +36,7 @@ uint32_t sharing_vertices(const gpu::Context& context, const SolverOptions& opti
     const VkPhysicalDeviceLimits& limits = context.limits;
     const uint32_t threads = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
     const uint32_t group = options.tuning.workgroup_size;
-    if (threads / VOILE_FORCE_SHARES < group || limits.maxComputeSharedMemorySize / VOILE_SHARED_FORCE_BYTES < group)
+    if (threads / VOILE_FORCE_PARTS < group || limits.maxComputeSharedMemorySize / VOILE_SHARED_FORCE_BYTES < group)
         return 0;
     if (options.tuning.sharing_vertices > 0)
         return options.tuning.sharing_vertices;
