@@ -1,5 +1,6 @@
 // Attachments, anchors and tethers: pins that move and change, springs, maximum distances, backstops, and what they
 // refuse.
+#include "support/airless_sheet.hpp"
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 
@@ -12,18 +13,8 @@
 namespace
 {
 
+using tests::airless_sheet;
 using tests::ClothHarness;
-
-voile::GridCloth sheet(uint32_t side)
-{
-    voile::GridCloth grid;
-    grid.columns = grid.rows = side;
-    grid.transform[3] = {0, 2, 0, 1};
-    voile::Fabric fabric;
-    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
-    grid.material = fabric;
-    return grid;
-}
 
 glm::mat4 at(const glm::vec3& position, float degrees = 0)
 {
@@ -48,7 +39,7 @@ TEST_CASE("pins follow an anchor exactly, move with its velocity, and stop with 
     {
         CAPTURE(int(integrator));
         ClothHarness harness;
-        voile::GridCloth grid = sheet(8);
+        voile::GridCloth grid = airless_sheet(8);
         grid.integrator = integrator;
         const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
         const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(at({0, 2, -0.5f})));
@@ -130,7 +121,7 @@ TEST_CASE("attachments are made by functions that name them")
 TEST_CASE("pins change at run time, and released vertices fall")
 {
     ClothHarness harness;
-    voile::GridCloth grid = sheet(6);
+    voile::GridCloth grid = airless_sheet(6);
     grid.pins = {0, 5, 5};
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
@@ -156,7 +147,7 @@ TEST_CASE("pins change at run time, and released vertices fall")
 TEST_CASE("attachments, tethers and anchors beyond the capacity hold from the next step on")
 {
     ClothHarness harness;
-    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(10)));
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(airless_sheet(10)));
     harness.upload();
     harness.step({}, 3);
     constexpr uint32_t k_anchors = 40;
@@ -197,7 +188,7 @@ TEST_CASE("attachments, tethers and anchors beyond the capacity hold from the ne
 TEST_CASE("a pin without a position stays behind with its cloth, one with a position does not")
 {
     ClothHarness harness;
-    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(4)));
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(airless_sheet(4)));
     const voile::AnchorId rod = voile::engine::take(harness.solver.add_anchor(at({0, 2, -0.5f})));
     REQUIRE(harness.solver.set_attachments(id, {voile::pin(0, rod), voile::pin(3, rod, {0.5f, 0, 0})}));
     harness.upload();
@@ -241,7 +232,7 @@ TEST_CASE("a pin without a position stays behind with its cloth, one with a posi
 TEST_CASE("a max-distance constraint keeps a vertex near a moving point, a backstop in front of it")
 {
     ClothHarness harness;
-    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(12)));
+    const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(airless_sheet(12)));
     const voile::AnchorId body = voile::engine::take(harness.solver.add_anchor(at({0, 2, 0})));
     std::vector<voile::Attachment> attachments;
     for (uint32_t i = 0; i < 144; ++i)
@@ -273,7 +264,7 @@ TEST_CASE("tethers keep a soft hanging cloth at its length")
     for (const bool tethered : {false, true})
     {
         ClothHarness harness;
-        voile::GridCloth grid = sheet(16);
+        voile::GridCloth grid = airless_sheet(16);
         voile::Fabric soft;
         soft.stretch_stiffness = {3, 3}; // rho g L / 2k = 25 %
         soft.shear_stiffness = 1;
@@ -302,7 +293,7 @@ TEST_CASE("tethers measure distances along the cloth")
 {
     // Pinned at one corner: the far corner is a diagonal away, over a triangulated grid too.
     ClothHarness harness;
-    voile::GridCloth grid = sheet(33);
+    voile::GridCloth grid = airless_sheet(33);
     std::get<voile::Fabric>(grid.material).stretch_stiffness = {0.05f, 0.05f};
     std::get<voile::Fabric>(grid.material).shear_stiffness = 0.01f;
     grid.pins = {0};
@@ -320,7 +311,7 @@ TEST_CASE("tethers measure distances along the cloth")
 TEST_CASE("attachments and tethers refuse bad input, and nothing changes")
 {
     ClothHarness harness;
-    voile::GridCloth grid = sheet(4);
+    voile::GridCloth grid = airless_sheet(4);
     grid.name = "flag";
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     const auto refused = [&](const voile::Attachment& attachment)
@@ -360,7 +351,7 @@ TEST_CASE("attachments and tethers refuse bad input, and nothing changes")
 TEST_CASE("vertices are attached to a collider's surface")
 {
     ClothHarness harness;
-    voile::GridCloth grid = sheet(20);
+    voile::GridCloth grid = airless_sheet(20);
     grid.transform[3] = {0, 0.5f, 0, 1};
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     const voile::ColliderId ball =

@@ -1,4 +1,5 @@
 // Attachments that are springs: where they hold a vertex, and that it has no velocity there.
+#include "support/airless_sheet.hpp"
 #include "support/cloth_harness.hpp"
 
 #include "voile/fabrics.hpp"
@@ -9,20 +10,10 @@
 namespace
 {
 
+using tests::airless_sheet;
 using tests::ClothHarness;
 
 constexpr double k_gravity = 9.81;
-
-voile::GridCloth sheet(uint32_t side)
-{
-    voile::GridCloth grid;
-    grid.columns = grid.rows = side;
-    grid.transform[3] = {0, 2, 0, 1};
-    voile::Fabric fabric;
-    fabric.air_drag_normal = fabric.air_drag_tangential = 0;
-    grid.material = fabric;
-    return grid;
-}
 
 } // namespace
 
@@ -32,7 +23,7 @@ TEST_CASE("a spring holds a vertex at m g / k below its target")
     {
         CAPTURE(stiffness);
         ClothHarness harness;
-        voile::GridCloth grid = sheet(2);
+        voile::GridCloth grid = airless_sheet(2);
         voile::Material material;
         material.vertex_mass = 0.02f; // nothing joins the vertices
         grid.material = material;
@@ -65,7 +56,7 @@ TEST_CASE("what hangs at rest on springs has no velocity")
         CAPTURE(item.stiffness);
         CAPTURE(static_cast<int>(item.integrator));
         ClothHarness harness;
-        voile::GridCloth grid = sheet(12);
+        voile::GridCloth grid = airless_sheet(12);
         grid.width = grid.depth = 0.22f;
         grid.material = voile::cotton();
         grid.integrator = item.integrator;
@@ -91,7 +82,7 @@ TEST_CASE("softened cloth on springs hangs as still as on pins")
     {
         CAPTURE(substeps);
         ClothHarness harness;
-        voile::GridCloth grid = sheet(6);
+        voile::GridCloth grid = airless_sheet(6);
         grid.width = grid.depth = 0.1f;
         voile::Fabric fabric = voile::cotton();
         fabric.damping_ratio = 1;
@@ -125,7 +116,7 @@ TEST_CASE("springs to points inside a sphere hold no vertex there")
     {
         CAPTURE(stiffness);
         ClothHarness harness;
-        voile::GridCloth grid = sheet(3);
+        voile::GridCloth grid = airless_sheet(3);
         grid.width = grid.depth = 0.04f;
         voile::Material loose;
         loose.vertex_mass = 4e-5f;
