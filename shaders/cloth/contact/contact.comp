@@ -227,15 +227,15 @@ void end_plane(uint i, Motion motion, bool has_plane)
 }
 
 // `path_only`: only what the path crosses counts, in the second round.
-void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, Candidates list,
+void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact cloth, inout Candidates list,
                      inout ContactState state)
 {
     const ColliderRecord collider = colliders[c];
     const RelativeMotion relative = relative_motion(c, collider.flags, motion);
     // A vertex at rest lies on the offset surface within rounding. It touches on either side.
     const float slop = contact_slop(collider, relative.from, cloth.thickness);
-    const Contact contact =
-        find_contact(c, collider, path_of(relative, cloth, path_only, max(cloth.thickness + slop, query_radius(cloth.thickness))), list);
+    const float radius = max(cloth.thickness + slop, query_radius(cloth.thickness));
+    const Contact contact = find_contact(c, collider, path_of(relative, cloth, path_only, radius), motion, cloth, list);
     if (!contact.found)
         return;
     if (path_only)
@@ -298,6 +298,7 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidate
         if (state.touches)
             continue_walk(walk, c, position_of(motion));
     }
+    end_list(list);
     return state;
 }
 
@@ -353,8 +354,7 @@ void main()
             changed = true;
         }
         const vec3 shifted = motion.displacement;
-        const Candidates list = find_candidates(i, motion, contact.thickness, contact.layers);
-        const ContactState state = resolve_contacts(motion, contact, list, depenetration.solid != 0);
+        const ContactState state = resolve_contacts(motion, contact, load_candidates(i), depenetration.solid != 0);
         if (state.touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;

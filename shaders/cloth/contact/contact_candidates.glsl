@@ -51,6 +51,8 @@ struct Candidates
     float max_radius; // m, the largest radius
     float min_radius;  // m, the least radius
     float made;   // progress of the step when the list was made; < 0: in an earlier step
+    bool fresh;   // made in this pass
+    bool needed;  // by a mesh near the vertex, in this pass
     // Of the mesh that is being traversed to collect.
     vec3 local_center;  // m, the query center in the mesh's space
     uint kind;          // k_slot_bit if it deforms, else 0
@@ -164,14 +166,14 @@ vec3 local_query_center(Candidates list, uint c, uint flags)
     return into_collider(c, flags, FinePosition(list.center, vec3(0)), list.made);
 }
 
-// m: the radius of the smallest ball around the query center that contains the path from `from` to `to` and a ball of
-// `query_radius` around its end. Both are in the space of collider c.
-float needed_radius(Candidates list, uint c, uint flags, vec3 from, vec3 to, float query_radius)
+// m: the radius of the smallest ball around the query center that contains the path and a ball of its query radius around
+// its end. The path is in the space of collider c.
+float needed_radius(Candidates list, uint c, uint flags, Path path)
 {
     if (list.made < 0 && (is_moved(flags) || is_deforming(flags)))
         return 3e38;
     const vec3 center = local_query_center(list, c, flags);
-    return max(distance(center, from), distance(center, to) + query_radius);
+    return max(distance(center, path.from), distance(center, path.to) + path.radius);
 }
 
 bool belongs(uint entry, ColliderRecord collider, uint kind)
@@ -179,65 +181,6 @@ bool belongs(uint entry, ColliderRecord collider, uint kind)
     const uint triangle = entry & k_triangle_mask;
     return (entry & k_slot_bit) == kind && triangle >= collider.first_triangle &&
            triangle < collider.first_triangle + collider.triangles;
-}
-
-void visit_mesh(inout MeshQuery query, Candidates list, uint c, ColliderRecord collider)
-{
-    const uint kind = is_deforming(collider.flags) ? k_slot_bit : 0;
-    const Path path = query.path;
-    const float needed = needed_radius(list, c, collider.flags, path.from, path.to, path.radius);
-    if (list.count > VOILE_CANDIDATES || needed > list.radius)
-    {
-        traverse(query, collider);
-        return;
-    }
-    load_radii(list);
-    uint next = candidate_triangles[candidate_word(list, k_first_entry)]; // loaded one ahead, while the current one is tested
-    for (uint i = 0; i < list.count; ++i)
-    {
-        const uint entry = next;
-        next = candidate_triangles[candidate_word(list, k_first_entry + min(i + 1, VOILE_CANDIDATES - 1))];
-        if (entry_distance(list, entry) <= needed && belongs(entry, collider, kind))
-            visit_triangle(query, entry & k_triangle_mask);
-    }
-}
-
-// Moving meshes near a vertex.
-struct MovingMeshes
-{
-    bool covered; // the list covers all of them
-    float carried; // m, the longest displacement that one gives its surface at the vertex
-};
-
-MovingMeshes moving_meshes(Candidates list, Motion motion, uint layers, float query_radius)
-{
-    MovingMeshes result = MovingMeshes(true, 0);
-    if (COLLIDERS_MOVE == 0)
-        return result;
-    ColliderWalk walk = walk_colliders(patch_of_group(), box_around(motion.from.x, position_of(motion)));
-    uint c;
-    while (next_collider(walk, c))
-    {
-        const uint flags = colliders[c].flags;
-        if (!(is_moved(flags) || is_deforming(flags)) || colliders[c].kind != VOILE_COLLIDER_MESH)
-            continue;
-        vec3 from = from_origin(c, flags, motion.from);
-        vec3 to = from + motion.displacement;
-        float shift = 0;
-        if (is_moved(flags))
-        {
-            const vec3 end = to;
-            const Pose start = pose_at(c, push.progress_from);
-            from = to_collider(start, from);
-            to = to_collider(pose_at(c, push.progress_to), end);
-            shift = distance(to_world(start, to), end);
-        }
-        if (!overlaps_mesh(colliders[c], layers, grown(box_around(from, to), query_radius)))
-            continue;
-        result.carried = max(result.carried, shift);
-        result.covered = result.covered && needed_radius(list, c, flags, from, to, query_radius) <= list.radius;
-    }
-    return result;
 }
 
 void collect_triangles(inout Candidates list, uint layers)
@@ -283,13 +226,6 @@ void refresh_candidates(inout Candidates list, uint layers, float path, float ma
     candidate_triangles[candidate_word(list, k_min_radius_word)] = floatBitsToUint(list.min_radius);
 }
 
-// m: the longest distance of the vertex's path from the query center.
-float path_distance(vec3 center, Motion motion)
-{
-    const vec3 offset = motion.from.x - center + motion.from.residual;
-    return max(length(offset), length(offset + motion.displacement));
-}
-
 Candidates load_candidates(uint vertex)
 {
     Candidates list;
@@ -302,6 +238,8 @@ Candidates load_candidates(uint vertex)
     list.radius = ball.w;
     list.made = made < step_input.first_substep ? -1
                                           : min(float(made - step_input.first_substep + 1) * push.progress_per_substep, 1);
+    list.fresh = false;
+    list.needed = false;
     return list;
 }
 
@@ -311,26 +249,106 @@ float query_radius(float thickness)
     return (push.result == VOILE_CONTACT_KEEPS_START ? k_plane_radius : 1) * thickness;
 }
 
-// The list of the vertex. A new one if the last one does not cover the vertex's motion.
-Candidates find_candidates(uint vertex, Motion motion, float thickness, uint layers)
+// m: the least radius of a list around a vertex that does not move.
+float listed_radius(float thickness) { return k_list_radius * query_radius(thickness) + rounding(vec3(push.mesh_extent)); }
+
+// m: how far the vertex may get relative to a mesh until lists are refreshed again, with as much to spare.
+float distance_ahead(float path) { return 2 * path * push.refresh_substeps / push.substeps; }
+
+// The meshes near a vertex within this pass.
+struct NearMeshes
 {
-    Candidates list = load_candidates(vertex);
-    const float listed = k_list_radius * query_radius(thickness) + rounding(vec3(push.mesh_extent));
-    const float margin = list.radius - listed; // below 0 if the cloth has become thicker
-    const float usable = push.refresh == 1 ? 0.5 * margin : margin;
-    const bool covers = path_distance(list.center, motion) <= usable;
-    const MovingMeshes meshes = moving_meshes(list, motion, layers, listed);
-    const float speed = length(motion.v) + meshes.carried / seconds(push.substeps);
-    const float wanted = max(k_candidate_margin * thickness, 2 * speed * seconds(push.refresh_substeps));
-    // A list that overflowed when the vertex was fast, or too close, may fit when it rests.
-    const bool may_fit = push.refresh == 1 && list.count > VOILE_CANDIDATES;
-    if (covers && meshes.covered && !may_fit)
-        return list;
+    float carried; // m, the longest displacement that one gives its surface at the vertex
+    float path;    // m, the longest path of the vertex relative to one
+};
+
+NearMeshes near_meshes(Motion motion, ClothContact cloth)
+{
+    NearMeshes result = NearMeshes(0, 0);
+    ColliderWalk walk = walk_colliders(patch_of_group(), box_around(motion.from.x, position_of(motion)));
+    uint c;
+    while (next_collider(walk, c))
+    {
+        const uint flags = colliders[c].flags;
+        if (colliders[c].kind != VOILE_COLLIDER_MESH)
+            continue;
+        vec3 from = from_origin(c, flags, motion.from);
+        vec3 to = from + motion.displacement;
+        float carried = 0;
+        if (is_moved(flags))
+        {
+            const vec3 end = to;
+            const Pose start = pose_at(c, push.progress_from);
+            from = to_collider(start, from);
+            to = to_collider(pose_at(c, push.progress_to), end);
+            carried = distance(to_world(start, to), end);
+        }
+        const float path = distance(from, to);
+        if (!overlaps_mesh(colliders[c], cloth.layers,
+                           grown(box_around(from, to), listed_radius(cloth.thickness) + distance_ahead(path))))
+            continue;
+        result.carried = max(result.carried, carried);
+        result.path = max(result.path, path);
+    }
+    return result;
+}
+
+// A new list around the middle of the vertex's path.
+void refresh_list(inout Candidates list, Motion motion, ClothContact cloth)
+{
+    list.fresh = true;
     list.center = motion.from.x + 0.5 * motion.displacement;
     list.made = push.progress_to;
     load_radii(list);
-    refresh_candidates(list, layers, path_distance(list.center, motion) + meshes.carried, wanted, listed);
-    return list;
+    const NearMeshes meshes = near_meshes(motion, cloth);
+    const vec3 offset = motion.from.x - list.center + motion.from.residual;
+    const float path = max(length(offset), length(offset + motion.displacement)) + meshes.carried;
+    refresh_candidates(list, cloth.layers, path, max(k_candidate_margin * cloth.thickness, distance_ahead(meshes.path)),
+                       listed_radius(cloth.thickness));
+}
+
+// Whether the list need not be made anew. When all are refreshed, it lasts if half of its margin is left. One that
+// overflowed when the vertex was fast, or too close, may fit then.
+bool lasts(Candidates list, float needed, float thickness)
+{
+    const float margin = max(list.radius - listed_radius(thickness), 0);
+    return list.fresh || (push.refresh == 0 ? needed <= list.radius
+                                            : needed + 0.5 * margin <= list.radius && list.count <= VOILE_CANDIDATES);
+}
+
+void visit_mesh(inout MeshQuery query, inout Candidates list, uint c, ColliderRecord collider, Motion motion, ClothContact cloth)
+{
+    list.needed = true;
+    float needed = needed_radius(list, c, collider.flags, query.path);
+    if (!lasts(list, needed, cloth.thickness))
+    {
+        refresh_list(list, motion, cloth);
+        needed = needed_radius(list, c, collider.flags, query.path);
+    }
+    if (list.count > VOILE_CANDIDATES || needed > list.radius)
+    {
+        traverse(query, collider);
+        return;
+    }
+    load_radii(list);
+    const uint kind = is_deforming(collider.flags) ? k_slot_bit : 0;
+    uint next = candidate_triangles[candidate_word(list, k_first_entry)]; // loaded one ahead, while the current one is tested
+    for (uint i = 0; i < list.count; ++i)
+    {
+        const uint entry = next;
+        next = candidate_triangles[candidate_word(list, k_first_entry + min(i + 1, VOILE_CANDIDATES - 1))];
+        if (entry_distance(list, entry) <= needed && belongs(entry, collider, kind))
+            visit_triangle(query, entry & k_triangle_mask);
+    }
+}
+
+// When all lists are refreshed, those that no mesh needs end.
+void end_list(Candidates list)
+{
+    if (push.refresh == 0 || list.needed || list.radius < 0)
+        return;
+    candidate_centers[list.vertex] = vec4(list.center, -1);
+    candidate_triangles[candidate_word(list, k_head_word)] = 0;
 }
 
 #endif

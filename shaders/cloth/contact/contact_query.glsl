@@ -91,12 +91,14 @@ Contact no_contact()
     return none;
 }
 
-Contact mesh_contact(uint c, ColliderRecord collider, Path path, Candidates list)
+Contact mesh_contact(uint c, ColliderRecord collider, Path path, Motion motion, ClothContact cloth, inout Candidates list)
 {
     MeshQuery query = mesh_query(c, collider, path);
-    if (!overlaps_mesh(collider, path.layers, query.box))
+    // When all lists are refreshed, so are those of vertices that may get near.
+    const float ahead = push.refresh == 0 ? 0 : distance_ahead(distance(path.from, path.to));
+    if (!overlaps_mesh(collider, path.layers, grown(query.box, ahead)))
         return no_contact();
-    visit_mesh(query, list, c, collider);
+    visit_mesh(query, list, c, collider, motion, cloth);
     if (query.crossing <= 1)
         return crossing_contact(query);
     return nearest_contact(query);
@@ -140,10 +142,11 @@ Contact plane_contact(ColliderRecord collider, Path path)
 }
 
 // The contact of a vertex with collider c. k_method_path_only: where the path enters a solid or crosses a mesh.
-Contact find_contact(uint c, ColliderRecord collider, Path path, Candidates list)
+// `motion`: of which `path` is that in the collider's space.
+Contact find_contact(uint c, ColliderRecord collider, Path path, Motion motion, ClothContact cloth, inout Candidates list)
 {
     if (collider.kind == VOILE_COLLIDER_MESH)
-        return mesh_contact(c, collider, path, list);
+        return mesh_contact(c, collider, path, motion, cloth, list);
     if (COLLIDERS_CONVEX != 0 && collider.kind != VOILE_COLLIDER_PLANE)
         return convex_contact(collider, path);
     if (path.method == k_method_path_only)
