@@ -76,8 +76,8 @@ inline voile::SolverOptions with_reuse(voile::SolverOptions options)
 class ClothHarness : public GpuFixture
 {
 public:
-    explicit ClothHarness(const voile::SolverOptions& options = {})
-        : solver(voile::engine::take(voile::Solver::create(test_handles(), with_reuse(options))))
+    explicit ClothHarness(const voile::SolverOptions& options = {}, const voile::Handles& handles = test_handles())
+        : solver(voile::engine::take(voile::Solver::create(handles, with_reuse(options))))
     {
     }
 

@@ -14,7 +14,7 @@
 #include <doctest/doctest.h>
 #include <glm/glm.hpp>
 
-#include <cstring>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -30,12 +30,14 @@ inline voile::engine::Device& device()
     return instance;
 }
 
-// Fills new buffers with NaN, so that a kernel that reads what nothing has written shows it in the positions. The
-// memory is visible to the host: slow on a GPU, so that devices other than CPUs get the module's own allocator.
+// Fills new buffers with a word. The memory is visible to the host: slow on a GPU.
 class FillingAllocator final : public voile::BufferAllocator
 {
 public:
-    FillingAllocator() : allocator_(voile::engine::take(voile::gpu::Allocator::create(device().context().handles))) {}
+    explicit FillingAllocator(uint32_t word)
+        : word_(word), allocator_(voile::engine::take(voile::gpu::Allocator::create(device().context().handles)))
+    {
+    }
 
     voile::Result<voile::BufferMemory> create_buffer(const voile::BufferRequest& request) noexcept override
     {
@@ -44,7 +46,7 @@ public:
             visible.memory = voile::Memory::upload;
         auto memory = allocator_->create_buffer(visible);
         if (memory)
-            std::memset(memory->mapped, 0xff, request.bytes);
+            std::fill_n(static_cast<uint32_t*>(memory->mapped), request.bytes / sizeof(uint32_t), word_);
         return memory;
     }
     void destroy_buffer(const voile::BufferMemory& memory) noexcept override { allocator_->destroy_buffer(memory); }
@@ -52,16 +54,20 @@ public:
     void invalidate(const voile::BufferMemory& memory) noexcept override { allocator_->invalidate(memory); }
 
 private:
+    uint32_t word_;
     std::unique_ptr<voile::gpu::Allocator> allocator_;
 };
 
-// What solvers of the tests get: the device's handles with kept pipelines, and that allocator on a CPU.
+// NaN: a kernel that reads what nothing has written shows it in the positions.
+constexpr uint32_t k_filled_nan = 0xffffffff;
+
+// What solvers of the tests get: the device's handles with kept pipelines, and on a CPU buffers full of NaN.
 inline voile::Handles test_handles()
 {
     voile::Handles handles = KeptPipelines::handles(device().context());
     if (device().context().device_type != VK_PHYSICAL_DEVICE_TYPE_CPU)
         return handles;
-    static FillingAllocator allocator;
+    static FillingAllocator allocator(k_filled_nan);
     handles.buffer_allocator = &allocator;
     return handles;
 }

@@ -19,7 +19,10 @@ namespace tests
 class PairHarness : public ClothHarness
 {
 public:
-    explicit PairHarness(const voile::SolverOptions& options = {}) : ClothHarness(options) {}
+    explicit PairHarness(const voile::SolverOptions& options = {}, const voile::Handles& handles = test_handles())
+        : ClothHarness(options, handles)
+    {
+    }
 
     template <typename Cloth>
     voile::ClothId add(const Cloth& cloth)
