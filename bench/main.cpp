@@ -90,6 +90,7 @@ struct Chosen
     std::vector<const bench::AddCase*> adds;
     bool costs = false;
     bool levels = false;
+    bool garments = false;
     bool recording = false;
 };
 
@@ -120,6 +121,8 @@ Chosen choose(const std::vector<std::string>& names, std::span<const bench::Real
             chosen.costs = true;
         else if (name == bench::k_levels_case)
             chosen.levels = true;
+        else if (name == bench::k_garments_case)
+            chosen.garments = true;
         else if (name == bench::k_record_case)
             chosen.recording = true;
         else
@@ -143,6 +146,7 @@ Chosen choose(const std::vector<std::string>& names, std::span<const bench::Real
         chosen.adds.push_back(&item);
     chosen.costs = true;
     chosen.levels = true;
+    chosen.garments = true;
     chosen.recording = true;
     return chosen;
 }
@@ -164,6 +168,7 @@ void list_cases(std::span<const bench::RealCase> reals)
     std::printf("%-28s adding cloth meshes and cooked data; adding and removing beside much else\n",
                 bench::k_cost_case);
     std::printf("%-28s a soft sheet beside a stiff one that needs more substeps\n", bench::k_levels_case);
+    std::printf("%-28s characters of 20 capsules in capes, which stand and walk\n", bench::k_garments_case);
     std::printf("%-28s what recording costs the host, command by command\n", bench::k_record_case);
 }
 
@@ -236,6 +241,8 @@ void run(const Options& options)
         bench::print_costs(bench::measure_costs(queue));
     if (chosen.levels)
         bench::print_levels(bench::measure_levels(queue, repetitions));
+    if (chosen.garments)
+        bench::print_garments(bench::measure_garments(queue, settings));
     if (chosen.recording)
         bench::print_record_cost(bench::measure_record_cost(queue));
 }

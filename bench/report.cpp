@@ -161,6 +161,21 @@ void print_levels(std::span<const LevelsMeasurement> levels)
     std::fflush(stdout);
 }
 
+void print_garments(std::span<const GarmentsMeasurement> rows)
+{
+    std::printf(
+        "\nFigures of 20 capsules, each in a cape of cotton, Verlet; medians per frame of 1/60 s. One figure is\n"
+        "larger, and its cape as large as those of the others together, of the same spacing.\n\n%-9s %-9s %-7s %9s "
+        "%10s %9s %9s %9s %9s %9s %7s\n",
+        "figures", "cape", "", "substeps", "dispatches", "GPU ms", "p95 ms", "move us", "record us", "contacts",
+        "inside");
+    for (const GarmentsMeasurement& row : rows)
+        std::printf("%-9u %3u^2     %-7s %9u %10u %9.3f %9.3f %9.1f %9.1f %9u %7u\n", row.figures, row.side,
+                    row.moving ? "walk" : "stand", row.substeps, row.dispatches, row.gpu, row.gpu_p95, row.move,
+                    row.record, row.contacts, row.inside);
+    std::fflush(stdout);
+}
+
 void print_record_cost(std::span<const RecordCost> costs)
 {
     std::printf("\nWhat recording takes of the host, medians per command or pass.\n\n%-40s %9s %9s\n", "command",

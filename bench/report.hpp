@@ -4,6 +4,7 @@
 #include "add_mesh.hpp"
 #include "device_probe.hpp"
 #include "drape.hpp"
+#include "garments.hpp"
 #include "host_costs.hpp"
 #include "levels.hpp"
 #include "measure.hpp"
@@ -36,6 +37,7 @@ void print_add_row(const AddCase& item, const AddMeasurement& measurement);
 
 void print_costs(std::span<const HostCost> costs);
 void print_levels(std::span<const LevelsMeasurement> levels);
+void print_garments(std::span<const GarmentsMeasurement> rows);
 void print_record_cost(std::span<const RecordCost> costs);
 
 // The fraction of the copy bandwidth that a case reaches.

@@ -21,15 +21,21 @@ struct Pose
 vec3 rotate(vec4 q, vec3 v) { return v + 2 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 vec3 rotate_back(vec4 q, vec3 v) { return rotate(vec4(-q.xyz, q.w), v); }
 
-// `progress`: of the step, 0..1. The origin moves along a straight line, the rotation along the chord of both
-// quaternions.
+// Of the origin, as in a pose. `progress`: of the step, 0..1. It moves along a straight line. mix() would round
+// differently from step to step and shake a collider at rest.
+vec3 origin_at(uint collider, float progress)
+{
+    const vec3 from = collider_motions[collider].offset_from;
+    return from + progress * (collider_motions[collider].offset_to - from);
+}
+
+// The rotation moves along the chord of both quaternions.
 Pose pose_at(uint collider, float progress)
 {
-    const ColliderMotion motion = collider_motions[collider];
+    const vec4 from = collider_motions[collider].rotation_from;
     Pose pose;
-    // mix() would round differently from step to step and shake a collider at rest.
-    pose.rotation = normalize(motion.rotation_from + progress * (motion.rotation_to - motion.rotation_from));
-    pose.position = motion.offset_from + progress * (motion.offset_to - motion.offset_from);
+    pose.rotation = normalize(from + progress * (collider_motions[collider].rotation_to - from));
+    pose.position = origin_at(collider, progress);
     return pose;
 }
 

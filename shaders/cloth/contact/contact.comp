@@ -100,6 +100,9 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
     return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
 }
 
+// Over the distance at which a query may find something: room for rounding.
+const float k_beyond = 1.0001;
+
 // The motion of a vertex in a collider's space.
 struct RelativeMotion
 {
@@ -265,10 +268,39 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     respond(motion, touched, lift_of(contact, cloth.thickness));
 }
 
+// Whether the path stays outside of the sphere around a collider with a formula.
+bool passes_by(uint c, Motion motion, float thickness)
+{
+    const uint kind = colliders[c].kind;
+    if (COLLIDERS_CONVEX == 0 || kind == VOILE_COLLIDER_MESH || kind == VOILE_COLLIDER_PLANE)
+        return false;
+    const uint flags = colliders[c].flags;
+    vec3 from = from_origin(c, flags, motion.from);
+    vec3 to = from + motion.displacement;
+    if (is_moved(flags))
+    {
+        from -= origin_at(c, push.progress_from);
+        to -= origin_at(c, push.progress_to);
+    }
+    const float nearest = 0.5 * (length(from + to) - distance(from, to));
+    const float reach = query_radius(thickness) + max(rounding(from), rounding(to));
+    return nearest > k_beyond * (bounding_radius(kind, colliders[c].shape) + reach);
+}
+
 ColliderWalk walk_path(Motion motion)
 {
     const vec3 to = position_of(motion);
     return walk_colliders(patch_of_group(), box_around(motion.from.x, to));
+}
+
+// The next collider that may change the motion. Threads that run together find theirs in a short loop each, before they
+// respond together: a character has many colliders, of which a vertex is near few.
+bool next_near(inout ColliderWalk walk, out uint c, Motion motion, float thickness, bool leaves_solid)
+{
+    bool found = next_collider(walk, c);
+    while (found && (passes_by(c, motion, thickness) || (leaves_solid && is_solid(colliders[c]))))
+        found = next_collider(walk, c);
+    return found;
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
@@ -284,7 +316,7 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidate
     while (true)
     {
         uint c;
-        if (!next_collider(walk, c))
+        if (!next_near(walk, c, motion, cloth.thickness, leaves_solid))
         {
             if (path_only || !state.touches || state.path_is_clear)
                 break;
@@ -292,8 +324,6 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidate
             walk = walk_path(motion);
             continue;
         }
-        if (leaves_solid && is_solid(colliders[c]))
-            continue;
         resolve_contact(motion, c, path_only, cloth, list, state);
         if (state.touches)
             continue_walk(walk, c, position_of(motion));
@@ -354,7 +384,7 @@ void main()
             changed = true;
         }
         const vec3 shifted = motion.displacement;
-        const ContactState state = resolve_contacts(motion, contact, load_candidates(i), depenetration.solid != 0);
+        const ContactState state = resolve_contacts(motion, contact, list_of(i, motion, contact), depenetration.solid != 0);
         if (state.touches)
         {
             flags |= VOILE_VERTEX_TOUCHES;

@@ -264,6 +264,8 @@ struct NearMeshes
 
 NearMeshes near_meshes(Motion motion, ClothContact cloth)
 {
+    if (COLLIDERS_MOVE == 0)
+        return NearMeshes(0, length(motion.displacement));
     NearMeshes result = NearMeshes(0, 0);
     ColliderWalk walk = walk_colliders(patch_of_group(), box_around(motion.from.x, position_of(motion)));
     uint c;
@@ -293,6 +295,13 @@ NearMeshes near_meshes(Motion motion, ClothContact cloth)
     return result;
 }
 
+// m: the longest distance of the vertex's path from the query center.
+float path_distance(vec3 center, Motion motion)
+{
+    const vec3 offset = motion.from.x - center + motion.from.residual;
+    return max(length(offset), length(offset + motion.displacement));
+}
+
 // A new list around the middle of the vertex's path.
 void refresh_list(inout Candidates list, Motion motion, ClothContact cloth)
 {
@@ -301,8 +310,7 @@ void refresh_list(inout Candidates list, Motion motion, ClothContact cloth)
     list.made = push.progress_to;
     load_radii(list);
     const NearMeshes meshes = near_meshes(motion, cloth);
-    const vec3 offset = motion.from.x - list.center + motion.from.residual;
-    const float path = max(length(offset), length(offset + motion.displacement)) + meshes.carried;
+    const float path = path_distance(list.center, motion) + meshes.carried;
     refresh_candidates(list, cloth.layers, path, max(k_candidate_margin * cloth.thickness, distance_ahead(meshes.path)),
                        listed_radius(cloth.thickness));
 }
@@ -320,7 +328,7 @@ void visit_mesh(inout MeshQuery query, inout Candidates list, uint c, ColliderRe
 {
     list.needed = true;
     float needed = needed_radius(list, c, collider.flags, query.path);
-    if (!lasts(list, needed, cloth.thickness))
+    if (COLLIDERS_MOVE != 0 && !lasts(list, needed, cloth.thickness))
     {
         refresh_list(list, motion, cloth);
         needed = needed_radius(list, c, collider.flags, query.path);
@@ -342,10 +350,23 @@ void visit_mesh(inout MeshQuery query, inout Candidates list, uint c, ColliderRe
     }
 }
 
+// The list of a vertex. If no collider moves, motion in the world is what ends it, and the list is made before meshes are
+// visited: on CPU devices code in the loop over colliders is paid for whether a thread takes it or not.
+Candidates list_of(uint vertex, Motion motion, ClothContact cloth)
+{
+    Candidates list = load_candidates(vertex);
+    if (COLLIDERS_MOVE != 0)
+        return list;
+    const float needed = path_distance(list.center, motion) + listed_radius(cloth.thickness);
+    if (!lasts(list, needed, cloth.thickness))
+        refresh_list(list, motion, cloth);
+    return list;
+}
+
 // When all lists are refreshed, those that no mesh needs end.
 void end_list(Candidates list)
 {
-    if (push.refresh == 0 || list.needed || list.radius < 0)
+    if (COLLIDERS_MOVE == 0 || push.refresh == 0 || list.needed || list.radius < 0)
         return;
     candidate_centers[list.vertex] = vec4(list.center, -1);
     candidate_triangles[candidate_word(list, k_head_word)] = 0;

@@ -15,6 +15,13 @@ bool is_solid(ColliderRecord collider)
     return is_convex(collider) || (collider.kind == VOILE_COLLIDER_MESH && (collider.flags & closed) == closed);
 }
 
+// m, of the sphere around a sphere, a capsule or a box.
+float bounding_radius(uint kind, vec4 shape)
+{
+    const float size = length(shape.xyz);
+    return kind == VOILE_COLLIDER_SPHERE ? shape.w : kind == VOILE_COLLIDER_CAPSULE ? size + shape.w : size;
+}
+
 // The nearest surface seen from a point.
 struct ConvexSurface
 {
