@@ -57,7 +57,7 @@ constexpr Limb k_limbs[] = {
 
 struct Figure
 {
-    glm::vec3 place; // m
+    glm::vec3 foot; // m
     float scale = 1;
     float phase = 0; // rad, of its walk
     std::vector<voile::ColliderId> limbs;
@@ -74,15 +74,15 @@ void add_figure(Crowd& crowd, Figure figure, uint32_t side)
 {
     for (const Limb& limb : k_limbs)
         figure.limbs.push_back(voile::engine::take(
-            crowd.solver.add_collider(voile::CapsuleCollider{.from = figure.place + figure.scale * limb.from,
-                                                             .to = figure.place + figure.scale * limb.to,
+            crowd.solver.add_collider(voile::CapsuleCollider{.from = figure.foot + figure.scale * limb.from,
+                                                             .to = figure.foot + figure.scale * limb.to,
                                                              .radius = figure.scale * limb.radius})));
     const float width = k_spacing * static_cast<float>(side - 1);
     voile::GridCloth cape;
     cape.columns = cape.rows = side;
     cape.width = cape.depth = width;
     // Its first row is the upper one, 9 cm behind the neck. The others lean back, and swing onto chest and seat.
-    cape.transform = glm::translate(glm::mat4(1), figure.place + figure.scale * glm::vec3(0, 1.54f, -0.09f)) *
+    cape.transform = glm::translate(glm::mat4(1), figure.foot + figure.scale * glm::vec3(0, 1.54f, -0.09f)) *
                      glm::rotate(glm::mat4(1), glm::half_pi<float>() + 0.15f, {1, 0, 0}) *
                      glm::translate(glm::mat4(1), {0, 0, width / 2});
     cape.material = voile::cotton();
@@ -105,8 +105,8 @@ Crowd make_crowd(TimedQueue& queue, uint32_t figures, uint32_t side, float scale
     const auto along = static_cast<uint32_t>(std::lround(std::sqrt(figures)));
     for (uint32_t i = 0; i < figures; ++i)
     {
-        const glm::vec3 place(2 * (i % along), 0, 2 * (i / along));
-        add_figure(crowd, {.place = place, .scale = scale, .phase = static_cast<float>(i), .limbs = {}, .neck = {}},
+        const glm::vec3 foot(2 * (i % along), 0, 2 * (i / along));
+        add_figure(crowd, {.foot = foot, .scale = scale, .phase = static_cast<float>(i), .limbs = {}, .neck = {}},
                    side);
     }
     (void)voile::engine::take(crowd.solver.add_collider(voile::PlaneCollider{}));
@@ -122,11 +122,11 @@ void walk(Crowd& crowd, uint32_t frame)
     for (const Figure& figure : crowd.figures)
     {
         const float stride = std::sin(glm::two_pi<float>() * time + figure.phase) - std::sin(figure.phase);
-        const float way = 0.6f * (std::cos(figure.phase) - std::cos(2 * time + figure.phase));
-        const glm::mat4 body = glm::translate(glm::mat4(1), {0, 0, way});
+        const float forward = 0.6f * (std::cos(figure.phase) - std::cos(2 * time + figure.phase));
+        const glm::mat4 body = glm::translate(glm::mat4(1), {0, 0, forward});
         for (size_t i = 0; i < std::size(k_limbs); ++i)
         {
-            const glm::vec3 joint = figure.place + figure.scale * k_limbs[i].from;
+            const glm::vec3 joint = figure.foot + figure.scale * k_limbs[i].from;
             const glm::mat4 limb = glm::translate(body, joint) *
                                    glm::rotate(glm::mat4(1), k_limbs[i].swing * stride, {1, 0, 0}) *
                                    glm::translate(glm::mat4(1), -joint);
