@@ -108,14 +108,6 @@ struct Neighbor
     vec3 velocity; // m/s, relative
 };
 
-// On a grid. If it does not exist, the vertex takes its role: differences are 0, the spring has no force, and no branch
-// keeps loads from being issued together.
-Neighbor neighbor_of(Gather g, PatchVertex self, ivec2 offset, bool exists)
-{
-    const uint other = exists ? neighbor(self.index, offset, self.columns) : self.index;
-    return Neighbor(delta_to(g, other), stage_velocities[other].xyz - g.v);
-}
-
 // `weight`: of the neighbor in the bending energy.
 void add_bending(inout Gather g, Neighbor other, float weight)
 {
@@ -123,125 +115,11 @@ void add_bending(inout Gather g, Neighbor other, float weight)
     g.bending_rate += weight * other.velocity;
 }
 
-// A spring to a neighbor on a grid, and bending. Returns the displacement to the neighbor, m.
-vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, SpringClass spring, float bending)
-{
-    const Neighbor other = neighbor_of(g, self, offset, exists);
-    add_spring(g, spring.stiffness, spring.damping, spring.rest_length, other.delta, other.velocity);
-    add_bending(g, other, bending);
-    return other.delta;
-}
-
-bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
-
-// Both neighbors two lines away, ahead and behind, which may have springs, bending alone, or nothing.
-void add_far_neighbors(inout Gather g, PatchVertex self, ivec2 offset, bvec2 exist, SpringClass spring, float bending)
-{
-    if (has_springs(spring))
-    {
-        add_neighbor(g, self, offset, exist.x, spring, bending);
-        add_neighbor(g, self, -offset, exist.y, spring, bending);
-    }
-    else if (bending != 0)
-    {
-        add_bending(g, neighbor_of(g, self, offset, exist.x), bending);
-        add_bending(g, neighbor_of(g, self, -offset, exist.y), bending);
-    }
-}
-
-// Whether the grid has lines next to the vertex's, on either side.
-struct AdjacentLines
-{
-    bvec2 next; // ahead, behind
-    bvec2 far;
-};
-
-AdjacentLines adjacent_lines(int line, uint lines)
-{
-    return AdjacentLines(bvec2(uint(line + 1) < lines, line > 0), bvec2(uint(line + 2) < lines, line > 1));
-}
-
-// Weights of the neighbors along one line in the bending energy 1/2 c sum |x[i-1] - 2 x[i] + x[i+1]|^2 over the line's
-// inner vertices. The force is the sum of the weights times the displacements.
-struct LineBending
-{
-    vec2 next;
-    float far;
-};
-
-LineBending line_bending(AdjacentLines line, float c)
-{
-    const float middle = all(line.next) ? 2 * c : 0;
-    return LineBending(vec2(middle) + 2 * c * vec2(line.far), -c);
-}
-
-// Scales of the stiffness along the row and along the column, which differ from 1 at the grid's border.
-vec2 border_scales(uint cloth, PatchVertex self)
-{
-    const float border = cloths[cloth].border_scale;
-    return vec2(self.column_row.y == 0 || self.column_row.y + 1 == int(self.rows) ? border : 1,
-                self.column_row.x == 0 || self.column_row.x + 1 == int(self.columns) ? border : 1);
-}
-
 SpringClass scaled(SpringClass spring, float stiffness, float damping)
 {
     spring.stiffness *= stiffness;
     spring.damping *= damping;
     return spring;
-}
-
-SpringClass grid_springs(uint cloth, int c, vec2 border, StabilityScales scales)
-{
-    const float scale = c % 4 == 0 ? border.x : c % 4 == 1 ? border.y : 1;
-    return scaled(cloths[cloth].springs[c], scale * scales.stiffness, scale * scales.damping);
-}
-
-// Eight springs per vertex, and bending from the same neighbors. The isometric model (Bergou et al. 2006, "A quadratic
-// bending model for inextensible surfaces": |Laplacian of x|^2 is quadratic in x where lengths are kept) is, on a grid,
-// the sum of the squared second differences along rows and columns and of twice the squared twist of the cells,
-// x_diagonal - x_along_row - x_along_column + x. Neighbors are taken one after the other to save registers.
-void gather_grid(inout Gather g, uint cloth, PatchVertex self, StabilityScales scales)
-{
-    const vec2 border = border_scales(cloth, self);
-    SpringClass springs[VOILE_SPRING_CLASSES];
-    for (int c = 0; c < VOILE_SPRING_CLASSES; ++c)
-        springs[c] = grid_springs(cloth, c, border, scales);
-    const vec2 c = border * cloths[cloth].bending.xy;
-    const float twist = cloths[cloth].bending.z;
-    const AdjacentLines row = adjacent_lines(self.column_row.x, self.columns);
-    const AdjacentLines column = adjacent_lines(self.column_row.y, self.rows);
-    const LineBending row_bending = line_bending(row, c.x);
-    const LineBending column_bending = line_bending(column, c.y);
-    // Each neighbor along a line belongs to the cells on both of its sides.
-    const float row_cells = twist * (float(column.next.x) + float(column.next.y));
-    const float column_cells = twist * (float(row.next.x) + float(row.next.y));
-    const vec3 east = add_neighbor(g, self, ivec2(1, 0), row.next.x, springs[0], row_bending.next.x + row_cells);
-    const vec3 west = add_neighbor(g, self, ivec2(-1, 0), row.next.y, springs[0], row_bending.next.y + row_cells);
-    const vec3 south =
-        add_neighbor(g, self, ivec2(0, 1), column.next.x, springs[1], column_bending.next.x + column_cells);
-    const vec3 north =
-        add_neighbor(g, self, ivec2(0, -1), column.next.y, springs[1], column_bending.next.y + column_cells);
-    add_neighbor(g, self, ivec2(1, 1), row.next.x && column.next.x, springs[2], -twist);
-    add_neighbor(g, self, ivec2(-1, -1), row.next.y && column.next.y, springs[2], -twist);
-    add_neighbor(g, self, ivec2(1, -1), row.next.x && column.next.y, springs[3], -twist);
-    add_neighbor(g, self, ivec2(-1, 1), row.next.y && column.next.x, springs[3], -twist);
-    add_far_neighbors(g, self, ivec2(2, 0), row.far, springs[4], row_bending.far);
-    add_far_neighbors(g, self, ivec2(0, 2), column.far, springs[5], column_bending.far);
-    if (has_springs(cloths[cloth].springs[6]))
-    {
-        add_neighbor(g, self, ivec2(2, 2), row.far.x && column.far.x, springs[6], 0);
-        add_neighbor(g, self, ivec2(-2, -2), row.far.y && column.far.y, springs[6], 0);
-        add_neighbor(g, self, ivec2(2, -2), row.far.x && column.far.y, springs[7], 0);
-        add_neighbor(g, self, ivec2(-2, 2), row.far.y && column.far.x, springs[7], 0);
-    }
-    if (feels_air(cloth))
-    {
-        // The vertex takes a quarter of each cell around it: half of the triangle that two sides span.
-        add_air(g, cloth, east, north, 0.5);
-        add_air(g, cloth, north, west, 0.5);
-        add_air(g, cloth, west, south, 0.5);
-        add_air(g, cloth, south, east, 0.5);
-    }
 }
 
 // The force of bending, N, from what neighbors have added to it and to its rate.
@@ -254,6 +132,7 @@ void end_bending(inout Gather g, uint cloth, StabilityScales scales)
 }
 
 #include "forces/mesh_forces.glsl"
+#include "forces/grid_forces.glsl"
 
 // All forces on a vertex except gravity and linear drag. Where threads share those of a mesh, all of a patch call it, and
 // the first ones of its vertices get them.
