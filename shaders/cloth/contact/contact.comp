@@ -283,8 +283,8 @@ bool passes_by(uint c, Motion motion, float thickness)
         to -= origin_at(c, push.progress_to);
     }
     const float nearest = 0.5 * (length(from + to) - distance(from, to));
-    const float reach = query_radius(thickness) + max(rounding(from), rounding(to));
-    return nearest > k_beyond * (bounding_radius(kind, colliders[c].shape) + reach);
+    const float radius = query_radius(thickness) + max(rounding(from), rounding(to));
+    return nearest > k_beyond * (bounding_radius(kind, colliders[c].shape) + radius);
 }
 
 ColliderWalk walk_path(Motion motion)

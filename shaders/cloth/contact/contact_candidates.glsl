@@ -1,8 +1,8 @@
 // Lists of the triangles near each vertex, kept from substep to substep.
 //
 // A traversal collects all triangles within a ball around the vertex. The ball is wider than one substep needs by a
-// margin. While the vertex stays within the margin, the next substeps test only these triangles, and skip those whose
-// stored distance is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal.
+// margin. While the vertex stays within the margin relative to each mesh near it, the next substeps test only these
+// triangles, and skip those whose stored distance is too large. A dispatch waits for its slowest thread: for one long list, or for one traversal.
 // Therefore:
 //   - all lists are refreshed together, every few passes, if half of their margin is used up;
 //   - the ball shrinks while triangles are found, so that the list stays short;
