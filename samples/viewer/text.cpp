@@ -89,6 +89,9 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
             best_distance = distance;
         }
     }
+    const auto begins = [&](const std::string& candidate) { return candidate.starts_with(word); };
+    if (best == nullptr && word.size() > 1 && std::ranges::count_if(candidates, begins) == 1)
+        best = &*std::ranges::find_if(candidates, begins);
     return best == nullptr ? "" : "; did you mean " + in_quotes(*best) + "?";
 }
 

@@ -22,7 +22,7 @@ void note(const std::string& text);
 std::string number_text(double value);
 std::string number_text(float value);
 
-// "; did you mean "x"?", or nothing where no candidate is close.
+// "; did you mean "x"?": a candidate that is close, else the only one that begins with the word, else nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 // ".obj" of "Cloth.OBJ".

@@ -258,6 +258,8 @@ TEST_CASE("scenes are found by path, then by name")
     CHECK(unknown.error().message == "scene \"curtain\" is unknown; the scenes that ship are drape, flag");
     CHECK(viewer::find_scene("drap", folders).error().message ==
           "scene \"drap\" is unknown; the scenes that ship are drape, flag; did you mean \"drape\"?");
+    CHECK(viewer::find_scene("fl", folders).error().message ==
+          "scene \"fl\" is unknown; the scenes that ship are drape, flag; did you mean \"flag\"?");
     const auto missing = viewer::find_scene("some/where.json", folders);
     REQUIRE_FALSE(missing);
     CHECK(missing.error().message == "some/where.json: the file does not exist; the scenes that ship are drape, flag");
