@@ -64,17 +64,17 @@ struct Figure
     voile::AnchorId neck;
 };
 
-struct Crowd
+struct Scene
 {
     voile::Solver solver;
     std::vector<Figure> figures;
 };
 
-void add_figure(Crowd& crowd, Figure figure, uint32_t side)
+void add_figure(Scene& scene, Figure figure, uint32_t side)
 {
     for (const Limb& limb : k_limbs)
         figure.limbs.push_back(voile::engine::take(
-            crowd.solver.add_collider(voile::CapsuleCollider{.from = figure.foot + figure.scale * limb.from,
+            scene.solver.add_collider(voile::CapsuleCollider{.from = figure.foot + figure.scale * limb.from,
                                                              .to = figure.foot + figure.scale * limb.to,
                                                              .radius = figure.scale * limb.radius})));
     const float width = k_spacing * static_cast<float>(side - 1);
@@ -87,39 +87,39 @@ void add_figure(Crowd& crowd, Figure figure, uint32_t side)
                      glm::translate(glm::mat4(1), {0, 0, width / 2});
     cape.material = voile::cotton();
     cape.integrator = voile::Integrator::verlet;
-    const voile::ClothId cloth = voile::engine::take(crowd.solver.add_cloth(cape));
-    figure.neck = voile::engine::take(crowd.solver.add_anchor(glm::mat4(1)));
+    const voile::ClothId cloth = voile::engine::take(scene.solver.add_cloth(cape));
+    figure.neck = voile::engine::take(scene.solver.add_anchor(glm::mat4(1)));
     std::vector<voile::Attachment> pins;
     for (uint32_t column = side / 4; column < side - side / 4; ++column)
         pins.push_back(voile::pin(column, figure.neck));
-    voile::engine::take(crowd.solver.set_attachments(cloth, pins));
-    crowd.figures.push_back(std::move(figure));
+    voile::engine::take(scene.solver.set_attachments(cloth, pins));
+    scene.figures.push_back(std::move(figure));
 }
 
 // Figures on a square, 2 m apart.
-Crowd make_crowd(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, const Settings& settings)
+Scene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, const Settings& settings)
 {
     voile::SolverOptions options;
     options.tuning.workgroup_size = settings.workgroup_size;
-    Crowd crowd{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
+    Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     const auto along = static_cast<uint32_t>(std::lround(std::sqrt(figures)));
     for (uint32_t i = 0; i < figures; ++i)
     {
         const glm::vec3 foot(2 * (i % along), 0, 2 * (i / along));
-        add_figure(crowd, {.foot = foot, .scale = scale, .phase = static_cast<float>(i), .limbs = {}, .neck = {}},
+        add_figure(scene, {.foot = foot, .scale = scale, .phase = static_cast<float>(i), .limbs = {}, .neck = {}},
                    side);
     }
-    (void)voile::engine::take(crowd.solver.add_collider(voile::PlaneCollider{}));
+    (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{}));
     voile::Upload kept;
-    queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(crowd.solver.record_upload(cmd)); });
-    return crowd;
+    queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(scene.solver.record_upload(cmd)); });
+    return scene;
 }
 
 // The figures walk to and fro at up to 1.2 m/s, with a step per second.
-void walk(Crowd& crowd, uint32_t frame)
+void walk(Scene& scene, uint32_t frame)
 {
     const float time = k_frame * static_cast<float>(frame + 1);
-    for (const Figure& figure : crowd.figures)
+    for (const Figure& figure : scene.figures)
     {
         const float stride = std::sin(glm::two_pi<float>() * time + figure.phase) - std::sin(figure.phase);
         const float forward = 0.6f * (std::cos(figure.phase) - std::cos(2 * time + figure.phase));
@@ -130,9 +130,9 @@ void walk(Crowd& crowd, uint32_t frame)
             const glm::mat4 limb = glm::translate(body, joint) *
                                    glm::rotate(glm::mat4(1), k_limbs[i].swing * stride, {1, 0, 0}) *
                                    glm::translate(glm::mat4(1), -joint);
-            voile::engine::take(crowd.solver.move_collider(figure.limbs[i], limb));
+            voile::engine::take(scene.solver.move_collider(figure.limbs[i], limb));
         }
-        voile::engine::take(crowd.solver.move_anchor(figure.neck, body));
+        voile::engine::take(scene.solver.move_anchor(figure.neck, body));
     }
 }
 
@@ -144,7 +144,7 @@ double microseconds_since(std::chrono::steady_clock::time_point start)
 GarmentsMeasurement measure(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, bool moving,
                             const Settings& settings)
 {
-    Crowd crowd = make_crowd(queue, figures, side, scale, settings);
+    Scene scene = make_scene(queue, figures, side, scale, settings);
     PassTimes passes(queue);
     const voile::Step step{.duration = k_frame};
     GarmentsMeasurement result{.figures = figures, .side = side, .moving = moving};
@@ -156,13 +156,13 @@ GarmentsMeasurement measure(TimedQueue& queue, uint32_t figures, uint32_t side, 
     {
         const auto start = std::chrono::steady_clock::now();
         if (moving)
-            walk(crowd, frame);
+            walk(scene, frame);
         moves.push_back(microseconds_since(start));
         gpu.push_back(queue.time(
                           [&](VkCommandBuffer cmd)
                           {
                               const auto begin = std::chrono::steady_clock::now();
-                              voile::engine::take(crowd.solver.record(cmd, step));
+                              voile::engine::take(scene.solver.record(cmd, step));
                               records.push_back(microseconds_since(begin));
                           }) /
                       1000);
@@ -172,16 +172,16 @@ GarmentsMeasurement measure(TimedQueue& queue, uint32_t figures, uint32_t side, 
     }
     if (settings.passes)
     {
-        queue.run([&](VkCommandBuffer cmd) { passes.record(cmd, crowd.solver, step); });
+        queue.run([&](VkCommandBuffer cmd) { passes.record(cmd, scene.solver, step); });
         passes.read();
-        passes.print(crowd.solver.stable_substeps(k_frame, step.max_substeps));
+        passes.print(scene.solver.stable_substeps(k_frame, step.max_substeps));
     }
-    queue.run([&](VkCommandBuffer cmd) { voile::engine::take(crowd.solver.record_statistics(cmd, 0)); });
-    const voile::Statistics state = crowd.solver.statistics(0);
+    queue.run([&](VkCommandBuffer cmd) { voile::engine::take(scene.solver.record_statistics(cmd, 0)); });
+    const voile::Statistics state = scene.solver.statistics(0);
     if (state.nan_vertices > 0)
         throw voile::engine::StartupError("garments: a vertex is not finite");
-    result.substeps = crowd.solver.stable_substeps(k_frame, step.max_substeps);
-    result.dispatches = crowd.solver.dispatches(step);
+    result.substeps = scene.solver.stable_substeps(k_frame, step.max_substeps);
+    result.dispatches = scene.solver.dispatches(step);
     result.gpu = quantile(gpu, 0.5);
     result.gpu_p95 = quantile(gpu, 0.95);
     result.move = quantile(moves, 0.5);

@@ -1,4 +1,4 @@
-// What a crowd costs: characters of capsules that move, each in a garment.
+// What characters cost: figures of capsules that move, each in a garment.
 #pragma once
 
 #include "passes.hpp"

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <limits>
+#include <span>
 #include <variant>
 
 namespace
@@ -13,12 +14,19 @@ namespace
 
 using Bits = std::vector<glm::uvec4>;
 
-// Of positions and velocities.
-void add_bits(tests::ClothHarness& harness, voile::ClothId cloth, Bits& bits)
+constexpr voile::Step k_step{.substeps = 12, .wind = {3, 1, -2}, .gust = 1};
+
+// Of positions and velocities after some steps.
+Bits bits_of(tests::ClothHarness& harness, std::span<const voile::ClothId> cloths)
 {
-    for (const auto& values : {harness.positions(cloth), harness.velocities(cloth)})
-        for (const glm::vec4& value : values)
-            bits.push_back(std::bit_cast<glm::uvec4>(value));
+    harness.upload();
+    harness.step(k_step, 6);
+    Bits bits;
+    for (const voile::ClothId cloth : cloths)
+        for (const auto& values : {harness.positions(cloth), harness.velocities(cloth)})
+            for (const glm::vec4& value : values)
+                bits.push_back(std::bit_cast<glm::uvec4>(value));
+    return bits;
 }
 
 voile::SolverOptions sharing(uint32_t vertices)
@@ -30,7 +38,6 @@ voile::SolverOptions sharing(uint32_t vertices)
 
 constexpr uint32_t k_never = 1; // a cloth has more vertices
 constexpr uint32_t k_always = std::numeric_limits<uint32_t>::max();
-constexpr voile::Step k_step{.substeps = 12, .wind = {3, 1, -2}, .gust = 1};
 
 // Bits of a mesh of two patches, the second almost empty, and of a grid.
 Bits bits_after(uint32_t sharing_vertices, voile::Integrator integrator, voile::BendingModel bending)
@@ -49,12 +56,7 @@ Bits bits_after(uint32_t sharing_vertices, voile::Integrator integrator, voile::
     const std::array<voile::ClothId, 2> ids{voile::engine::take(harness.solver.add_cloth(cloth)),
                                             voile::engine::take(harness.solver.add_cloth(grid))};
     voile::engine::take(harness.solver.set_attachments(ids[0], {voile::pin(0), voile::pin(12)}));
-    harness.upload();
-    harness.step(k_step, 6);
-    Bits bits;
-    for (const voile::ClothId id : ids)
-        add_bits(harness, id, bits);
-    return bits;
+    return bits_of(harness, ids);
 }
 
 // Of grids of all widths with springs of all kinds.
@@ -77,12 +79,7 @@ Bits bits_of_grids(uint32_t sharing_vertices, voile::Integrator integrator)
             ids.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
             voile::engine::take(harness.solver.set_attachments(ids.back(), {voile::pin(0)}));
         }
-    harness.upload();
-    harness.step(k_step, 6);
-    Bits bits;
-    for (const voile::ClothId id : ids)
-        add_bits(harness, id, bits);
-    return bits;
+    return bits_of(harness, ids);
 }
 
 } // namespace

@@ -85,12 +85,12 @@ struct Sides
     vec3 north;
 };
 
-// What neighbors add: springs as they are at rest, and weights in the bending energy.
+// The lines around a vertex, and the weights of its neighbors in the bending energy.
 struct GridNeighbors
 {
     AdjacentLines row;
     AdjacentLines column;
-    vec2 row_next; // weights: ahead, behind
+    vec2 row_next; // ahead, behind
     vec2 column_next;
     float row_far;
     float column_far;
