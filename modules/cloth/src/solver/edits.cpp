@@ -2,6 +2,7 @@
 #include "solver/sleep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,27 +22,56 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values)
     return std::as_bytes(std::span(values));
 }
 
-// One anchor at a time, because recording allocates nothing.
+// Updates records of a buffer, neighbors with one command: thousands of commands take a GPU milliseconds. It allocates
+// nothing.
+template <typename Record>
+class RecordWriter
+{
+public:
+    RecordWriter(gpu::Recorder& recorder, VkBuffer buffer) : recorder_(recorder), buffer_(buffer) {}
+    ~RecordWriter() { flush(); }
+    RecordWriter(const RecordWriter&) = delete;
+    RecordWriter& operator=(const RecordWriter&) = delete;
+
+    void write(uint32_t index, const Record& record)
+    {
+        if (count_ == records_.size() || index != first_ + count_)
+            flush();
+        if (count_ == 0)
+            first_ = index;
+        records_[count_++] = record;
+    }
+
+private:
+    void flush()
+    {
+        if (count_ == 0)
+            return;
+        recorder_.update(buffer_, first_ * sizeof(Record), std::as_bytes(std::span(records_).first(count_)));
+        count_ = 0;
+    }
+
+    static constexpr size_t k_bytes = 16384; // on the stack
+    gpu::Recorder& recorder_;
+    VkBuffer buffer_;
+    std::array<Record, k_bytes / sizeof(Record)> records_;
+    uint32_t first_ = 0;
+    uint32_t count_ = 0;
+};
+
 void update_anchors(gpu::Recorder& recorder, const Solver::State& solver)
 {
-    const DeviceState& device = *solver.device;
+    RecordWriter<shared::AnchorRecord> writer(recorder, (*solver.device)[buffer::anchors].handle());
     for (const auto [index, anchor] : solver.model.anchors)
-    {
-        const shared::AnchorRecord record = make_record(anchor);
-        recorder.update(device[buffer::anchors].handle(), index * sizeof(record), std::as_bytes(std::span(&record, 1)));
-    }
+        writer.write(index, make_record(anchor));
 }
 
 void update_motions(gpu::Recorder& recorder, const Solver::State& solver)
 {
+    RecordWriter<shared::ColliderMotion> writer(recorder, (*solver.device)[buffer::collider_motions].handle());
     for (const auto [index, collider] : solver.collider_models.colliders)
-    {
-        if (!collider.uploaded || !is_moving(collider.record))
-            continue;
-        const shared::ColliderMotion motion = make_motion(collider);
-        recorder.update((*solver.device)[buffer::collider_motions].handle(), index * sizeof(motion),
-                        std::as_bytes(std::span(&motion, 1)));
-    }
+        if (collider.uploaded && is_moving(collider.record))
+            writer.write(index, make_motion(collider));
 }
 
 // Records of cloths whose strain limit changed with the step. A new limit has no reserve of energy.
@@ -74,15 +104,14 @@ void update_records(gpu::Recorder& recorder, Solver::State& solver)
                             std::as_bytes(std::span(&k_first_scale, 1)));
     if (solver.edits.softened)
         update_softened(recorder, solver);
+    RecordWriter<shared::ColliderRecord> colliders(recorder, device[buffer::colliders].handle());
     for (const uint32_t index : solver.edits.colliders)
     {
         if (index >= device.collider_count)
             continue;
         const ColliderModel* collider = solver.collider_models.colliders.at(index);
-        const shared::ColliderRecord record =
-            collider != nullptr && collider->uploaded ? shown_record(*collider) : shared::ColliderRecord{};
-        recorder.update(device[buffer::colliders].handle(), index * sizeof(record),
-                        std::as_bytes(std::span(&record, 1)));
+        colliders.write(index,
+                        collider != nullptr && collider->uploaded ? shown_record(*collider) : shared::ColliderRecord{});
     }
 }
 
