@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Tests each feature near a piece of cloth (find_near_features.comp) against that piece. One thread per item. Contacts
 // are kept with the item, and feature_contact.comp merges those of each vertex. So are planes that fast pieces may not
 // cross (feature_guard.glsl).
@@ -110,21 +111,27 @@ float longest_push()
     return uintBitsToFloat(deforming_reach[0]) * (push.progress_to - push.progress_from);
 }
 
-void check_guard(float margin)
+// Whether a vertex has moved by `bound` m since near features were listed; also if that is not a number. A guard is of all
+// vertices of the cell. One loop for all: code that stands once is fetched once (bench/NOTES.md).
+bool any_has_moved(float bound, bool is_guard, uvec3 vertices)
+{
+    bool result = false;
+    const uint count = is_guard ? cell_count(self.vertex) : 3;
+    [[dont_unroll]] for (uint i = 0; i < count; ++i)
+    {
+        uint vertex = i == 0 ? vertices.x : i == 1 ? vertices.y : vertices.z;
+        if (!is_guard || find_in_cell(self.vertex, i, vertex))
+            result = result || !(drift(vertex) < bound);
+    }
+    return result;
+}
+
+// m: how far the vertices of a cell may get until its items do not suffice.
+float guarded_room(float margin)
 {
     // A vertex without a guard may be pushed off its way by as much. By more than the thickness is too much for lists.
     const float longest = longest_push();
-    const float room = margin - longest;
-    bool valid = longest <= self.thickness;
-    const uint count = cell_count(self.vertex);
-    for (uint i = 0; i < count; ++i)
-    {
-        uint vertex;
-        if (find_in_cell(self.vertex, i, vertex))
-            valid = valid && drift(vertex) <= room; // not if it is not a number
-    }
-    if (!valid)
-        cells[self.vertex.index].invalid = counted_substep(push.substep);
+    return longest <= self.thickness ? margin - longest : -1;
 }
 
 // The portions of the cell's vertices. Of a mesh the first is that of the vertex.
@@ -153,19 +160,24 @@ uint cell_vertices(uint k)
     return 1u << in_cell.x | 1u << in_cell.y | 1u << in_cell.z;
 }
 
-// Tests the feature against the piece. `excess`: m, a lower bound of its distance beyond the thickness when it was
-// listed.
-void test_piece(uint item, uint kind, uint k, float excess)
+void sweep_piece(uvec3 vertices, bool triangle)
 {
-    const uvec3 v = piece_vertices(self.vertex, kind, k);
-    if (excess > max(max(drift(v.x), drift(v.y)), drift(v.z)))
-        return;
+    [[dont_unroll]] for (uint i = 0; i < 3; ++i)
+    {
+        const SweptVertex vertex = swept_vertex(i == 0 ? vertices.x : i == 1 || !triangle ? vertices.y : vertices.z);
+        if (i == 0)
+            piece.a = vertex;
+        if (i == 1)
+            piece.b = vertex;
+        piece.c = vertex;
+    }
+}
+
+// Tests the feature against the piece.
+void test_piece(uint item, uint kind, uint k, uvec3 vertices)
+{
     const bool triangle = kind == VOILE_PIECE_TRIANGLE;
-    piece.a = swept_vertex(v.x);
-    piece.b = swept_vertex(v.y);
-    piece.c = piece.b;
-    if (triangle)
-        piece.c = swept_vertex(v.z);
+    sweep_piece(vertices, triangle);
     if (!orient_piece(triangle) || min(piece.a.inverse_mass, piece.b.inverse_mass) == 0 || piece.triangle != triangle)
         return;
     prepare_collider();
@@ -222,8 +234,18 @@ void main()
     self.vertex = item_vertex(cloth, item.vertex);
     self.thickness = cloths[cloth].thickness;
     select_collider(item.collider & 0xffff);
-    if (kind == VOILE_PIECE_GUARD)
-        check_guard(uintBitsToFloat(item.feature));
+    const uint k = item.piece >> (VOILE_ITEM_CLOTH_BITS + 2);
+    const bool is_guard = kind == VOILE_PIECE_GUARD;
+    float bound = unpackHalf2x16(item.collider >> 16).x; // m, of the distance beyond the thickness when it was listed
+    uvec3 vertices = uvec3(item.vertex);
+    if (is_guard)
+        bound = guarded_room(uintBitsToFloat(item.feature));
     else
-        test_piece(index, kind, item.piece >> (VOILE_ITEM_CLOTH_BITS + 2), unpackHalf2x16(item.collider >> 16).x);
+        vertices = piece_vertices(self.vertex, kind, k);
+    if (!any_has_moved(bound, is_guard, vertices))
+        return;
+    if (is_guard)
+        cells[self.vertex.index].invalid = counted_substep(push.substep);
+    else
+        test_piece(index, kind, k, vertices);
 }
