@@ -308,10 +308,11 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
 {
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
+    uint position = 0;
     uint index = 0; // of the colliders that are gathered
     while (next_collider(walk, c))
     {
-        if (!may_touch(c, search.self))
+        if (!may_touch(c, search.self) || !is_reached(position++))
             continue;
         Gathering gathering = Gathering(0, 0, true, true);
         if (!search.writes)
@@ -322,6 +323,17 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
             search_pieces(search, c, lane, gathering);
         ++index;
     }
+}
+
+// The box that the workgroup walks over colliders with. All of its threads call it.
+Box box_of_walk(PatchVertex self, uint lane)
+{
+    Box walked = Box(vec3(0), vec3(0));
+    if (push.near_stride == 0) // all colliders are walked over
+        return walked;
+    if (self.exists)
+        walked = walked_box(self);
+    return joined_of_group(self.exists && lane == 0, GroupBoxes(walked, walked)).sweep;
 }
 
 // Whether the pieces of the vertex can be written as items.
@@ -349,15 +361,19 @@ void main()
         return;
     for (uint i = 0; i < k_margins; ++i)
         counts[k_margins * thread + i] = 0;
+    for (uint i = thread; i < k_most_separations; i += gl_WorkGroupSize.x)
+        separations[i] = ordered(3e38);
+    lane_counts[thread] = 0;
     if (thread == 0)
-        near_vertices = reaching_vertices = items_of_group = fewer_items = first_of_group = 0;
-    barrier();
-
-    find_margins(thread);
-    barrier();
+        near_vertices = reaching_vertices = widest_margin = items_of_group = fewer_items = first_of_group = 0;
 
     FeatureSearch search;
     search.self = vertex_of_group(in_group);
+    const Box walked = box_of_walk(search.self, lane);
+    barrier();
+    find_margins(thread, walked);
+    barrier();
+
     search.counts = uvec4(0);
     search.near = 0;
     search.deforms = false;
@@ -366,13 +382,6 @@ void main()
     search.widest = uintBitsToFloat(lane_counts[in_group]);
     const bool reaches = reaching_vertices != 0;
     bool searches = search.self.exists;
-    Box walked = Box(vec3(0), vec3(0));
-    if (reaches && push.near_stride != 0) // else all colliders are walked over
-    {
-        if (searches)
-            walked = walked_box(search.self);
-        walked = joined_of_group(searches && lane == 0, GroupBoxes(walked, walked)).sweep;
-    }
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)
