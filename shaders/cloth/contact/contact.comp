@@ -77,6 +77,7 @@ uint patch_of_group() { return patch_of_batch(push.first_patch); }
 #define VOILE_NEAR_LISTS (NEAR_LISTS != 0)
 #include "colliders/near_colliders.glsl"
 #include "contact/contact_query.glsl"
+#include "contact/near_walk.glsl"
 #include "contact/contact_vertex.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
@@ -99,9 +100,6 @@ float contact_slop(ColliderRecord collider, vec3 x, float thickness)
 {
     return max(rounding(collider.kind == VOILE_COLLIDER_PLANE ? collider.shape.xyz * x : x), 5e-4 * thickness);
 }
-
-// Over the distance at which a query may find something: room for rounding.
-const float k_beyond = 1.0001;
 
 // The motion of a vertex in a collider's space.
 struct RelativeMotion
@@ -268,41 +266,6 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     respond(motion, touched, lift_of(contact, cloth.thickness));
 }
 
-// Whether the path stays outside of the sphere around a collider with a formula.
-bool passes_by(uint c, Motion motion, float thickness)
-{
-    const uint kind = colliders[c].kind;
-    if (COLLIDERS_CONVEX == 0 || kind == VOILE_COLLIDER_MESH || kind == VOILE_COLLIDER_PLANE)
-        return false;
-    const uint flags = colliders[c].flags;
-    vec3 from = from_origin(c, flags, motion.from);
-    vec3 to = from + motion.displacement;
-    if (is_moved(flags))
-    {
-        from -= origin_at(c, push.progress_from);
-        to -= origin_at(c, push.progress_to);
-    }
-    const float nearest = 0.5 * (length(from + to) - distance(from, to));
-    const float radius = query_radius(thickness) + max(rounding(from), rounding(to));
-    return nearest > k_beyond * (bounding_radius(kind, colliders[c].shape) + radius);
-}
-
-ColliderWalk walk_path(Motion motion)
-{
-    const vec3 to = position_of(motion);
-    return walk_colliders(patch_of_group(), box_around(motion.from.x, to));
-}
-
-// The next collider that may change the motion. Threads that run together find theirs in a short loop each, before they
-// respond together: a character has many colliders, of which a vertex is near few.
-bool next_near(inout ColliderWalk walk, out uint c, Motion motion, float thickness, bool leaves_solid)
-{
-    bool found = next_collider(walk, c);
-    while (found && (passes_by(c, motion, thickness) || (leaves_solid && is_solid(colliders[c]))))
-        found = next_collider(walk, c);
-    return found;
-}
-
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second
 // round checks the corrected path. Where it crosses a surface, the vertex stays at its start, so that it is never on
 // the wrong side. Both rounds share one loop because their queries are most of this kernel.
@@ -312,7 +275,7 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidate
 {
     ContactState state = ContactState(false, false, false, leaves_solid, k_no_drive);
     bool path_only = false;
-    ColliderWalk walk = walk_path(motion);
+    NearWalk walk = walk_path(motion);
     while (true)
     {
         uint c;
@@ -326,7 +289,7 @@ ContactState resolve_contacts(inout Motion motion, ClothContact cloth, Candidate
         }
         resolve_contact(motion, c, path_only, cloth, list, state);
         if (state.touches)
-            continue_walk(walk, c, position_of(motion));
+            continue_walk(walk, c, motion);
     }
     end_list(list);
     return state;
@@ -346,6 +309,8 @@ void hold_at_features(uint i, vec3 shifted, inout Motion motion)
 
 void main()
 {
+    if (NEAR_LISTS != 0 && push.near_stride != 0)
+        stage_colliders();
     const PatchVertex self = patch_vertex(patch_of_group());
     if (!self.exists)
         return;
