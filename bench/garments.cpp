@@ -96,7 +96,7 @@ void add_figure(Scene& scene, Figure figure, uint32_t side)
     scene.figures.push_back(std::move(figure));
 }
 
-// Figures on a square, 2 m apart.
+// Figures on a square, farther apart than they walk.
 Scene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, const Settings& settings)
 {
     voile::SolverOptions options;
@@ -105,7 +105,7 @@ Scene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale
     const auto along = static_cast<uint32_t>(std::lround(std::sqrt(figures)));
     for (uint32_t i = 0; i < figures; ++i)
     {
-        const glm::vec3 foot(2 * (i % along), 0, 2 * (i / along));
+        const glm::vec3 foot(2 * (i % along), 0, 5 * (i / along));
         add_figure(scene, {.foot = foot, .scale = scale, .phase = static_cast<float>(i), .limbs = {}, .neck = {}},
                    side);
     }

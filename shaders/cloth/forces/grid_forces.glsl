@@ -146,7 +146,7 @@ float neighbor_weight(GridNeighbors lines, uint k)
     return k < 8 ? ((k & 1) == 0 ? next.x : next.y) : far;
 }
 
-// The same in a loop, with the same bits. Faster on CPU devices (bench/NOTES.md); on GPUs not measured.
+// The same in a loop, with the same bits. Faster on CPU devices, slower on GPUs (bench/NOTES.md).
 Sides add_neighbors_in_loop(inout Gather g, uint cloth, PatchVertex self, GridNeighbors lines, StabilityScales scales)
 {
     const bool far = has_springs(cloths[cloth].springs[4]) || has_springs(cloths[cloth].springs[5]) ||
