@@ -36,6 +36,12 @@ struct SleepPush
     uint cloths;    // the end of the indices of those that collide with each other; 0: at most one does
 };
 
+// Push constants of the pass that finds speeds.
+struct SpeedsPush
+{
+    float pass_substeps; // of level 0, from one pass over pairs to the next
+};
+
 // The size of the dispatches over the patches of a batch whose cloths are awake.
 struct AwakeDispatch
 {

@@ -19,6 +19,8 @@ layout(VOILE_BINDING(velocities)) readonly buffer Velocities { vec4 velocities[]
 layout(VOILE_BINDING(step_start_positions)) readonly buffer StepStartPositions { vec4 step_start[]; };
 layout(VOILE_BINDING(step_start_residuals)) readonly buffer StepStartResiduals { uvec2 step_start_residuals[]; };
 
+layout(push_constant, std430) uniform Push { SpeedsPush push; };
+
 #include "shared/fine_position.glsl"
 #include "shared/patch.glsl"
 #include "shared/step_input.glsl"
@@ -27,15 +29,24 @@ layout(VOILE_BINDING(step_start_residuals)) readonly buffer StepStartResiduals {
 
 shared uint shared_speed;
 
+// m/s: what lies on other cloth reports up to this speed, though it rests. A pass over pairs takes back what gravity adds
+// until the next one, so that velocities are half of it too low before a pass, and too high after it.
+float resting_speed(uint cloth)
+{
+    if ((cloths[cloth].flags & VOILE_CLOTH_SELF_COLLISION) == 0)
+        return 0;
+    return 0.5 * cloths[cloth].gravity_scale * length(step_input.gravity) * seconds(push.pass_substeps);
+}
+
 // m/s; of a vertex without mass 0
-float speed_of(uint i)
+float speed_of(uint i, uint cloth)
 {
     const vec4 x = positions[i];
     if (x.w == 0)
         return 0;
     const FinePosition from = FinePosition(step_start[i].xyz, unpack_residual(step_start_residuals[i]));
     const FinePosition to = FinePosition(x.xyz, unpack_residual(residuals[i]));
-    return max(length(velocities[i].xyz), step_input.rate * length(displacement(from, to)));
+    return max(length(velocities[i].xyz) - resting_speed(cloth), step_input.rate * length(displacement(from, to)));
 }
 
 void main()
@@ -52,7 +63,7 @@ void main()
     barrier();
     if (self.exists)
     {
-        atomicMax(shared_speed, floatBitsToUint(speed_of(self.index))); // NaN is the largest
+        atomicMax(shared_speed, floatBitsToUint(speed_of(self.index, self.cloth))); // NaN is the largest
         add_to_bounds(Box(positions[self.index].xyz, positions[self.index].xyz));
     }
     barrier();

@@ -91,7 +91,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     if (commands != nullptr)
         commands->begin(recorder);
     passes.record();
-    record_sleep(recorder, solver, lists.patch_count());
+    record_sleep(recorder, solver, lists.patch_count(), plan);
     record_normals(recorder, solver);
     if (commands != nullptr)
         commands->end(recorder);

@@ -140,14 +140,14 @@ void record_wake(gpu::Recorder& recorder, const Solver::State& solver, const Act
     record_awake_patches(recorder, solver, lists);
 }
 
-void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches)
+void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches, const SubstepPlan& plan)
 {
     if (!solver.passes.sleep)
         return;
     const uint32_t group = solver.options.tuning.workgroup_size;
     const auto& sets = solver.device->sets;
     recorder.dispatch(solver.kernels.find_speeds, sets.find_speeds, patches * group, group,
-                      std::span<const std::byte>{});
+                      shared::SpeedsPush{static_cast<float>(plan.pairs.period)});
     recorder.dispatch(solver.kernels.decide_sleep, sets.decide_sleep, patches, group, make_push(solver, patches));
     recorder.dispatch(solver.kernels.fall_asleep, sets.fall_asleep, patches * group, group,
                       std::span<const std::byte>{});

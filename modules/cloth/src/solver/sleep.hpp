@@ -18,6 +18,6 @@ void record_woken(gpu::Recorder& recorder, Solver::State& solver);
 void record_wake(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists);
 
 // Which cloths fall asleep, at the end of the step. Records nothing if none may sleep.
-void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches);
+void record_sleep(gpu::Recorder& recorder, const Solver::State& solver, uint32_t patches, const SubstepPlan& plan);
 
 } // namespace voile
