@@ -26,7 +26,7 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(proposed_positions)) buffer ProposedPositions { vec4 proposed_positions[]; };
 layout(VOILE_BINDING(proposed_velocities)) buffer ProposedVelocities { vec4 proposed_velocities[]; };
 layout(VOILE_BINDING(earlier_positions)) buffer EarlierPositions { vec4 positions[]; };
-layout(VOILE_BINDING(earlier_velocities)) writeonly buffer EarlierVelocities { vec4 velocities[]; };
+layout(VOILE_BINDING(earlier_velocities)) buffer EarlierVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
 layout(VOILE_BINDING(bvh_triangles)) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };

@@ -1,6 +1,6 @@
 // Stops vertices at the guards of their pairs (hold.glsl), and asks for new lists.
 //
-// The including kernel declares pair_searches[] and what hold.glsl expects.
+// The including kernel declares pair_searches[], velocities[] (before the substep) and what hold.glsl expects.
 #ifndef VOILE_STOP_GLSL
 #define VOILE_STOP_GLSL
 
@@ -10,15 +10,18 @@
 // m/s: what a vertex keeps of its velocity where guards leave `cut` of it: as fast as after the last pass. The next one hands
 // that on to the other side, so that it has the momentum. What springs have added meanwhile is lost: vertices that are
 // pressed together would become ever faster. All is lost without room, beside vertices without mass, which take nothing, and
-// while colliders or anchors move (drive.glsl).
+// while colliders or anchors move (drive.glsl). What is in no pair only waits for lists, and stays as fast as before the
+// substep: else light cloth would have the velocity of its island before heavy cloth hits it.
 vec3 kept_velocity(uint i, Hold hold, vec3 v, vec3 cut)
 {
     const PairGuard guard = hold.bound.guard;
     const float room = min(guard.reach, min(guard.planes[0].w, guard.planes[1].w));
-    if (hold.bound.sweep.listed == 0 || room <= 0 || guard.massless != 0 || step_input.driven != 0)
+    const bool listed = hold.bound.sweep.listed != 0;
+    if (step_input.driven != 0 || (listed && (room <= 0 || guard.massless != 0)))
         return cut;
     const vec3 relative = v - hold.carry;
-    const float most = max(pair_bounds[i].speed, length(cut - hold.carry));
+    const float before = listed ? pair_bounds[i].speed : length(velocities[i].xyz - hold.carry);
+    const float most = max(before, length(cut - hold.carry));
     return hold.carry + min(1, most / max(length(relative), 1e-30)) * relative;
 }
 
