@@ -233,7 +233,7 @@ TEST_CASE("cloth falls when the cloth under it leaves while both sleep")
 }
 
 // Before a pass over pairs velocities are too low by half of what gravity adds until the next one: 10 mm/s with 8
-// substeps. An outsider found that such stacks never slept.
+// substeps.
 TEST_CASE("stacks fall asleep below the speed that gravity adds between passes over pairs")
 {
     for (const auto& [material, integrator, substeps, sleep_speed] :
