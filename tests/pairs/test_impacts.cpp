@@ -2,6 +2,7 @@
 #include "support/cloth_meshes.hpp"
 #include "support/momenta.hpp"
 #include "support/pair_harness.hpp"
+#include "support/random_cloths.hpp"
 
 #include <doctest/doctest.h>
 
@@ -47,12 +48,7 @@ double kinetic_energy(PairHarness& harness)
 {
     double sum = 0;
     for (const voile::ClothId cloth : harness.cloths)
-    {
-        const auto x = harness.positions(cloth);
-        const auto v = harness.velocities(cloth);
-        for (size_t i = 0; i < x.size(); ++i)
-            sum += 0.5 * glm::dot(glm::dvec3(v[i]), glm::dvec3(v[i])) / static_cast<double>(x[i].w);
-    }
+        sum += tests::motion_of(harness, cloth).energy;
     return sum;
 }
 
