@@ -6,10 +6,10 @@
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 
+#include "colliders/padded_box.glsl"
+
 // As in bvh.glsl.
 const uint k_padded_waiting_leaves = 8;
-
-Box padded_box(uint index) { return Box(padded_boxes[index].min, padded_boxes[index].max); }
 
 #endif
 

@@ -8,7 +8,7 @@
 // parts, and a node is visited if it is near one of these.
 //
 // The including kernel declares bvh_nodes[], features[], feature_slots[], padded_boxes[] and push (NearFeaturesPush), and
-// includes box.glsl, padded.glsl and near_feature.glsl before.
+// includes box.glsl, padded_box.glsl and near_feature.glsl before.
 #ifndef VOILE_FEATURE_GATHERING_GLSL
 #define VOILE_FEATURE_GATHERING_GLSL
 

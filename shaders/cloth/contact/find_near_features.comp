@@ -102,8 +102,6 @@ struct FeatureSearch
     uint end;
 };
 
-bool enters_node(FeatureSearch search, Box node) { return overlap(search.box, node); }
-
 FinePosition position_of(uint vertex)
 {
     return FinePosition(positions[vertex].xyz, unpack_residual(residuals[vertex]));
@@ -168,29 +166,7 @@ void visit_feature(inout FeatureSearch search, uint f, NearFeature near)
     add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
 }
 
-void visit_slot(inout FeatureSearch search, uint slot)
-{
-    const DeformingSet set = deforming_set(search.collider);
-    const uint first = feature_slots[slot] >> VOILE_SLOT_FEATURE_BITS;
-    const uint count = feature_slots[slot] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
-    for (uint f = first; f < first + count; ++f)
-        if (protrudes(set, f))
-            visit_feature(search, f, near_feature(search.collider, f, true));
-}
-
-// Of a mesh that deforms a leaf is a slot.
-void visit_leaf(inout FeatureSearch search, uint first, uint count)
-{
-    if (search.deforms)
-        visit_slot(search, first);
-    else
-        for (uint f = first; f < first + count; ++f)
-            visit_feature(search, f, near_feature(search.collider, f, false));
-}
-
-#define VOILE_QUERY FeatureSearch
-#include "colliders/bvh.glsl"
-#include "colliders/padded.glsl"
+#include "colliders/padded_box.glsl"
 #include "contact/feature_gathering.glsl"
 #include "contact/feature_room.glsl"
 #include "contact/feature_margin.glsl"
@@ -267,37 +243,39 @@ Box expect_motion(inout FeatureSearch search, uint c, uvec3 vertices)
     return box_of(end);
 }
 
-// Finds the features of a collider near the pieces of this lane.
-void search_pieces(inout FeatureSearch search, uint c, uint lane, Gathering gathering)
+// Prepares the search around the i-th piece of the vertex. False: there is none.
+bool select_piece(inout FeatureSearch search, Space space, uint i)
 {
-    const FeatureSet set = feature_sets[c];
+    if (!find_piece(search.self, i, search.piece))
+        return false;
+    const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
+    search.shape = Triangle(position_in(space, v.x, 0), position_in(space, v.y, 0), position_in(space, v.z, 0));
+    Box shape = box_of(search.shape);
+    search.query_radius = query_radius(search.self, max(abs(shape.min), abs(shape.max)));
+    if (search.deforms)
+        shape = joined(shape, expect_motion(search, search.collider, v));
+    search.box = grown(shape, search.query_radius + search.margin);
+    return true;
+}
+
+#include "contact/feature_traversal.glsl"
+
+// Finds the features of a collider near the pieces of this lane. All threads of the workgroup call it; those that are not
+// `near` find none.
+void search_pieces(inout FeatureSearch search, bool near, uint c, uint lane, Gathering gathering)
+{
     const Space space = space_at(c, push.progress_from);
     search.collider = c;
     search.deforms = is_deforming(space.flags);
-    const uint count = piece_count(search.self);
-    for (uint i = lane; i < count; i += push.lanes)
-    {
-        if (!find_piece(search.self, i, search.piece))
-            continue;
-        const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
-        search.shape = Triangle(position_in(space, v.x, 0), position_in(space, v.y, 0), position_in(space, v.z, 0));
-        Box shape = box_of(search.shape);
-        search.query_radius = query_radius(search.self, max(abs(shape.min), abs(shape.max)));
-        if (search.deforms)
-            shape = joined(shape, expect_motion(search, c, v));
-        search.box = grown(shape, search.query_radius + search.margin);
-        if (gathering.crowded && search.deforms)
-            traverse_padded(search, colliders[c].first_node, set.first_node, colliders[c].triangles);
-        else if (gathering.crowded)
-            traverse_bvh(search, set.first_node, set.first_feature);
-        for (uint f = gathering.first; f < gathering.end; ++f)
-        {
-            const NearFeature near = gathered_feature(f);
-            if (overlap(search.box, swept_box(near)))
-                visit_feature(search, gathered[f], near);
-        }
-    }
-    if (lane > 0)
+    const FeatureTree tree = feature_tree(c, feature_sets[c], search.deforms);
+    const uint count = near ? piece_count(search.self) : 0;
+    if (gathering.crowded && TOGETHER != 0)
+        traverse_together(search, tree, space, lane, count);
+    else
+        for (uint i = lane; i < count; i += push.lanes)
+            if (select_piece(search, space, i))
+                visit_features(search, tree, gathering);
+    if (!near || lane > 0)
         return;
     search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
     add_item(search, floatBitsToUint(search.margin), 0);
@@ -319,8 +297,7 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
             gathering = gather_near(search, searches, c, lane, index);
         else if (index < k_most_gatherings)
             gathering = gatherings[index];
-        if (searches && (search.near & 1u << min(index, 31)) != 0)
-            search_pieces(search, c, lane, gathering);
+        search_pieces(search, searches && (search.near & 1u << min(index, 31)) != 0, c, lane, gathering);
         ++index;
     }
 }
@@ -364,6 +341,8 @@ void main()
     for (uint i = thread; i < k_most_separations; i += gl_WorkGroupSize.x)
         separations[i] = ordered(3e38);
     lane_counts[thread] = 0;
+    for (uint i = thread; i < turns.length(); i += gl_WorkGroupSize.x)
+        turns[i] = 0;
     if (thread == 0)
         near_vertices = reaching_vertices = widest_margin = items_of_group = fewer_items = first_of_group = 0;
 
