@@ -6,6 +6,8 @@
 #include "solver/kernels.hpp"
 
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace
 {
@@ -62,6 +64,56 @@ TEST_CASE_FIXTURE(tests::GpuFixture,
     CHECK(created("verlet.comp").find("kernel \"cloth verlet\"") == 0);
     CHECK(created("refit.comp").find("kernel \"cloth refit leaves\"") == 0);
     CHECK(created("velvet.comp") == "SolverOptions: shaders: no shader is called \"velvet.comp\"");
+}
+
+namespace
+{
+
+PFN_vkGetInstanceProcAddr loaders_function = nullptr;
+PFN_vkGetDeviceProcAddr devices_function = nullptr;
+
+VkResult VKAPI_PTR refuse_pipelines(VkDevice, VkPipelineCache, uint32_t, const VkComputePipelineCreateInfo*,
+                                    const VkAllocationCallbacks*, VkPipeline*)
+{
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+PFN_vkVoidFunction VKAPI_PTR function_of_device(VkDevice device, const char* name)
+{
+    if (std::string_view(name) == "vkCreateComputePipelines")
+        return reinterpret_cast<PFN_vkVoidFunction>(&refuse_pipelines);
+    return devices_function(device, name);
+}
+
+PFN_vkVoidFunction VKAPI_PTR function_without_pipelines(VkInstance instance, const char* name)
+{
+    if (std::string_view(name) != "vkGetDeviceProcAddr")
+        return loaders_function(instance, name);
+    devices_function = reinterpret_cast<PFN_vkGetDeviceProcAddr>(loaders_function(instance, name));
+    return reinterpret_cast<PFN_vkVoidFunction>(&function_of_device);
+}
+
+void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
+{
+    *static_cast<uint32_t*>(user) += count;
+    for (uint32_t i = count; i-- > 0;)
+        task(data, i);
+}
+
+} // namespace
+
+TEST_CASE("the host's jobs compile the kernels, and the error of several is that of the largest")
+{
+    uint32_t tasks = 0;
+    voile::SolverOptions options;
+    options.jobs = {.run = run_backwards, .user = &tasks, .workers = 5};
+    voile::Handles handles = tests::test_handles();
+    CHECK(reason(voile::Solver::create(handles, options)) == "accepted");
+    CHECK(tasks == 5);
+    loaders_function = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
+    const std::string_view expected = "kernel \"cloth contact\": pipeline: VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    CHECK(reason(voile::Solver::create(handles, options)) == expected);
+    CHECK(reason(voile::Solver::create(handles, {})) == expected);
 }
 
 namespace

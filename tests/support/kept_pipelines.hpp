@@ -112,6 +112,7 @@ private:
                                              const VkAllocationCallbacks* allocator, VkShaderModule* module)
     {
         const std::string_view code(reinterpret_cast<const char*>(info->pCode), info->codeSize);
+        const std::lock_guard lock(s_kept->mutex_);
         if (const auto kept = s_kept->modules_.find(code); kept != s_kept->modules_.end())
         {
             *module = kept->second;
@@ -133,6 +134,7 @@ private:
         key.append(reinterpret_cast<const char*>(constants.pMapEntries),
                    constants.mapEntryCount * sizeof(VkSpecializationMapEntry));
         key.append(static_cast<const char*>(constants.pData), constants.dataSize);
+        const std::lock_guard lock(s_kept->mutex_);
         std::unique_ptr<Promise>& promise = s_kept->promises_[key];
         if (!promise)
         {
@@ -177,6 +179,7 @@ private:
     {
         if (info->objectType != VK_OBJECT_TYPE_PIPELINE)
             return s_kept->context_.set_object_name(device, info);
+        const std::lock_guard lock(s_kept->mutex_); // solvers share promises
         promise_of(reinterpret_cast<VkPipeline>(info->objectHandle)).name = info->pObjectName;
         return VK_SUCCESS;
     }
@@ -197,6 +200,7 @@ private:
     const voile::gpu::Context& context_;
     voile::gpu::DeviceFunctions fn_;
     PFN_vkGetDeviceProcAddr get_device_function_ = nullptr;
+    std::mutex mutex_; // of what follows: a solver makes its kernels on several threads
     std::map<std::string, VkShaderModule, std::less<>> modules_; // by code
     std::map<std::string, std::unique_ptr<Promise>> promises_;   // by module and constants
     std::vector<VkPipelineLayout> layouts_;

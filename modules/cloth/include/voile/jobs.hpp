@@ -6,8 +6,9 @@
 namespace voile
 {
 
-// Adding and cooking large meshes uses several threads. Without a job system the module starts its own, one per core,
-// for the duration of the call. Results are bit-identical for any job system, number of threads and order.
+// Adding and cooking large meshes uses several threads, and so does Solver::create, which compiles kernels. Without a
+// job system the module starts its own, one per core, for the duration of the call. Results are bit-identical for any
+// job system, number of threads and order.
 //
 // `run` calls task(data, index) once for every index below `count` and returns when all calls have returned. It may use
 // any threads and any order, even one call after the other on the calling thread. A task may wait for tasks that have

@@ -148,7 +148,7 @@ struct SolverOptions
     std::optional<bool> lifetime_checks{};
     std::optional<CommandReuse> command_reuse{}; // none: each step is recorded anew
     Tuning tuning{};
-    Jobs jobs{}; // the host's job system, for add_cloth, add_collider and record_upload (voile/jobs.hpp)
+    Jobs jobs{}; // the host's job system, for create, add_cloth, add_collider and record_upload (voile/jobs.hpp)
     std::span<const ShaderReplacement> shaders{}; // read during Solver::create
 };
 

@@ -3,6 +3,7 @@
 
 #include "colliders/specialization.hpp"
 
+#include "geometry/parallel.hpp"
 #include "shared/step_layout.h"
 
 #include "voile/solver.hpp"
@@ -10,6 +11,10 @@
 #include "voile_cloth_shaders.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace voile
 {
@@ -146,6 +151,26 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     return requests;
 }
 
+// Drivers take seconds to compile large kernels, so all threads take part, and the largest come first.
+Result<void> create(const gpu::Context& context, std::vector<Request> requests)
+{
+    std::ranges::stable_sort(requests, std::greater(), [](const Request& r) { return r.description.spirv.size(); });
+    std::vector<std::optional<Error>> errors(requests.size());
+    parallel_for(requests.size(), 1,
+                 [&](size_t i, size_t)
+                 {
+                     auto kernel = gpu::Kernel::create(context, requests[i].description);
+                     if (kernel)
+                         *requests[i].kernel = std::move(kernel.value());
+                     else
+                         errors[i] = kernel.error();
+                 });
+    for (const std::optional<Error>& error : errors)
+        if (error)
+            return *error;
+    return {};
+}
+
 } // namespace
 
 uint32_t most_storage_buffers()
@@ -174,13 +199,8 @@ Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions&
     if (auto within = check_limits(context.limits, options); !within) // before any is compiled
         return within.error();
     Kernels kernels;
-    for (const Request& request : requests_of(kernels, options, context.device_type))
-    {
-        auto kernel = gpu::Kernel::create(context, request.description);
-        if (!kernel)
-            return kernel.error();
-        *request.kernel = std::move(kernel.value());
-    }
+    if (auto created = create(context, requests_of(kernels, options, context.device_type)); !created)
+        return created.error();
     auto refit = create_refit_kernels(context, k_refit_workgroup, code_of(shaders::k_refit_comp, options));
     if (!refit)
         return refit.error();

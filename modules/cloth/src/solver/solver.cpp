@@ -132,6 +132,9 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
         return layout.error();
     SolverOptions with = options;
     with.tuning.sharing_vertices = sharing_vertices(context.value(), options);
+    with.tuning.feature_threads = feature_threads(context.value(), options);
+    with.tuning.dispatch_vertices = dispatch_vertices(context.value(), options);
+    const JobScope scope(options.jobs);
     auto kernels = create_kernels(context.value(), with);
     if (!kernels)
         return kernels.error();
@@ -141,8 +144,6 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     state->context = context.value();
     state->options = with;
     state->options.shaders = {};
-    state->options.tuning.feature_threads = feature_threads(state->context, options);
-    state->options.tuning.dispatch_vertices = dispatch_vertices(state->context, options);
     state->model.limits = {options.tuning.workgroup_size, state->context.limits.maxComputeWorkGroupCount[0],
                            state->context.max_buffer_bytes};
     state->model.interleaved = options.tuning.mesh_layout == MeshLayout::interleaved;

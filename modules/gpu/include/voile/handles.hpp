@@ -65,7 +65,7 @@ struct Handles
     VkInstance instance{};
     VkPhysicalDevice physical_device{};
     VkDevice device{};
-    VkPipelineCache pipeline_cache{};                           // optional
+    VkPipelineCache pipeline_cache{}; // optional; not externally synchronized: several threads use it
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // the loader's, or a layer's
     BufferAllocator* buffer_allocator = nullptr;                // optional
 };
