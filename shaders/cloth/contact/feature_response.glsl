@@ -16,6 +16,9 @@ const float k_lift_speed = 0.2;
 const float k_slow = 100;
 // Barycentric coordinates this far below 0 count as inside, so that no point between two triangles is missed.
 const float k_border = 1e-3;
+// The same for round features. Where cloth bends around one, it is nearest to the edges between triangles, and the nearest
+// point of either may be beyond its border.
+const float k_round_border = 0.2;
 // Over the thickness: a piece this close to a feature touched it.
 const float k_touching = 1.001;
 // Over the thickness: a piece this close to a feature is pressed harder than its response can answer.
@@ -293,7 +296,7 @@ PieceContact triangle_contact(SweptFeature f)
     const float area = max(dot(n, n), 1e-30);
     const float v = dot(cross(ap, ac), n) / area;
     const float w = dot(cross(ab, ap), n) / area;
-    if (min(min(v, w), 1 - v - w) < -k_border)
+    if (min(min(v, w), 1 - v - w) < (feature.radius > 0 ? -k_round_border : -k_border))
         return no_contact();
     const vec3 weights = clamp(vec3(1 - v - w, v, w), vec3(0), vec3(1));
     return PieceContact(contact, feature.a, weights,
