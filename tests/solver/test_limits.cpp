@@ -61,7 +61,7 @@ TEST_CASE_FIXTURE(tests::GpuFixture,
         const voile::ShaderReplacement shader{file, no_spirv};
         return reason(voile::Solver::create(tests::test_handles(), {.shaders = {&shader, 1}}));
     };
-    CHECK(created("verlet.comp").find("kernel \"cloth verlet\"") == 0);
+    CHECK(created("verlet.comp") == "kernel \"cloth verlet\": its code is not SPIR-V");
     CHECK(created("refit.comp").find("kernel \"cloth refit leaves\"") == 0);
     CHECK(created("velvet.comp") == "SolverOptions: shaders: no shader is called \"velvet.comp\"");
 }
@@ -71,6 +71,7 @@ namespace
 
 PFN_vkGetInstanceProcAddr loaders_function = nullptr;
 PFN_vkGetDeviceProcAddr devices_function = nullptr;
+std::string_view missing; // a function
 
 VkResult VKAPI_PTR refuse_pipelines(VkDevice, VkPipelineCache, uint32_t, const VkComputePipelineCreateInfo*,
                                     const VkAllocationCallbacks*, VkPipeline*)
@@ -80,6 +81,8 @@ VkResult VKAPI_PTR refuse_pipelines(VkDevice, VkPipelineCache, uint32_t, const V
 
 PFN_vkVoidFunction VKAPI_PTR function_of_device(VkDevice device, const char* name)
 {
+    if (name == missing)
+        return nullptr;
     if (std::string_view(name) == "vkCreateComputePipelines")
         return reinterpret_cast<PFN_vkVoidFunction>(&refuse_pipelines);
     return devices_function(device, name);
@@ -87,6 +90,8 @@ PFN_vkVoidFunction VKAPI_PTR function_of_device(VkDevice device, const char* nam
 
 PFN_vkVoidFunction VKAPI_PTR function_without_pipelines(VkInstance instance, const char* name)
 {
+    if (name == missing)
+        return nullptr;
     if (std::string_view(name) != "vkGetDeviceProcAddr")
         return loaders_function(instance, name);
     devices_function = reinterpret_cast<PFN_vkGetDeviceProcAddr>(loaders_function(instance, name));
@@ -114,6 +119,20 @@ TEST_CASE("the host's jobs compile the kernels, and the error of several is that
     const std::string_view expected = "kernel \"cloth contact\": pipeline: VK_ERROR_OUT_OF_DEVICE_MEMORY";
     CHECK(reason(voile::Solver::create(handles, options)) == expected);
     CHECK(reason(voile::Solver::create(handles, {})) == expected);
+}
+
+TEST_CASE("a function that the device does not have is an error, by name")
+{
+    voile::Handles handles = tests::test_handles();
+    loaders_function = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
+    for (const char* name : {"vkCmdDispatchIndirect", "vkCreateShaderModule", "vkUpdateDescriptorSets"})
+    {
+        missing = name;
+        CHECK(reason(voile::Solver::create(handles, {})) == "the device has no " + std::string(name));
+    }
+    missing = "vkGetDeviceProcAddr";
+    CHECK(reason(voile::Solver::create(handles, {})) == "Handles: get_instance_proc_addr finds no vkGetDeviceProcAddr");
+    missing = {};
 }
 
 namespace

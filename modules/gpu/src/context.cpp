@@ -41,10 +41,14 @@ Result<Context> create_context(const Handles& handles, bool device_addresses)
 
     Context context;
     context.handles = handles;
-    context.fn = load_device_functions(instance_function<PFN_vkGetDeviceProcAddr>(handles, "vkGetDeviceProcAddr"),
-                                       handles.device);
+    const auto get = instance_function<PFN_vkGetDeviceProcAddr>(handles, "vkGetDeviceProcAddr");
+    if (get == nullptr)
+        return Error{"Handles: get_instance_proc_addr finds no vkGetDeviceProcAddr"};
+    context.fn = load_device_functions(get, handles.device);
     if (context.fn.vkCmdPipelineBarrier2KHR == nullptr)
         return Error{"the device was made without VK_KHR_synchronization2, and not for Vulkan 1.3, which has it"};
+    if (const char* missing = missing_function(context.fn))
+        return Error{std::string("the device has no ") + missing};
 
     if (handles.buffer_allocator != nullptr) // borrowed: no owner counts it
         context.buffers = std::shared_ptr<BufferAllocator>(std::shared_ptr<void>(), handles.buffer_allocator);

@@ -33,4 +33,14 @@ DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice devi
     return fn;
 }
 
+const char* missing_function(const DeviceFunctions& functions)
+{
+#define VOILE_CHECK_FUNCTION(name)                                                                                     \
+    if (functions.name == nullptr)                                                                                     \
+    return #name
+    VOILE_COMPUTE_FUNCTIONS(VOILE_CHECK_FUNCTION)
+#undef VOILE_CHECK_FUNCTION
+    return nullptr;
+}
+
 } // namespace voile::gpu

@@ -126,7 +126,10 @@ Result<void> check(const VkPhysicalDeviceLimits& limits, const KernelDescription
 
 Result<ShaderInterface> reflect(const KernelDescription& description)
 {
+    constexpr uint32_t k_magic = 0x07230203;
     const std::string name = std::string("kernel \"") + description.name + "\"";
+    if (description.spirv.empty() || description.spirv[0] != k_magic)
+        return Error{name + ": its code is not SPIR-V"};
     auto shader = reflect(description.spirv, description.specialization);
     if (!shader)
         return Error{name + ": " + shader.error().message};

@@ -20,7 +20,8 @@ struct Jobs
 
     void (*run)(void* user, uint32_t count, Task task, void* data) = nullptr; // null: the module's own threads
     void* user = nullptr;
-    uint32_t workers = 0; // the most tasks that can run at the same time: the largest `count`; 0: the number of cores
+    uint32_t workers =
+        0; // the most tasks at the same time, the largest `count`; 0: the number of cores; 1: no call of run
 };
 
 } // namespace voile

@@ -98,4 +98,7 @@ struct DeviceFunctions
 // found by either name.
 VOILE_GPU_API DeviceFunctions load_device_functions(PFN_vkGetDeviceProcAddr get, VkDevice device);
 
+// The first of VOILE_COMPUTE_FUNCTIONS that is null; null: none.
+const char* missing_function(const DeviceFunctions& functions);
+
 } // namespace voile::gpu
