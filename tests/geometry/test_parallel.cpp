@@ -1,5 +1,6 @@
 // Dividing work among threads.
 #include "geometry/parallel.hpp"
+#include "support/backward_jobs.hpp"
 
 #include <doctest/doctest.h>
 
@@ -54,19 +55,6 @@ TEST_CASE("an exception of any thread is rethrown after all have ended")
     CHECK(calls == 4);
 }
 
-namespace
-{
-
-// A host's job system of one thread that starts with the last task.
-void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
-{
-    *static_cast<uint32_t*>(user) += count;
-    for (uint32_t i = count; i-- > 0;)
-        task(data, i);
-}
-
-} // namespace
-
 TEST_CASE("the host's jobs do the work, in any order, as long as the scope lasts")
 {
     uint32_t tasks = 0;
@@ -78,7 +66,7 @@ TEST_CASE("the host's jobs do the work, in any order, as long as the scope lasts
             ++done[i];
     };
     {
-        const voile::JobScope scope({.run = run_backwards, .user = &tasks, .workers = 5});
+        const voile::JobScope scope({.run = tests::run_backwards, .user = &tasks, .workers = 5});
         CHECK(voile::thread_count(0, 100) == 5);
         voile::parallel_for(k_count, 10, body);
         CHECK(tasks == 5);

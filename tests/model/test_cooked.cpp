@@ -5,6 +5,7 @@
 #include "geometry/cooked_file.hpp"
 #include "model/active_lists.hpp"
 #include "model/cooked_cloth.hpp"
+#include "support/backward_jobs.hpp"
 #include "support/bvh_checks.hpp"
 #include "support/odd_meshes.hpp"
 
@@ -289,17 +290,10 @@ TEST_CASE("a cooked collider equals its mesh to the bit, also by way of bytes, a
 namespace
 {
 
-// Job systems of a host: one after the other from the last one on, and a thread for each of four at a time.
-void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
-{
-    ++*static_cast<int*>(user);
-    for (uint32_t i = count; i-- > 0;)
-        task(data, i);
-}
-
+// A job system of a host: a thread for each of four at a time.
 void run_on_pool(void* user, uint32_t count, voile::Jobs::Task task, void* data)
 {
-    ++*static_cast<int*>(user);
+    *static_cast<uint32_t*>(user) += count;
     std::atomic<uint32_t> next = 0;
     std::vector<std::jthread> pool;
     for (int i = 0; i < 4; ++i)
@@ -319,16 +313,16 @@ TEST_CASE("cooked bytes do not depend on whose threads cook")
     const voile::MeshCollider collider{.positions = ball.positions, .triangles = ball.triangles};
     voile::set_hierarchy_cache_limit(0);
     const Bytes expected = take(voile::cook(collider)).bytes();
-    for (const auto run : {run_backwards, run_on_pool})
+    for (const auto run : {tests::run_backwards, run_on_pool})
     {
-        int calls = 0;
-        const voile::Jobs jobs{.run = run, .user = &calls, .workers = 7};
+        uint32_t tasks = 0;
+        const voile::Jobs jobs{.run = run, .user = &tasks, .workers = 7};
         const voile::CookedCollider cooked = take(voile::cook(collider, jobs));
-        CHECK(calls > 0);
+        CHECK(tasks > 0);
         CHECK(cooked.bytes() == expected);
-        calls = 0;
+        tasks = 0;
         CHECK(take(voile::CookedCollider::load(expected, {}, jobs)).bytes() == expected);
-        CHECK(calls > 0);
+        CHECK(tasks > 0);
     }
     voile::set_hierarchy_cache_limit(voile::k_default_hierarchy_cache_limit);
 }

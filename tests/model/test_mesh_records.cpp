@@ -2,6 +2,7 @@
 // arithmetic without contraction; compilers for other machines than x86-64 contract by default.
 #include "geometry/parallel.hpp"
 #include "model/active_lists.hpp"
+#include "support/backward_jobs.hpp"
 #include "support/odd_meshes.hpp"
 #include "support/record_hash.hpp"
 
@@ -222,20 +223,13 @@ TEST_CASE("what is uploaded of several cloths is what it was, to the bit")
 namespace
 {
 
-// Job systems of a host: a thread for each task, and one after the other from the last one on.
+// A job system of a host: a thread for each task.
 void run_on_threads(void* user, uint32_t count, voile::Jobs::Task task, void* data)
 {
     *static_cast<uint32_t*>(user) += count;
     std::vector<std::jthread> threads;
     for (uint32_t i = 0; i < count; ++i)
         threads.emplace_back(task, data, i);
-}
-
-void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
-{
-    *static_cast<uint32_t*>(user) += count;
-    for (uint32_t i = count; i-- > 0;)
-        task(data, i);
 }
 
 // Of a mesh with each kind of material.
@@ -274,7 +268,7 @@ TEST_CASE("large meshes have the same springs, corners and membranes for any num
         const std::array<uint64_t, 2> expected = hash(run_on_threads, 1);
         CHECK(tasks == 0);
         for (const uint32_t workers : {2u, 7u})
-            for (const auto run : {run_on_threads, run_backwards})
+            for (const auto run : {run_on_threads, tests::run_backwards})
             {
                 CAPTURE(workers);
                 CHECK(hash(run, workers) == expected);

@@ -1,5 +1,6 @@
 // Limits of devices: each is obeyed, or exceeding it is an error. Limits that the test device does not have are tested
 // on a fake device.
+#include "support/backward_jobs.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
 
@@ -98,20 +99,13 @@ PFN_vkVoidFunction VKAPI_PTR function_without_pipelines(VkInstance instance, con
     return reinterpret_cast<PFN_vkVoidFunction>(&function_of_device);
 }
 
-void run_backwards(void* user, uint32_t count, voile::Jobs::Task task, void* data)
-{
-    *static_cast<uint32_t*>(user) += count;
-    for (uint32_t i = count; i-- > 0;)
-        task(data, i);
-}
-
 } // namespace
 
 TEST_CASE("the host's jobs compile the kernels, and the error of several is that of the largest")
 {
     uint32_t tasks = 0;
     voile::SolverOptions options;
-    options.jobs = {.run = run_backwards, .user = &tasks, .workers = 5};
+    options.jobs = {.run = tests::run_backwards, .user = &tasks, .workers = 5};
     voile::Handles handles = tests::test_handles();
     CHECK(reason(voile::Solver::create(handles, options)) == "accepted");
     CHECK(tasks == 5);

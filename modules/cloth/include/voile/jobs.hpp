@@ -20,8 +20,10 @@ struct Jobs
 
     void (*run)(void* user, uint32_t count, Task task, void* data) = nullptr; // null: the module's own threads
     void* user = nullptr;
-    uint32_t workers =
-        0; // the most tasks at the same time, the largest `count`; 0: the number of cores; 1: no call of run
+
+    // The most tasks that can run at the same time: the largest `count`. 0: the number of cores. 1: `run` is not
+    // called.
+    uint32_t workers = 0;
 };
 
 } // namespace voile
