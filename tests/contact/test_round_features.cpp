@@ -54,8 +54,8 @@ TEST_CASE("taut cloth keeps its thickness from a ball between its vertices, too"
         harness.upload();
         for (int i = 1; i <= k_frames; ++i)
         {
-            const float way = (0.2f + above) * static_cast<float>(i) / k_frames;
-            voile::engine::take(harness.solver.move_collider(ball, tests::moved({0, way, 0})));
+            const float height = (0.2f + above) * static_cast<float>(i) / k_frames;
+            voile::engine::take(harness.solver.move_collider(ball, tests::moved({0, height, 0})));
             harness.step({});
         }
         harness.step({}, k_frames / 2);
