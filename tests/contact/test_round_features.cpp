@@ -62,6 +62,6 @@ TEST_CASE("taut cloth keeps its thickness from a ball between its vertices, too"
         const float gap =
             distance_to(harness.positions(id), harness.solver.triangles(id), {0.01f, above, 0.02f}) - k_radius;
         MESSAGE("gap: " << gap << " m");
-        CHECK(gap > 0.9f * voile::cotton().thickness); // measured: 1.006 and 0.972
+        CHECK(gap > 0.9f * voile::cotton().thickness); // measured: 1.007 and 0.975
     }
 }

@@ -18,7 +18,7 @@ const float k_slow = 100;
 const float k_border = 1e-3;
 // The same for round features. Where cloth bends around one, it is nearest to the edges between triangles, and the nearest
 // point of either may be beyond its border.
-const float k_round_border = 0.2;
+const float k_round_border = 0.05;
 // Over the thickness: a piece this close to a feature touched it.
 const float k_touching = 1.001;
 // Over the thickness: a piece this close to a feature is pressed harder than its response can answer.
