@@ -70,7 +70,7 @@ TEST_CASE_FIXTURE(tests::GpuFixture,
 namespace
 {
 
-PFN_vkGetInstanceProcAddr loaders_function = nullptr;
+PFN_vkGetInstanceProcAddr the_loaders = nullptr;
 PFN_vkGetDeviceProcAddr devices_function = nullptr;
 std::string_view missing; // a function
 
@@ -94,8 +94,8 @@ PFN_vkVoidFunction VKAPI_PTR function_without_pipelines(VkInstance instance, con
     if (name == missing)
         return nullptr;
     if (std::string_view(name) != "vkGetDeviceProcAddr")
-        return loaders_function(instance, name);
-    devices_function = reinterpret_cast<PFN_vkGetDeviceProcAddr>(loaders_function(instance, name));
+        return the_loaders(instance, name);
+    devices_function = reinterpret_cast<PFN_vkGetDeviceProcAddr>(the_loaders(instance, name));
     return reinterpret_cast<PFN_vkVoidFunction>(&function_of_device);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("the host's jobs compile the kernels, and the error of several is that
     voile::Handles handles = tests::test_handles();
     CHECK(reason(voile::Solver::create(handles, options)) == "accepted");
     CHECK(tasks == 5);
-    loaders_function = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
+    the_loaders = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
     const std::string_view expected = "kernel \"cloth contact\": pipeline: VK_ERROR_OUT_OF_DEVICE_MEMORY";
     CHECK(reason(voile::Solver::create(handles, options)) == expected);
     CHECK(reason(voile::Solver::create(handles, {})) == expected);
@@ -118,7 +118,7 @@ TEST_CASE("the host's jobs compile the kernels, and the error of several is that
 TEST_CASE("a function that the device does not have is an error, by name")
 {
     voile::Handles handles = tests::test_handles();
-    loaders_function = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
+    the_loaders = std::exchange(handles.get_instance_proc_addr, &function_without_pipelines);
     for (const char* name : {"vkCmdDispatchIndirect", "vkCreateShaderModule", "vkUpdateDescriptorSets"})
     {
         missing = name;
@@ -132,7 +132,6 @@ TEST_CASE("a function that the device does not have is an error, by name")
 namespace
 {
 
-PFN_vkGetInstanceProcAddr the_loaders = nullptr;
 int asked = 0;
 
 PFN_vkVoidFunction VKAPI_PTR counting(VkInstance instance, const char* name)

@@ -114,10 +114,9 @@ class VOILE_API Solver
 {
 public:
     // Compiles the kernels, on several threads (voile/jobs.hpp): seconds the first time, half a second once the
-    // driver's cache or the host's (Handles::pipeline_cache) has them (docs/performance.md). Errors: null handles, a
-    // device without the functions or the limits that requirements() lists, options out of range or beyond the device's
-    // limits, out of memory. The version of the instance and the enabled features cannot be read from a handle;
-    // validation reports missing ones.
+    // driver's cache has them (docs/performance.md). Errors: null handles, a device without the functions or the limits
+    // that requirements() lists, options out of range or beyond the device's limits, out of memory. The version of the
+    // instance and the enabled features cannot be read from a handle; validation reports missing ones.
     static Result<Solver> create(const Handles& handles, const SolverOptions& options);
     ~Solver();
     Solver(Solver&&) noexcept;
