@@ -56,6 +56,7 @@ struct SweptVertex
     vec3 to;
     vec3 velocity; // m/s, world
     float inverse_mass;
+    vec3 displaced; // m, world, within the substep
 };
 
 FinePosition earlier_position(uint index)
@@ -71,7 +72,8 @@ FinePosition proposed_position(uint index)
 SweptVertex swept_vertex(FinePosition earlier, FinePosition proposed, vec3 velocity, float inverse_mass)
 {
     SweptVertex result = SweptVertex(from_origin(collider_index, collider_flags, earlier),
-                                     from_origin(collider_index, collider_flags, proposed), velocity, inverse_mass);
+                                     from_origin(collider_index, collider_flags, proposed), velocity, inverse_mass,
+                                     displacement(earlier, proposed));
     if (collider_moves)
     {
         result.from = to_collider(pose_from, result.from);

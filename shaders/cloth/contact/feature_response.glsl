@@ -155,6 +155,7 @@ struct PieceContact
     vec3 weights;  // barycentric coordinates
     vec3 velocity; // m/s, world, of the cloth there
     vec3 moved;    // m, collider's space, of the point as the collider deforms
+    vec3 displaced; // m, world, of the cloth there within the pass
 };
 
 // What a contact does to the cloth there.
@@ -171,11 +172,14 @@ Impulse impulse_of(PieceContact touch)
     vec3 n = touch.contact.direction;
     if (collider_moves)
         n = rotate(pose_to.rotation, n);
-    const vec3 relative = touch.velocity - carried_displacement(touch.point, touch.moved) / seconds(push.substeps);
+    const float duration = seconds(push.substeps);
+    const vec3 carried = carried_displacement(touch.point, touch.moved);
     // A piece that swings back within several substeps would be lifted again and again, and gain energy each time.
-    const float leaving = dot(relative, n);
+    const float leaving = dot(touch.velocity - carried / duration, n);
     const float approach = touch.contact.held ? -leaving : max(-leaving, 0);
-    const vec3 sliding = tangential(relative, n);
+    // From where the cloth was to where it is. Taut cloth vibrates within a pass: its velocity says little about that, and
+    // friction against a motion that is about to turn around would feed it.
+    const vec3 sliding = tangential(touch.displaced - carried, n) / duration;
     return Impulse(n, touch.contact.wanted - touch.contact.gap,
                    friction_fraction(max(approach, 0), length(sliding)) * sliding, approach);
 }
@@ -207,16 +211,29 @@ vec3 surface_displacement(FeatureMotion motion)
     return carried_displacement(point, motion_at(motion, point));
 }
 
+// m/s: how much of the change `pressed` along n is too much. Each contact removes the approach of its piece, and a vertex
+// takes the most of what its pieces need, so that pieces which are pressed together may throw it. No vertex leaves the
+// surface faster than it does within the pass.
+float rebound(vec3 n, float pressed, vec3 surface)
+{
+    const float duration = seconds(push.substeps);
+    const float moved = dot(displacement(self.earlier, self.proposed) + response.shift - surface, n);
+    const float leaves = dot(self.velocity + response.change - surface / duration, n);
+    return clamp(leaves - max(moved, 0) / duration, 0, pressed);
+}
+
 // Friction with the current collider, after all contacts. Cloth that slides fast is slowed at the contact. Slow cloth
 // is held vertex by vertex, by the impulse on each: friction at one of several contacts would leave the others a
 // velocity, and cloth at rest would creep.
 void add_friction()
 {
-    const float pressed = length(response.change);
-    if (pressed == 0 || response.pressed <= 0)
+    const float found = length(response.change);
+    if (found == 0 || response.pressed <= 0)
         return;
-    const vec3 n = response.change / pressed;
+    const vec3 n = response.change / found;
     const vec3 surface = surface_displacement(response.motion);
+    const float pressed = found - rebound(n, found, surface);
+    const vec3 slowing = pressed / found * response.slowing;
     const vec3 v_t = tangential(self.velocity - surface / seconds(push.substeps), n);
     const float speed = length(v_t);
     const float fraction = holding_fraction(pressed, speed);
@@ -229,8 +246,8 @@ void add_friction()
     // Shifts of other directions that move the vertex along the surface would add up to a creep, too.
     const vec3 shifted = tangential(response.shift, n);
     const float least = min(1, most * seconds(push.substeps) / max(length(shifted), 1e-30));
-    response.shift += mix(time * response.slowing, -slid - fraction * least * shifted, slow);
-    response.change += mix(response.slowing, -fraction * v_t, slow);
+    response.shift += mix(time * slowing, -slid - fraction * least * shifted, slow);
+    response.change += (pressed - found) * n + mix(slowing, -fraction * v_t, slow);
 }
 
 // The larger of two changes, plus the part of the other one that it lacks in that direction.
@@ -300,7 +317,8 @@ PieceContact triangle_contact(SweptFeature f)
         return no_contact();
     const vec3 weights = clamp(vec3(1 - v - w, v, w), vec3(0), vec3(1));
     return PieceContact(contact, feature.a, weights,
-                        weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity, f.moved);
+                        weights.x * a.velocity + weights.y * b.velocity + weights.z * c.velocity, f.moved,
+                        weights.x * a.displaced + weights.y * b.displaced + weights.z * c.displaced);
 }
 
 // A feature edge and the cloth's edge from a to b.
@@ -337,7 +355,7 @@ PieceContact edge_contact(SweptFeature f, SweptVertex b)
     if (min(s, t) < 0 || max(s, t) > 1)
         return no_contact();
     return PieceContact(contact, feature.a + t * along, vec3(1 - s, s, 0), mix(a.velocity, b.velocity, s),
-                        mix(f.moved, moved_end(f), t));
+                        mix(f.moved, moved_end(f), t), mix(a.displaced, b.displaced, s));
 }
 
 vec3 triangle_portions(PieceContact touch)
