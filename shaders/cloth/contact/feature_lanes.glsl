@@ -13,7 +13,7 @@ void store_response(uint thread)
     const float collider = response.collider == k_no_collider ? -1 : float(response.collider);
     lanes[k_lane_words * thread] = vec4(response.shift, response.pressed);
     lanes[k_lane_words * thread + 1] = vec4(response.change, collider);
-    lanes[k_lane_words * thread + 2] = vec4(response.slowing, 0);
+    lanes[k_lane_words * thread + 2] = vec4(response.slowing, response.impulses);
     lanes[k_lane_words * thread + 3] = vec4(response.motion.carried, 0);
     lanes[k_lane_words * thread + 4] = vec4(response.motion.turned, 0);
 }
@@ -24,7 +24,7 @@ Response stored_response(uint thread)
     const FeatureMotion motion =
         FeatureMotion(lanes[k_lane_words * thread + 3].xyz, lanes[k_lane_words * thread + 4].xyz);
     return Response(lanes[k_lane_words * thread].xyz, lanes[k_lane_words * thread].w, change.xyz,
-                    change.w < 0 ? k_no_collider : uint(change.w), lanes[k_lane_words * thread + 2].xyz, motion);
+                    change.w < 0 ? k_no_collider : uint(change.w), lanes[k_lane_words * thread + 2].xyz, motion, lanes[k_lane_words * thread + 2].w);
 }
 
 void store_guard(uint thread)

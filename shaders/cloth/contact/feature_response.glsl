@@ -36,10 +36,11 @@ struct Response
     float pressed; // m/s, impulse per mass of the strongest contact
     vec3 change;   // m/s, across surfaces
     uint collider; // of the strongest contact
-    vec3 slowing;  // m/s, by friction, of that contact
-    FeatureMotion motion; // of its feature
+    vec3 slowing;  // m^2/s^2, by friction: the sum over all contacts, each times its impulse per mass
+    FeatureMotion motion; // of the feature of the strongest
+    float impulses; // m/s, their sum
 };
-Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0), k_no_motion); }
+Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0), k_no_motion, 0); }
 Response response = no_response();
 
 // Static and kinetic coefficient of the cloth with the current collider.
@@ -133,15 +134,10 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     return result;
 }
 
-// The fraction that friction takes of the sliding velocity at a contact whose surfaces approach at `approach`, m/s.
-float friction_fraction(float approach, float speed)
-{
-    return speed <= friction.x * approach ? 1 : friction.y * approach / speed;
-}
-
-// The same for a vertex that is pressed with an impulse per mass, m/s. The coefficient falls from static to kinetic
-// while the speed rises. With a jump, one vertex that slips would take the others along.
-float holding_fraction(float pressed, float speed)
+// The fraction that friction takes of a sliding velocity, where an impulse per mass presses, both in m/s. The coefficient
+// falls from static to kinetic while the speed rises. With a jump, one vertex that slips would take the others along, and
+// results would depend on rounding.
+float friction_fraction(float pressed, float speed)
 {
     const float slips = min(2 * max(speed - friction.x * pressed, 0), max(speed - friction.y * pressed, 0));
     return 1 - slips / max(speed, 1e-30);
@@ -193,11 +189,13 @@ void respond(Impulse impulse, float portion, uint c, FeatureMotion motion)
     response.shift += max(portion * impulse.correction - dot(response.shift, n), 0) * n;
     const float change = portion * impulse.approach - dot(response.change, n);
     response.change += (impulse.approach < 0 ? min(change, 0) : max(change, 0)) * n;
-    if (response.collider != k_no_collider && portion * impulse.approach <= response.pressed)
+    const float pressed = portion * impulse.approach;
+    response.slowing -= max(pressed, 0) * portion * impulse.slowing;
+    response.impulses += max(pressed, 0);
+    if (response.collider != k_no_collider && pressed <= response.pressed)
         return;
-    response.pressed = portion * impulse.approach;
+    response.pressed = pressed;
     response.collider = c;
-    response.slowing = -portion * impulse.slowing;
     response.motion = motion;
 }
 
@@ -233,10 +231,10 @@ void add_friction()
     const vec3 n = response.change / found;
     const vec3 surface = surface_displacement(response.motion);
     const float pressed = found - rebound(n, found, surface);
-    const vec3 slowing = pressed / found * response.slowing;
+    const vec3 slowing = pressed / found * response.slowing / max(response.impulses, 1e-30);
     const vec3 v_t = tangential(self.velocity - surface / seconds(push.substeps), n);
     const float speed = length(v_t);
-    const float fraction = holding_fraction(pressed, speed);
+    const float fraction = friction_fraction(pressed, speed);
     const float most = k_slow * seconds(push.substeps);
     const float slow = clamp(2 - max(speed, pressed) / most, 0, 1);
     const float time = drift_time(is_verlet(cloths[self.vertex.cloth].flags), seconds(push.substeps), push.kicks);
@@ -271,10 +269,11 @@ void merge(Response other)
     if (response.collider == k_no_collider || other.pressed > response.pressed)
     {
         response.collider = other.collider;
-        response.slowing = other.slowing;
         response.motion = other.motion;
     }
     response.pressed = max(response.pressed, other.pressed);
+    response.slowing += other.slowing;
+    response.impulses += other.impulses;
 }
 
 // The motion of the vertices per motion of the contact point. Bounded: a vertex of a millionth of its neighbors' mass
