@@ -13,7 +13,7 @@ namespace voile
 // centers of colliders and origins of anchors. A cloth may leave the range as it moves.
 //
 // The simulation uses finer positions than floats. Up to 16 km from the origin, a scene behaves as at the origin, to
-// 0.2 %. At 130 km, positions are known to 1e-7 m: no cloth falls through, and all values are finite. Input in floats
+// 0.4 %. At 130 km, positions are known to 1e-7 m: no cloth falls through, and all values are finite. Input in floats
 // is coarser: 1 mm at 10 km. So place distant objects by a transform, or add them near the origin and move them. This
 // keeps rotations, sizes and the vertices of a mesh exact. The remaining rounding lets stiff cloth slip early on an
 // incline: cotton of 5 cm spacing slips where static friction exceeds the slope by less than 1.3 % at 8 km and 2.7 % at
