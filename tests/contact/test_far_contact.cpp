@@ -133,7 +133,8 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     return largest;
 }
 
-// At any distance, sheets end within five thousandths of their displacement (measured: 3.6 without friction, on lavapipe).
+// At any distance, sheets end within five thousandths of their displacement (measured: 3.6 without friction, on
+// lavapipe).
 void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
 {
     for (size_t i = 0; i < scenes.size(); ++i)
@@ -145,7 +146,8 @@ void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Ou
         CAPTURE(differs);
         CHECK(differs < std::max(5e-3 * displacement, 1e-6));
     }
-    CHECK(std::abs(static_cast<int>(far.after.contacts) - static_cast<int>(here.after.contacts)) <= 12); // measured: 9 of 891
+    CHECK(std::abs(static_cast<int>(far.after.contacts) - static_cast<int>(here.after.contacts)) <=
+          12); // measured: 9 of 891
     CHECK(far.before.penetrating_vertices == here.before.penetrating_vertices);
     CHECK(far.after.penetrating_vertices == here.after.penetrating_vertices);
     CHECK(far.before.deepest_penetration == doctest::Approx(here.before.deepest_penetration).epsilon(1e-5));

@@ -179,7 +179,7 @@ std::vector<voile::engine::Mesh> needles()
 }
 
 // Cloth that falls on colliders, behind the first of which a plane far below has no features. Returns its positions
-// after two frames.
+// after a frame: later, cloth that bounces magnifies rounding.
 std::vector<glm::vec4> fall_on(const std::vector<voile::engine::Mesh>& colliders, bool mesh,
                                const voile::SolverOptions& options, float speed = 2)
 {
@@ -202,7 +202,7 @@ std::vector<glm::vec4> fall_on(const std::vector<voile::engine::Mesh>& colliders
             (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -2}));
     }
     harness.upload();
-    harness.step({}, 2);
+    harness.step({}, 1);
     return harness.positions(id);
 }
 
@@ -233,7 +233,8 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
         {
             CAPTURE(tuning.workgroup_size);
             CAPTURE(tuning.feature_threads);
-            CHECK(farthest(usual, fall_on_walls(mesh, {.tuning = tuning})) < 5e-4f); // measured: 1.6e-4 of a mesh
+            CHECK(farthest(usual, fall_on_walls(mesh, {.tuning = tuning})) <
+                  5e-4f); // measured: 3.4e-4 of a mesh, 0 of a grid
         }
     }
 }
@@ -249,8 +250,8 @@ TEST_CASE("edges of a collider hold cloth equally whether the features near it a
             const auto fall_with = [&](uint32_t items)
             { return fall_on_walls(mesh, {.tuning = {.feature_threads = 1, .feature_items = items}}, fall); };
             const std::vector<glm::vec4> listed = fall_with(8);
-            CHECK(farthest(listed, fall_with(0)) < 2e-4f); // every vertex traverses; measured: 8.1e-5
-            CHECK(farthest(listed, fall_with(1)) < 2e-4f); // some do
+            CHECK(farthest(listed, fall_with(0)) < 5e-6f); // every vertex traverses; measured: 1.5e-6
+            CHECK(farthest(listed, fall_with(1)) < 5e-6f); // some do
         }
 }
 

@@ -36,9 +36,9 @@ struct Response
     float pressed; // m/s, impulse per mass of the strongest contact
     vec3 change;   // m/s, across surfaces
     uint collider; // of the strongest contact
-    vec3 slowing;  // m^2/s^2, by friction: the sum over all contacts, each times its impulse per mass
+    vec3 slowing;  // m/s, by friction: the sum over all contacts, each times the cube of its impulse per mass
     FeatureMotion motion; // of the feature of the strongest
-    float impulses; // m/s, their sum
+    float impulses; // the sum of their fourth powers
 };
 Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0), k_no_motion, 0); }
 Response response = no_response();
@@ -190,8 +190,9 @@ void respond(Impulse impulse, float portion, uint c, FeatureMotion motion)
     const float change = portion * impulse.approach - dot(response.change, n);
     response.change += (impulse.approach < 0 ? min(change, 0) : max(change, 0)) * n;
     const float pressed = portion * impulse.approach;
-    response.slowing -= max(pressed, 0) * portion * impulse.slowing;
-    response.impulses += max(pressed, 0);
+    const float squared = max(pressed, 0) * max(pressed, 0);
+    response.slowing -= squared * pressed * portion * impulse.slowing;
+    response.impulses += squared * squared;
     if (response.collider != k_no_collider && pressed <= response.pressed)
         return;
     response.pressed = pressed;
@@ -231,7 +232,8 @@ void add_friction()
     const vec3 n = response.change / found;
     const vec3 surface = surface_displacement(response.motion);
     const float pressed = found - rebound(n, found, surface);
-    const vec3 slowing = pressed / found * response.slowing / max(response.impulses, 1e-30);
+    // That of the strongest contact. Where several are almost as strong, it is a mean of theirs.
+    const vec3 slowing = pressed / found * response.pressed / max(response.impulses, 1e-37) * response.slowing;
     const vec3 v_t = tangential(self.velocity - surface / seconds(push.substeps), n);
     const float speed = length(v_t);
     const float fraction = friction_fraction(pressed, speed);
