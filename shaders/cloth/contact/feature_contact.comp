@@ -12,8 +12,8 @@
 // Vertices of a triangle move along straight lines within the substep. A triangle that comes closer than the thickness,
 // or crosses the feature, is put back at the thickness. Its vertices share the correction by the barycentric
 // coordinates of the contact. Approaching velocity is removed, and no vertex leaves the surface faster than it moved.
-// Coulomb friction acts at the contact if the piece is fast, and on the vertex if that is slow. Pieces with a pinned vertex are skipped. The contact of vertices comes after
-// and overrides.
+// Coulomb friction acts at the contact if the piece is fast, and on the vertex if that is slow. Pieces with a pinned
+// vertex are skipped. The contact of vertices comes after and overrides.
 //
 // Merged responses are not checked against each other. Vertices of fast or squeezed pieces are held by a guard, which
 // is kept for contact.comp: contact of vertices may not leave it, either (feature_guard.glsl).

@@ -21,10 +21,11 @@ void store_response(uint thread)
 Response stored_response(uint thread)
 {
     const vec4 change = lanes[k_lane_words * thread + 1];
+    const vec4 slowing = lanes[k_lane_words * thread + 2];
     const FeatureMotion motion =
         FeatureMotion(lanes[k_lane_words * thread + 3].xyz, lanes[k_lane_words * thread + 4].xyz);
     return Response(lanes[k_lane_words * thread].xyz, lanes[k_lane_words * thread].w, change.xyz,
-                    change.w < 0 ? k_no_collider : uint(change.w), lanes[k_lane_words * thread + 2].xyz, motion, lanes[k_lane_words * thread + 2].w);
+                    change.w < 0 ? k_no_collider : uint(change.w), slowing.xyz, motion, slowing.w);
 }
 
 void store_guard(uint thread)

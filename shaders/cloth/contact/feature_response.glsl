@@ -38,7 +38,7 @@ struct Response
     uint collider; // of the strongest contact
     vec3 slowing;  // m/s, by friction: the sum over all contacts, each times the cube of its impulse per mass
     FeatureMotion motion; // of the feature of the strongest
-    float impulses; // the sum of their fourth powers
+    float impulses;       // the sum of the fourth powers of their impulses per mass
 };
 Response no_response() { return Response(vec3(0), 0, vec3(0), k_no_collider, vec3(0), k_no_motion, 0); }
 Response response = no_response();
@@ -148,9 +148,9 @@ struct PieceContact
 {
     FeatureContact contact;
     vec3 point;    // of the feature, collider's space
-    vec3 weights;  // barycentric coordinates
-    vec3 velocity; // m/s, world, of the cloth there
-    vec3 moved;    // m, collider's space, of the point as the collider deforms
+    vec3 weights;   // barycentric coordinates
+    vec3 velocity;  // m/s, world, of the cloth there
+    vec3 moved;     // m, collider's space, of the point as the collider deforms
     vec3 displaced; // m, world, of the cloth there within the pass
 };
 
