@@ -347,7 +347,7 @@ TEST_CASE("tuning outside of its range and invalid enumerators are refused")
           "Tuning: contact_method is 5, must be normal_ray or nearest_point");
     CHECK(refused({.mesh_layout = static_cast<voile::MeshLayout>(2)}) ==
           "Tuning: mesh_layout is 2, must be compact or interleaved");
-    CHECK(refused({.feature_items = 65}) == "Tuning: feature_items is 65, must be at most 64");
+    CHECK(refused({.feature_items = 129}) == "Tuning: feature_items is 129, must be at most 128");
     CHECK(refused({.contact_interval = std::numeric_limits<float>::infinity()}) ==
           "Tuning: contact_interval is inf s, must be at least 0 and finite");
     CHECK(refused({.contact_interval = -1}) ==

@@ -201,12 +201,26 @@ bool has_cell(uint i)
                                     : in_grid(self.vertex.column_row - k_cell[i], self.vertex.columns, self.vertex.rows);
 }
 
-// Merges the contacts of a cell, in which the vertex is the i-th one. `touched`: bits of the items from `first` on.
-void merge_items(uint first, uint touched, uint i)
+// Takes the lowest of 128 bits. False: none is left. Without an index into the vector, which drivers keep in memory.
+bool take_bit(inout uvec4 bits, out uint position)
 {
-    for (; touched != 0; touched &= touched - 1)
+    const bool low = (bits.x | bits.y) != 0;
+    uvec2 half_of_bits = low ? bits.xy : bits.zw;
+    const bool lower = half_of_bits.x != 0;
+    const uint word = lower ? half_of_bits.x : half_of_bits.y;
+    position = (low ? 0 : 64) + (lower ? 0 : 32) + findLSB(word);
+    half_of_bits = uvec2(lower ? word & (word - 1) : 0, lower ? half_of_bits.y : word & (word - 1));
+    bits = low ? uvec4(half_of_bits, bits.zw) : uvec4(0, 0, half_of_bits);
+    return word != 0;
+}
+
+// Merges the contacts of a cell, in which the vertex is the i-th one. `touched`: bits of the items from `first` on.
+void merge_items(uint first, uvec4 touched, uint i)
+{
+    uint item;
+    while (take_bit(touched, item))
     {
-        const FeatureResponse touch = feature_responses[first + findLSB(touched)];
+        const FeatureResponse touch = feature_responses[first + item];
         if (touch.portions[i] > 0)
             respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
                     touch.collider, FeatureMotion(touch.carried, touch.turned));
@@ -214,11 +228,12 @@ void merge_items(uint first, uint touched, uint i)
 }
 
 // The same for planes.
-void add_planes(uint first, uint touched, uint i)
+void add_planes(uint first, uvec4 touched, uint i)
 {
-    for (; touched != 0; touched &= touched - 1)
+    uint position;
+    while (take_bit(touched, position))
     {
-        const uint item = first + findLSB(touched);
+        const uint item = first + position;
         const vec4 plane = feature_responses[item].plane;
         if ((feature_responses[item].vertices & 1u << i) == 0 || plane.xyz == vec3(0))
             continue;
@@ -289,7 +304,7 @@ void write_correction()
 struct Items
 {
     uint firsts[4]; // of each cell
-    uvec2 touched[4];
+    uvec4 touched[4];
     bool valid; // they suffice
     bool any;
     bool guarded;
@@ -298,23 +313,22 @@ struct Items
 Items load_items()
 {
     Items items;
-    const uint word = 2 * (push.pass & 1);
     items.valid = true;
     items.guarded = false;
-    uvec2 any = uvec2(0);
+    uvec4 any = uvec4(0);
     for (uint i = 0; i < 4; ++i) // without branches around the loads, which are issued together
     {
         const bool has = has_cell(i);
         const uint cell = has ? neighbor(self.vertex.index, -k_cell[i], self.vertex.columns) : self.vertex.index;
         items.firsts[i] = cells[cell].first;
-        const uvec2 touched = uvec2(cells[cell].touched[word], cells[cell].touched[word + 1]);
-        items.touched[i] = has ? touched : uvec2(0);
+        const uvec4 touched = cells[cell].touched[push.pass & 1];
+        items.touched[i] = has ? touched : uvec4(0);
         any |= items.touched[i];
         const uint invalid = cells[cell].invalid;
         items.valid = items.valid && (!has || (invalid != counted_substep(push.substep) && invalid != VOILE_EVERY_SUBSTEP));
         items.guarded = items.guarded || (has && cells[cell].guarded == counted_substep(push.substep));
     }
-    items.any = any != uvec2(0);
+    items.any = any != uvec4(0);
     return items;
 }
 
@@ -325,16 +339,10 @@ bool merge_cells()
     if (!items.valid || !items.any || !load_self())
         return items.valid;
     for (uint i = 0; i < 4; ++i)
-    {
-        merge_items(items.firsts[i], items.touched[i].x, i);
-        merge_items(items.firsts[i] + 32, items.touched[i].y, i);
-    }
+        merge_items(items.firsts[i], items.touched[i], i);
     find_change();
     for (uint i = 0; i < 4 && items.guarded; ++i)
-    {
-        add_planes(items.firsts[i], items.touched[i].x, i);
-        add_planes(items.firsts[i] + 32, items.touched[i].y, i);
-    }
+        add_planes(items.firsts[i], items.touched[i], i);
     write_correction();
     return true;
 }
@@ -342,9 +350,7 @@ bool merge_cells()
 // For the next pass.
 void clear_touched()
 {
-    const uint word = 2 * (1 - (push.pass & 1));
-    cells[self.vertex.index].touched[word] = 0;
-    cells[self.vertex.index].touched[word + 1] = 0;
+    cells[self.vertex.index].touched[1 - (push.pass & 1)] = uvec4(0);
 }
 
 // The contacts of the vertex that the threads of its lanes traverse for, in the first of them. All threads of the workgroup

@@ -1,8 +1,11 @@
 // The features near the vertices of a workgroup.
 //
 // Its threads traverse a hierarchy together, one node each at a time. Then each tests its pieces of cloth against what they
-// found, from shared memory. A thread that traverses alone waits for memory at every node, and where features are dense
-// the whole dispatch waits for that thread.
+// found, from shared memory, a chunk after the other. A thread that traversed alone would wait for memory at every node, and
+// where features are dense the whole dispatch would wait for that thread.
+//
+// Where more are near than a list has room for, the traversal stops whenever the list is full, and goes on after the chunks
+// of the list have been tested. Then few nodes are visited at a time, in an order that depends on no order of threads.
 //
 // Vertices that follow each other need not be close: those of a skirt make an arc that a leg is in. So they are divided into
 // parts, and a node is visited if it is near one of these.
@@ -14,31 +17,34 @@
 
 #include "shared/ordered.glsl"
 
-const uint k_most_gathered = 184; // features, of all colliders together
-const uint k_most_nodes = 256;    // that wait to be visited
+const uint k_most_found = 512;  // features, in a list
+const uint k_most_loaded = 160; // in shared memory with their positions
+const uint k_most_nodes = 256;  // that wait to be visited
+const uint k_ordered_nodes = 16; // visited at a time in order
+const uint k_most_left = 14;    // features that a node leaves: 4 of each leaf, 7 of each slot
 const uint k_most_gatherings = 8; // colliders
 const uint k_parts = 16;          // of the workgroup's vertices, each with boxes of its own
 
-// What is near of one collider: a range of the gathered features.
-struct Gathering
+// Features of a collider that are in shared memory.
+struct Chunk
 {
     uint first;
     uint end;
-    bool crowded; // there are more than fit: each thread traverses alone
-    bool near;    // a feature may be in the sweep
+    bool all; // that are near; else they have a box
 };
 
-shared Gathering gatherings[k_most_gatherings];
-shared uint gathered[k_most_gathered];       // in the order of the features, collider by collider
-shared vec4 gathered_starts[k_most_gathered];      // a, radius
-shared float gathered_ends[3 * k_most_gathered];    // b
-shared float gathered_motions[6 * k_most_gathered]; // of a and of b until the next query, in the collider's space
-shared uint found_features[k_most_gathered]; // of one collider, in no order
-shared uint found_count;
+shared uint loaded[k_most_loaded]; // in the order of the features, collider by collider
+shared vec4 loaded_starts[k_most_loaded];       // a, radius
+shared float loaded_ends[3 * k_most_loaded];    // b
+shared float loaded_motions[6 * k_most_loaded]; // of a and of b until the next query, in the collider's space
+shared uint found_features[k_most_found];
+shared uint found_count;                        // may be more
+shared uvec2 left_counts[k_ordered_nodes];      // nodes and features that each of the visited nodes leaves
 shared uint nodes[k_most_nodes]; // that wait, a stack
 shared uint node_count;
 shared uint sweep_is_near;
 shared uint corners[12 * (k_parts + 1)]; // minima and maxima of the two boxes of each part, at the end of all; as floats
+shared uint chunk_corners[6];            // of a chunk; ordered
 
 // Of a vertex or a workgroup, in the space of a collider.
 struct GroupBoxes
@@ -124,28 +130,31 @@ FeatureTree feature_tree(uint c, FeatureSet set, bool deforms)
     return FeatureTree(c, false, set.first_node, set.first_feature, 0);
 }
 
-void add_leaf(uint leaf, uint first_feature)
+// What remains of a node that has been visited: children to visit, and features, for each child one bit after its first.
+struct Visit
 {
-    const uint first = first_feature + (leaf & VOILE_BVH_FIRST_MASK);
-    const uint count = (leaf >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK) + 1;
-    const uint at = atomicAdd(found_count, count);
-    for (uint i = 0; i < count && at + i < k_most_gathered; ++i)
-        found_features[at + i] = first + i;
+    uvec2 nodes;
+    uint node_count;
+    uvec2 firsts;
+    uvec2 bits;
+};
+
+void leave_node(inout Visit visit, uint node)
+{
+    visit.nodes = visit.node_count == 0 ? uvec2(node, 0) : uvec2(visit.nodes.x, node);
+    ++visit.node_count;
 }
 
-// Of a mesh that deforms: those that protrude.
-void add_slot(uint slot, DeformingSet set)
+// Of a mesh that deforms: one bit per feature of the slot that protrudes.
+uint protruding(uint slot, FeatureTree tree)
 {
+    const DeformingSet set = deforming_set(tree.collider);
     const uint first = feature_slots[slot] >> VOILE_SLOT_FEATURE_BITS;
     const uint count = feature_slots[slot] & ((1u << VOILE_SLOT_FEATURE_BITS) - 1);
-    for (uint f = first; f < first + count; ++f)
-    {
-        if (!protrudes(set, f))
-            continue;
-        const uint at = atomicAdd(found_count, 1);
-        if (at < k_most_gathered)
-            found_features[at] = f;
-    }
+    uint bits = 0;
+    for (uint i = 0; i < count; ++i)
+        bits |= protrudes(set, first + i) ? 1u << i : 0;
+    return bits;
 }
 
 // Notes whether a feature is in the sweep. Returns whether the children of a node must be visited.
@@ -164,19 +173,21 @@ bool visit_box(Box box, GroupBoxes boxes, bool looks, bool is_leaf)
     return !is_leaf && (in_sweep || is_near_pieces(boxes, box));
 }
 
-void visit_child(uint child, Box box, FeatureTree tree, GroupBoxes boxes, bool looks)
+void visit_child(inout Visit visit, uint i, uint child, Box box, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
     const bool is_leaf = (child & VOILE_BVH_LEAF_BIT) != 0;
     if (visit_box(box, boxes, looks, is_leaf))
-        nodes[atomicAdd(node_count, 1)] = child;
-    if (is_leaf && is_near_pieces(boxes, box))
-        add_leaf(child, tree.first_leaf);
+        leave_node(visit, child);
+    if (!is_leaf || !is_near_pieces(boxes, box))
+        return;
+    visit.firsts[i] = tree.first_leaf + (child & VOILE_BVH_FIRST_MASK);
+    visit.bits[i] = (2u << (child >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK)) - 1;
 }
 
 uint padded_width(uint node) { return 1u << findMSB(node + 1); }
 
 // `node`: its index in the tree.
-void visit_padded(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
+void visit_padded(inout Visit visit, uint i, uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
     const uint width = padded_width(node);
     const uint index = node + 1 - width;
@@ -185,35 +196,58 @@ void visit_padded(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
         return; // repeats another slot
     const Box box = padded_box(tree.first_node + node);
     if (visit_box(box, boxes, looks, is_leaf))
-        nodes[atomicAdd(node_count, 1)] = node;
-    if (is_leaf && is_near_pieces(boxes, box))
-        add_slot(tree.first_leaf + index, deforming_set(tree.collider));
+        leave_node(visit, node);
+    if (!is_leaf || !is_near_pieces(boxes, box))
+        return;
+    visit.firsts[i] = feature_slots[tree.first_leaf + index] >> VOILE_SLOT_FEATURE_BITS;
+    visit.bits[i] = protruding(tree.first_leaf + index, tree);
 }
 
-void visit_children(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
+const Visit k_no_visit = Visit(uvec2(0), 0, uvec2(0), uvec2(0));
+
+Visit visit_children(uint node, FeatureTree tree, GroupBoxes boxes, bool looks)
 {
+    Visit visit = k_no_visit;
     if (tree.deforms)
     {
         const uint width = padded_width(node);
-        visit_padded(node + width, tree, boxes, looks);
-        visit_padded(node + 2 * width, tree, boxes, looks);
-        return;
+        visit_padded(visit, 0, node + width, tree, boxes, looks);
+        visit_padded(visit, 1, node + 2 * width, tree, boxes, looks);
+        return visit;
     }
     const BvhNode n = bvh_nodes[tree.first_node + node];
-    visit_child(n.left, Box(n.left_min, n.left_max), tree, boxes, looks);
-    visit_child(n.right, Box(n.right_min, n.right_max), tree, boxes, looks);
+    visit_child(visit, 0, n.left, Box(n.left_min, n.left_max), tree, boxes, looks);
+    visit_child(visit, 1, n.right, Box(n.right_min, n.right_max), tree, boxes, looks);
+    return visit;
 }
 
-// The root is visited here. That of a tree of one triangle is its leaf.
-void start_gathering(FeatureTree tree, GroupBoxes boxes)
+// The nodes and features that a visit leaves.
+uvec2 count_left(Visit visit) { return uvec2(visit.node_count, bitCount(visit.bits.x) + bitCount(visit.bits.y)); }
+
+// `at`: the positions of the first node and of the first feature.
+void write_left(Visit visit, uvec2 at)
 {
+    for (uint i = 0; i < visit.node_count; ++i)
+        nodes[at.x + i] = visit.nodes[i];
+    for (uint i = 0; i < 2; ++i)
+        for (uint bits = visit.bits[i]; bits != 0 && at.y < k_most_found; bits &= bits - 1)
+            found_features[at.y++] = visit.firsts[i] + findLSB(bits);
+}
+
+// The root is visited here. That of a tree of one triangle is its leaf. All threads of the workgroup call it.
+void start_traversal(FeatureTree tree, GroupBoxes boxes)
+{
+    barrier(); // all threads have read what the traversal before has found
     if (gl_LocalInvocationID.x == 0)
     {
-        found_count = sweep_is_near = 0;
-        node_count = tree.deforms ? 0 : 1;
-        nodes[0] = 0;
+        Visit visit = k_no_visit;
         if (tree.deforms)
-            visit_padded(0, tree, boxes, true);
+            visit_padded(visit, 0, 0, tree, boxes, true);
+        else
+            leave_node(visit, 0);
+        write_left(visit, uvec2(0));
+        node_count = visit.node_count;
+        found_count = count_left(visit).y;
     }
     barrier();
 }
@@ -221,92 +255,198 @@ void start_gathering(FeatureTree tree, GroupBoxes boxes)
 // How many of the nodes that wait are visited together. Each leaves two at most. Where the stack is almost full, the last
 // node is visited alone, and the stack grows by one node per level at most, as that of a single thread. So it never
 // overflows.
-uint visited_together(uint count)
+uint visited_together(uint count, bool ordered)
 {
     const uint room = k_most_nodes - VOILE_BVH_MAX_DEPTH;
-    return min(min(count, gl_WorkGroupSize.x), count < room ? room - count : 1);
+    const uint most = min(count, ordered ? k_ordered_nodes : gl_WorkGroupSize.x);
+    return min(most, count < room ? room - count : 1);
 }
 
-// Ends early where there are more features than fit.
-void gather_features(FeatureTree tree, GroupBoxes boxes)
+// Finds features until there are no more, or more than fit. `ordered`: in order, and until the list may be full. All threads
+// of the workgroup call it.
+void traverse(FeatureTree tree, GroupBoxes boxes, bool ordered)
 {
     const uint thread = gl_LocalInvocationID.x;
-    start_gathering(tree, boxes);
+    const uint most = ordered ? k_most_found - k_ordered_nodes * k_most_left : k_most_found;
     for (;;)
     {
         const uint count = node_count;
-        const uint visited = visited_together(count);
+        const uint found = found_count;
+        const uint visited = visited_together(count, ordered);
         const uint node = thread < visited ? nodes[count - 1 - thread] : 0;
         const bool looks = sweep_is_near == 0;
-        const bool ends = count == 0 || found_count > k_most_gathered;
         barrier();
-        if (ends)
+        if (count == 0 || found > most)
             return;
         if (thread == 0)
             node_count = count - visited;
+        Visit visit = k_no_visit;
+        if (thread < visited)
+            visit = visit_children(node, tree, boxes, looks);
+        if (ordered && thread < visited)
+            left_counts[thread] = count_left(visit);
         barrier();
         if (thread < visited)
-            visit_children(node, tree, boxes, looks);
+        {
+            const uvec2 left = count_left(visit);
+            uvec2 at = uvec2(atomicAdd(node_count, left.x), atomicAdd(found_count, left.y));
+            if (ordered)
+                at = uvec2(count - visited, found);
+            for (uint i = 0; ordered && i < thread; ++i)
+                at += left_counts[i];
+            write_left(visit, at);
+        }
         barrier();
     }
 }
 
-// Sorts what was found behind the features of the colliders before. Without an order, threads would decide about that
-// of the contacts of a vertex.
-void sort_features(uint first, uint c, bool deforms)
+// Sorts what was found. Without an order, threads would decide about that of the contacts of a vertex. Batcher 1968, "Sorting
+// networks and their applications": a bitonic sort, as ranks take as many steps as there are features. All threads of the
+// workgroup call it.
+void sort_found()
 {
-    for (uint i = gl_LocalInvocationID.x; i < found_count; i += gl_WorkGroupSize.x)
-    {
-        const uint feature = found_features[i];
-        uint rank = first;
-        for (uint j = 0; j < found_count; ++j)
-            rank += found_features[j] < feature ? 1 : 0;
-        gathered[rank] = feature;
-        const NearFeature near = near_feature(c, feature, deforms);
-        gathered_starts[rank] = near.a;
-        for (uint axis = 0; axis < 3; ++axis)
-        {
-            gathered_ends[3 * rank + axis] = near.b[axis];
-            gathered_motions[6 * rank + axis] = near.motion_a[axis];
-            gathered_motions[6 * rank + 3 + axis] = near.motion_b[axis];
-        }
-    }
-}
-
-vec3 gathered_motion(uint first)
-{
-    return vec3(gathered_motions[first], gathered_motions[first + 1], gathered_motions[first + 2]);
-}
-
-// Of the features that a workgroup has gathered.
-NearFeature gathered_feature(uint i)
-{
-    return NearFeature(gathered_starts[i], vec3(gathered_ends[3 * i], gathered_ends[3 * i + 1], gathered_ends[3 * i + 2]),
-                       gathered_motion(6 * i), gathered_motion(6 * i + 3));
-}
-
-// Gathers the features of the `index`-th collider near the workgroup. All of its threads call it.
-Gathering gather(uint index, GroupBoxes boxes, uint c, FeatureSet set, bool deforms)
-{
-    if (index >= k_most_gatherings)
-        return Gathering(0, 0, true, true);
-    const uint first = index == 0 ? 0 : gatherings[index - 1].end;
-    Gathering result = Gathering(first, first, false, false);
-    if (all(lessThanEqual(boxes.sweep.min, boxes.sweep.max))) // else no vertex is near
-    {
-        gather_features(feature_tree(c, set, deforms), boxes);
-        result.crowded = first + found_count > k_most_gathered;
-        result.near = result.crowded || sweep_is_near != 0;
-        if (!result.crowded)
-        {
-            result.end += found_count;
-            sort_features(first, c, deforms);
-        }
-    }
-    if (gl_LocalInvocationID.x == 0)
-        gatherings[index] = result;
+    const uint thread = gl_LocalInvocationID.x;
+    const uint width = found_count > 1 ? 2u << findMSB(found_count - 1) : 1;
+    for (uint i = found_count + thread; i < width; i += gl_WorkGroupSize.x)
+        found_features[i] = VOILE_NO_VERTEX;
     barrier();
+    for (uint run = 2; run <= width; run *= 2)
+        for (uint apart = run / 2; apart > 0; apart /= 2)
+        {
+            for (uint pair = thread; pair < width / 2; pair += gl_WorkGroupSize.x)
+            {
+                const uint i = 2 * pair - (pair & (apart - 1));
+                const uvec2 features = uvec2(found_features[i], found_features[i + apart]);
+                const bool rising = (i & run) == 0;
+                if (rising == (features.x > features.y))
+                {
+                    found_features[i] = features.y;
+                    found_features[i + apart] = features.x;
+                }
+            }
+            barrier();
+        }
+}
+
+void load_feature(uint at, uint feature, NearFeature near)
+{
+    loaded[at] = feature;
+    loaded_starts[at] = near.a;
+    for (uint axis = 0; axis < 3; ++axis)
+    {
+        loaded_ends[3 * at + axis] = near.b[axis];
+        loaded_motions[6 * at + axis] = near.motion_a[axis];
+        loaded_motions[6 * at + 3 + axis] = near.motion_b[axis];
+    }
+}
+
+vec3 loaded_motion(uint first)
+{
+    return vec3(loaded_motions[first], loaded_motions[first + 1], loaded_motions[first + 2]);
+}
+
+NearFeature loaded_feature(uint i)
+{
+    return NearFeature(loaded_starts[i], vec3(loaded_ends[3 * i], loaded_ends[3 * i + 1], loaded_ends[3 * i + 2]),
+                       loaded_motion(6 * i), loaded_motion(6 * i + 3));
+}
+
+Box swept_box(NearFeature near)
+{
+    return grown(joined(box_around(near.a.xyz, near.b),
+                        box_around(near.a.xyz + near.motion_a, near.b + near.motion_b)), near.a.w);
+}
+
+void join_chunk(Box box)
+{
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        atomicMin(chunk_corners[axis], ordered(box.min[axis]));
+        atomicMax(chunk_corners[3 + axis], ordered(box.max[axis]));
+    }
+}
+
+Box chunk_box()
+{
+    Box result;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        result.min[axis] = from_ordered(chunk_corners[axis]);
+        result.max[axis] = from_ordered(chunk_corners[3 + axis]);
+    }
     return result;
+}
+
+// Loads features that were found, from the `rank`-th on. All threads of the workgroup call it.
+void load_chunk(Chunk chunk, FeatureTree tree, uint rank)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    if (!chunk.all)
+    {
+        barrier(); // all threads have read the chunk before
+        for (uint i = thread; i < 6; i += gl_WorkGroupSize.x)
+            chunk_corners[i] = ordered(i < 3 ? 3e38 : -3e38);
+        barrier();
+    }
+    for (uint i = chunk.first + thread; i < chunk.end; i += gl_WorkGroupSize.x)
+    {
+        const uint feature = found_features[rank + i - chunk.first];
+        const NearFeature near = near_feature(tree.collider, feature, tree.deforms);
+        load_feature(i, feature, near);
+        if (!chunk.all)
+            join_chunk(swept_box(near));
+    }
+    barrier();
+}
+
+// The features of a collider near a workgroup, a chunk after the other.
+struct Chunks
+{
+    uint rank;    // of the next chunk's first feature, in what was found
+    bool started;
+    bool ordered; // there are more than the list has room for
+    bool ended;
+};
+
+// Finds the next features. All threads of the workgroup call it.
+void find_features(inout Chunks chunks, FeatureTree tree, GroupBoxes boxes)
+{
+    bool starts = !chunks.started;
+    chunks.started = true;
+    if (!starts)
+    {
+        barrier(); // all threads have read the count
+        if (gl_LocalInvocationID.x == 0)
+            found_count = 0;
+        barrier();
+    }
+    for (;;)
+    {
+        if (starts)
+            start_traversal(tree, boxes);
+        traverse(tree, boxes, chunks.ordered);
+        if (found_count <= k_most_found)
+            break;
+        starts = chunks.ordered = true;
+    }
+    if (!chunks.ordered)
+        sort_found();
+}
+
+// The next chunk, which may be empty. If it has all features, it is at `first`. All threads of the workgroup call it.
+Chunk next_chunk(inout Chunks chunks, FeatureTree tree, GroupBoxes boxes, uint first)
+{
+    if (chunks.rank == 0)
+        find_features(chunks, tree, boxes);
+    Chunk chunk = Chunk(first, first + found_count, true);
+    if (chunk.end > k_most_loaded || chunks.ordered)
+        chunk = Chunk(0, min(found_count - chunks.rank, k_most_loaded), false);
+    load_chunk(chunk, tree, chunks.rank);
+    chunks.rank += chunk.end - chunk.first;
+    const bool empty = chunks.rank >= found_count;
+    chunks.ended = empty && (!chunks.ordered || node_count == 0);
+    chunks.rank = empty ? 0 : chunks.rank;
+    return chunk;
 }
 
 #endif

@@ -4,13 +4,15 @@
 // with few enough, and claims room for all of its vertices at once.
 //
 // The including kernel declares cells[], dispatch_size[] and push (NearFeaturesPush), and defines FeatureSearch, k_margins
-// and k_fractions before. It sets counts[], items_of_group, fewer_items and first_of_group to 0.
+// and k_fractions before. It sets counts[], items_of_group, fewer_items, fewest_items and
+// first_of_group to 0.
 #ifndef VOILE_FEATURE_ROOM_GLSL
 #define VOILE_FEATURE_ROOM_GLSL
 
 // Of the workgroup.
 shared uint items_of_group;
 shared uint fewer_items;                            // that the workgroup would have with fewer of each vertex
+shared uint fewest_items;                           // with the fewest
 shared uint first_of_group;                         // of the batch's items
 shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
 shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen; before, margins of vertices
@@ -23,6 +25,8 @@ uint most_items()
         return VOILE_MOST_FEATURE_ITEMS;
     if (dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER] <= push.items)
         return VOILE_FEWER_FEATURE_ITEMS;
+    if (dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWEST] <= push.items)
+        return VOILE_FEWEST_FEATURE_ITEMS;
     return push.items / (gl_NumWorkGroups.x / push.lanes * gl_WorkGroupSize.x);
 }
 
@@ -44,17 +48,20 @@ void claim_items()
     first_of_group = atomicAdd(dispatch_size[push.dispatch_word + word], items_of_group);
     const uint end = first_of_group + items_of_group;
     if (push.retries == 0)
+    {
         atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWER], fewer_items);
+        atomicAdd(dispatch_size[push.dispatch_word + VOILE_DISPATCH_FEWEST], fewest_items);
+    }
     if (end <= push.items)
         atomicMax(dispatch_size[push.dispatch_word], (end + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
     else
         atomicMax(dispatch_size[push.dispatch_word + VOILE_DISPATCH_RETRY], gl_NumWorkGroups.x);
 }
 
-// The number of items of a vertex with fewer.
-uint count_fewer(uint in_group)
+// The number of items of a vertex with `most` of them.
+uint count_with(uint in_group, uint most)
 {
-    const uint chosen = choose_margin(in_group, VOILE_FEWER_FEATURE_ITEMS);
+    const uint chosen = choose_margin(in_group, most);
     return chosen < k_margins ? counts[k_margins * in_group + chosen] : 0;
 }
 
@@ -76,7 +83,10 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     {
         cell_firsts[in_group] = atomicAdd(items_of_group, cell_count);
         if (countable && push.retries == 0)
-            atomicAdd(fewer_items, count_fewer(in_group));
+        {
+            atomicAdd(fewer_items, count_with(in_group, VOILE_FEWER_FEATURE_ITEMS));
+            atomicAdd(fewest_items, count_with(in_group, VOILE_FEWEST_FEATURE_ITEMS));
+        }
     }
     barrier();
     if (thread == 0)
@@ -91,7 +101,7 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     search.end = search.next + (room ? count : 0);
     if (lane == 0 && search.self.exists)
         cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
-                                               uint[4](0, 0, 0, 0));
+                                               uvec4[2](uvec4(0), uvec4(0)));
     return room && count > 0;
 }
 

@@ -5,7 +5,8 @@
 //
 // The threads of a workgroup gather the features near its vertices (feature_gathering.glsl). Several threads per vertex
 // (push.lanes) each take some of its pieces. They test them twice: first they count the features near them, for four
-// margins, then they write those within the widest margin with few enough. A vertex that has too many has none, and
+// margins, then they write those within the widest margin with few enough. The features stay in shared memory from one
+// test to the other, if they fit, and are gathered again, if not. A vertex that has too many has none, and
 // feature_contact.comp traverses the hierarchies instead.
 //
 // Which vertices get items depends on no order of workgroups. If there is no room for the items of all, the query is
@@ -64,6 +65,11 @@ const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 
 shared uint near_vertices; // of the workgroup
 
+// The features of the first colliders stay loaded, if those of all fit.
+const uint k_most_kept = 8;
+shared uint kept_ends[k_most_kept]; // of their chunks, which follow each other
+shared uint keeps;                  // 0: they do not
+
 // Each patch has as many workgroups as vertices have lanes.
 uint patch_of_group() { return push.first_patch + gl_WorkGroupID.x / push.lanes; }
 
@@ -97,7 +103,7 @@ struct FeatureSearch
     float margin;       // m
     bool writes;
     uvec4 counts;       // within each margin
-    uint near;          // one bit per gathering that has a feature which may touch a triangle around the vertex
+    uint near;          // one bit per collider that has a feature which may touch a triangle around the vertex
     uint next;          // item to write
     uint end;
 };
@@ -200,34 +206,7 @@ bool find_piece(PatchVertex self, uint i, out PieceKind piece)
     return true;
 }
 
-// Gathers the features of collider c near the workgroup. All of its threads take part, those without a vertex, too.
-Gathering gather_near(inout FeatureSearch search, bool exists, uint c, uint lane, uint index)
-{
-    const bool deforms = is_deforming(colliders[c].flags);
-    GroupBoxes own;
-    if (exists)
-    {
-        const Surrounding around = surrounding(search.self, c, colliders[c].flags);
-        const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
-        const float reach = max(search.widest, max(around.longest, sudden_reach()));
-        own.pieces =
-            grown(deforms ? joined(around.box, around.later) : around.cell, radius + search.widest);
-        own.sweep = grown(joined(around.box, around.later), radius + reach);
-        exists = overlap(own.sweep, feature_box(c));
-    }
-    const Gathering gathering = gather(index, joined_of_group(exists && lane == 0, own), c, feature_sets[c], deforms);
-    if (exists && gathering.near)
-        search.near |= 1u << min(index, 31);
-    return gathering;
-}
-
 Box box_of(Triangle t) { return joined(box_around(t.a, t.b), Box(t.c, t.c)); }
-
-Box swept_box(NearFeature near)
-{
-    return grown(joined(box_around(near.a.xyz, near.b),
-                        box_around(near.a.xyz + near.motion_a, near.b + near.motion_b)), near.a.w);
-}
 
 // Notes how the vertices of the piece are expected to move until the next query. Returns where they end.
 Box expect_motion(inout FeatureSearch search, uint c, uvec3 vertices)
@@ -258,24 +237,94 @@ bool select_piece(inout FeatureSearch search, Space space, uint i)
     return true;
 }
 
-#include "contact/feature_traversal.glsl"
+// Where the pieces of a vertex are, and whether they may touch features of the collider.
+struct Whereabouts
+{
+    GroupBoxes boxes;
+    bool near;
+};
 
-// Finds the features of a collider near the pieces of this lane. All threads of the workgroup call it; those that are not
-// `near` find none.
-void search_pieces(inout FeatureSearch search, bool near, uint c, uint lane, Gathering gathering)
+Whereabouts whereabouts_of(FeatureSearch search, bool exists, uint c)
+{
+    Whereabouts result;
+    result.near = false;
+    if (!exists)
+        return result;
+    const Surrounding around = surrounding(search.self, c, colliders[c].flags);
+    const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
+    const float reach = max(search.widest, max(around.longest, sudden_reach()));
+    result.boxes.pieces = grown(search.deforms ? joined(around.box, around.later) : around.cell, radius + search.widest);
+    result.boxes.sweep = grown(joined(around.box, around.later), radius + reach);
+    result.near = overlap(result.boxes.sweep, feature_box(c));
+    return result;
+}
+
+// Finds the features of a chunk near the pieces of this lane.
+void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lane, uint count)
+{
+    for (uint i = lane; i < count; i += push.lanes)
+    {
+        if (!select_piece(search, space, i))
+            continue;
+        for (uint f = chunk.first; f < chunk.end; ++f)
+        {
+            const NearFeature near = loaded_feature(f);
+            if (overlap(search.box, swept_box(near)))
+                visit_feature(search, loaded[f], near);
+        }
+    }
+}
+
+// Notes that the features of the `index`-th collider stay loaded, or that there is no room for those of all.
+void keep(Chunk chunk, uint index)
+{
+    if (gl_LocalInvocationID.x != 0)
+        return;
+    if (chunk.all && index < k_most_kept)
+        kept_ends[index] = chunk.end;
+    else
+        keeps = 0;
+}
+
+// Where the features of the `index`-th collider begin.
+uint first_kept(uint index) { return keeps == 0 || index == 0 ? 0 : kept_ends[min(index, k_most_kept) - 1]; }
+
+// Finds the features of the `index`-th collider near the pieces of this lane. All threads of the workgroup call it.
+void search_collider(inout FeatureSearch search, bool searches, uint c, uint lane, uint index)
 {
     const Space space = space_at(c, push.progress_from);
     search.collider = c;
     search.deforms = is_deforming(space.flags);
+    const bool kept = search.writes && keeps != 0;
     const FeatureTree tree = feature_tree(c, feature_sets[c], search.deforms);
-    const uint count = near ? piece_count(search.self) : 0;
-    if (gathering.crowded && TOGETHER != 0)
-        traverse_together(search, tree, space, lane, count);
+    Whereabouts own;
+    GroupBoxes boxes;
+    if (!kept)
+    {
+        own = whereabouts_of(search, searches, c);
+        boxes = joined_of_group(own.near && lane == 0, own.boxes);
+        if (gl_LocalInvocationID.x == 0)
+            sweep_is_near = 0;
+    }
     else
-        for (uint i = lane; i < count; i += push.lanes)
-            if (select_piece(search, space, i))
-                visit_features(search, tree, gathering);
-    if (!near || lane > 0)
+        own.near = searches && (search.near & 1u << index) != 0;
+    const uint first = first_kept(index);
+    Chunk chunk = Chunk(first, kept ? kept_ends[index] : first, true);
+    const bool far = !kept && any(greaterThan(boxes.sweep.min, boxes.sweep.max)); // no vertex is near
+    Chunks chunks = Chunks(0, false, false, kept || far);
+    do
+    {
+        if (!chunks.ended)
+            chunk = next_chunk(chunks, tree, boxes, first);
+        const bool reaches = own.near && (chunk.all || overlap(own.boxes.pieces, chunk_box()));
+        search_chunk(search, chunk, space, lane, reaches ? piece_count(search.self) : 0);
+    } while (!chunks.ended);
+    if (!search.writes)
+        keep(chunk, index);
+    if (!kept)
+        own.near = own.near && sweep_is_near != 0;
+    search.near |= own.near ? 1u << min(index, 31) : 0;
+    if (!own.near || lane > 0)
         return;
     search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
     add_item(search, floatBitsToUint(search.margin), 0);
@@ -287,19 +336,10 @@ void search_colliders(inout FeatureSearch search, bool searches, Box walked, uin
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
     uint position = 0;
-    uint index = 0; // of the colliders that are gathered
+    uint index = 0; // of the colliders that are reached
     while (next_collider(walk, c))
-    {
-        if (!may_touch(c, search.self) || !is_reached(position++))
-            continue;
-        Gathering gathering = Gathering(0, 0, true, true);
-        if (!search.writes)
-            gathering = gather_near(search, searches, c, lane, index);
-        else if (index < k_most_gatherings)
-            gathering = gatherings[index];
-        search_pieces(search, searches && (search.near & 1u << min(index, 31)) != 0, c, lane, gathering);
-        ++index;
-    }
+        if (may_touch(c, search.self) && is_reached(position++))
+            search_collider(search, searches, c, lane, index++);
 }
 
 // The box that the workgroup walks over colliders with. All of its threads call it.
@@ -341,10 +381,11 @@ void main()
     for (uint i = thread; i < k_most_separations; i += gl_WorkGroupSize.x)
         separations[i] = ordered(3e38);
     lane_counts[thread] = 0;
-    for (uint i = thread; i < turns.length(); i += gl_WorkGroupSize.x)
-        turns[i] = 0;
     if (thread == 0)
-        near_vertices = reaching_vertices = widest_margin = items_of_group = fewer_items = first_of_group = 0;
+    {
+        near_vertices = reaching_vertices = widest_margin = items_of_group = fewer_items = fewest_items = first_of_group = 0;
+        keeps = 1;
+    }
 
     FeatureSearch search;
     search.self = vertex_of_group(in_group);

@@ -212,7 +212,7 @@ void test_piece(uint item, uint kind, uint k, uvec3 vertices)
         FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach, in_cell_portions,
                         plane.plane, motion.carried, collider_index, motion.turned, cell_vertices(k));
     const uint in_cell = item - cells[self.vertex.index].first;
-    atomicOr(cells[self.vertex.index].touched[2 * (push.pass & 1) + in_cell / 32], 1u << in_cell % 32);
+    atomicOr(cells[self.vertex.index].touched[push.pass & 1][in_cell / 32], 1u << in_cell % 32);
 }
 
 uint count_items()

@@ -16,8 +16,7 @@
     VOILE_CONSTANT(6, from_leaves)                                                                                     \
     VOILE_CONSTANT(7, pairs)                                                                                           \
     VOILE_CONSTANT(8, force_threads)                                                                                   \
-    VOILE_CONSTANT(9, force_parts)                                                                                     \
-    VOILE_CONSTANT(10, together)
+    VOILE_CONSTANT(9, force_parts)
 
 #ifdef __cplusplus
 

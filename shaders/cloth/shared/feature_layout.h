@@ -9,12 +9,13 @@
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
 // The mean number of items per vertex that there is room for, and the number of all vertices beyond that. The largest
-// number of one vertex, and that of a second query where those of the first are more than there is room for. Where that
-// is not enough, either, all vertices get the same.
+// number of one vertex, and those of a second query where the items of the first are more than there is room for. Where
+// that is not enough, either, all vertices get the same.
 #define VOILE_FEATURE_ITEMS 8
 #define VOILE_MORE_FEATURE_ITEMS 65536
-#define VOILE_MOST_FEATURE_ITEMS 64
-#define VOILE_FEWER_FEATURE_ITEMS 24
+#define VOILE_MOST_FEATURE_ITEMS 128
+#define VOILE_FEWER_FEATURE_ITEMS 64
+#define VOILE_FEWEST_FEATURE_ITEMS 24
 // The kind of a piece in an item.
 #define VOILE_PIECE_TRIANGLE 0
 #define VOILE_PIECE_EDGE_B 1
@@ -24,13 +25,14 @@
 #define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
 // Of a batch: the size of the dispatch over items, and how many there would be with fewer items of a vertex; the size
 // of that over patches near features, and the number of items; the size of a second query if there is no room for them,
-// and the number of its items.
-#define VOILE_FEATURE_DISPATCH_WORDS 12
+// and the number of its items; how many there would be with the fewest of a vertex.
+#define VOILE_FEATURE_DISPATCH_WORDS 13
 #define VOILE_DISPATCH_FEWER 3
 #define VOILE_DISPATCH_PATCHES 4
 #define VOILE_DISPATCH_CLAIMED 7
 #define VOILE_DISPATCH_RETRY 8
 #define VOILE_DISPATCH_RETRY_CLAIMED 11
+#define VOILE_DISPATCH_FEWEST 12
 // In a slot of a deforming mesh: its first feature, and how many there are in the lowest bits.
 #define VOILE_SLOT_FEATURE_BITS 3
 // Instead of the cosine of a facing: the mesh is too flat there for a feature.
@@ -155,7 +157,7 @@ struct FeatureCell
     uint count;
     uint invalid;    // the last substep in which features may be near that are not among them
     uint guarded;    // the last substep in which an item had a plane (FeatureGuard)
-    uint touched[4]; // one bit per item that is in contact: two words for even passes, two for odd ones
+    uvec4 touched[2]; // one bit per item that is in contact, for even and for odd passes
 };
 
 // The contact of a feature with a piece of cloth, or a plane that a piece of cloth may not cross.

@@ -46,7 +46,7 @@ Result<void> check_replacements(const SolverOptions& options)
     return {};
 }
 
-std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options, VkPhysicalDeviceType device)
+std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
 {
     const uint32_t group = options.tuning.workgroup_size;
     const auto method = static_cast<uint32_t>(options.tuning.contact_method);
@@ -119,10 +119,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     const auto add_features = [&](gpu::Kernel& near, gpu::Kernel& test, gpu::Kernel& contact, uint32_t move)
     {
         const Specialization with{.workgroup_size = group, .interleaved = interleaved, .colliders_move = move};
-        Specialization traversing = with;
-        const bool alone = device == VK_PHYSICAL_DEVICE_TYPE_CPU && options.tuning.feature_threads == 1;
-        traversing.together = alone ? 0 : 1; // see feature_traversal.glsl
-        add(near, "cloth near features", shaders::k_find_near_features_comp, traversing);
+        add(near, "cloth near features", shaders::k_find_near_features_comp, with);
         add(test, "cloth feature tests", shaders::k_test_features_comp, with);
         add(contact, "cloth feature contact", shaders::k_feature_contact_comp, with);
     };
@@ -177,7 +174,7 @@ uint32_t most_storage_buffers()
 {
     Kernels none;
     ptrdiff_t most = 0;
-    for (const Request& request : requests_of(none, {.intersections = true}, VK_PHYSICAL_DEVICE_TYPE_OTHER))
+    for (const Request& request : requests_of(none, {.intersections = true}))
         if (const auto shader = gpu::reflect(request.description))
             most = std::max(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
@@ -186,7 +183,7 @@ uint32_t most_storage_buffers()
 Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
 {
     Kernels none;
-    for (const Request& request : requests_of(none, options, VK_PHYSICAL_DEVICE_TYPE_OTHER))
+    for (const Request& request : requests_of(none, options))
         if (auto within = gpu::check_limits(limits, request.description); !within)
             return within;
     return {};
@@ -199,7 +196,7 @@ Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions&
     if (auto within = check_limits(context.limits, options); !within) // before any is compiled
         return within.error();
     Kernels kernels;
-    if (auto created = create(context, requests_of(kernels, options, context.device_type)); !created)
+    if (auto created = create(context, requests_of(kernels, options)); !created)
         return created.error();
     auto refit = create_refit_kernels(context, k_refit_workgroup, code_of(shaders::k_refit_comp, options));
     if (!refit)

@@ -198,7 +198,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
     uint32_t lanes = solver_.options.tuning.feature_threads;
     while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
         lanes /= 2;
-    const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0};
+    const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0};
     write_dispatches(recorder_, device_[buffer::feature_dispatch].handle(), word * sizeof(uint32_t),
                      std::as_bytes(std::span(none)));
     const uint32_t next = std::min(substep + list_period_, substeps_);
