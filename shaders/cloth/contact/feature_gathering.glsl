@@ -11,19 +11,18 @@
 // parts, and a node is visited if it is near one of these.
 //
 // The including kernel declares bvh_nodes[], features[], feature_slots[], padded_boxes[] and push (NearFeaturesPush), and
-// includes box.glsl, padded_box.glsl and near_feature.glsl before.
+// includes box.glsl, padded_box.glsl and near_feature.glsl before. It declares scratch[], where the list is, and its
+// length, k_most_found.
 #ifndef VOILE_FEATURE_GATHERING_GLSL
 #define VOILE_FEATURE_GATHERING_GLSL
 
 #include "shared/ordered.glsl"
 
-const uint k_most_found = 512;  // features, in a list
-const uint k_most_loaded = 160; // in shared memory with their positions
-const uint k_most_nodes = 256;  // that wait to be visited
+const uint k_most_loaded = 196;  // features, in shared memory with their positions
+const uint k_most_nodes = 256;   // that wait to be visited
 const uint k_ordered_nodes = 16; // visited at a time in order
-const uint k_most_left = 14;    // features that a node leaves: 4 of each leaf, 7 of each slot
-const uint k_most_gatherings = 8; // colliders
-const uint k_parts = 16;          // of the workgroup's vertices, each with boxes of its own
+const uint k_most_left = 14;     // features that a node leaves: 4 of each leaf, 7 of each slot
+const uint k_parts = 16;         // of the workgroup's vertices, each with boxes of its own
 
 // Features of a collider that are in shared memory.
 struct Chunk
@@ -33,14 +32,13 @@ struct Chunk
     bool all; // that are near; else they have a box
 };
 
-shared uint loaded[k_most_loaded]; // in the order of the features, collider by collider
+shared uint loaded[k_most_loaded];              // in the order of the features, collider by collider
 shared vec4 loaded_starts[k_most_loaded];       // a, radius
 shared float loaded_ends[3 * k_most_loaded];    // b
 shared float loaded_motions[6 * k_most_loaded]; // of a and of b until the next query, in the collider's space
-shared uint found_features[k_most_found];
-shared uint found_count;                        // may be more
+shared uint found_count;                        // of the list, or more
 shared uvec2 left_counts[k_ordered_nodes];      // nodes and features that each of the visited nodes leaves
-shared uint nodes[k_most_nodes]; // that wait, a stack
+shared uint nodes[k_most_nodes];                // that wait, a stack
 shared uint node_count;
 shared uint sweep_is_near;
 shared uint corners[12 * (k_parts + 1)]; // minima and maxima of the two boxes of each part, at the end of all; as floats
@@ -231,7 +229,7 @@ void write_left(Visit visit, uvec2 at)
         nodes[at.x + i] = visit.nodes[i];
     for (uint i = 0; i < 2; ++i)
         for (uint bits = visit.bits[i]; bits != 0 && at.y < k_most_found; bits &= bits - 1)
-            found_features[at.y++] = visit.firsts[i] + findLSB(bits);
+            scratch[at.y++] = visit.firsts[i] + findLSB(bits);
 }
 
 // The root is visited here. That of a tree of one triangle is its leaf. All threads of the workgroup call it.
@@ -308,7 +306,7 @@ void sort_found()
     const uint thread = gl_LocalInvocationID.x;
     const uint width = found_count > 1 ? 2u << findMSB(found_count - 1) : 1;
     for (uint i = found_count + thread; i < width; i += gl_WorkGroupSize.x)
-        found_features[i] = VOILE_NO_VERTEX;
+        scratch[i] = VOILE_NO_VERTEX;
     barrier();
     for (uint run = 2; run <= width; run *= 2)
         for (uint apart = run / 2; apart > 0; apart /= 2)
@@ -316,12 +314,12 @@ void sort_found()
             for (uint pair = thread; pair < width / 2; pair += gl_WorkGroupSize.x)
             {
                 const uint i = 2 * pair - (pair & (apart - 1));
-                const uvec2 features = uvec2(found_features[i], found_features[i + apart]);
+                const uvec2 features = uvec2(scratch[i], scratch[i + apart]);
                 const bool rising = (i & run) == 0;
                 if (rising == (features.x > features.y))
                 {
-                    found_features[i] = features.y;
-                    found_features[i + apart] = features.x;
+                    scratch[i] = features.y;
+                    scratch[i + apart] = features.x;
                 }
             }
             barrier();
@@ -390,7 +388,7 @@ void load_chunk(Chunk chunk, FeatureTree tree, uint rank)
     }
     for (uint i = chunk.first + thread; i < chunk.end; i += gl_WorkGroupSize.x)
     {
-        const uint feature = found_features[rank + i - chunk.first];
+        const uint feature = scratch[rank + i - chunk.first];
         const NearFeature near = near_feature(tree.collider, feature, tree.deforms);
         load_feature(i, feature, near);
         if (!chunk.all)

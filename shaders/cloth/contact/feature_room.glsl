@@ -4,8 +4,8 @@
 // with few enough, and claims room for all of its vertices at once.
 //
 // The including kernel declares cells[], dispatch_size[] and push (NearFeaturesPush), and defines FeatureSearch, k_margins
-// and k_fractions before. It sets counts[], items_of_group, fewer_items, fewest_items and
-// first_of_group to 0.
+// and k_fractions before, and scratch[] with k_margins elements per thread at least. It sets items_of_group, fewer_items,
+// fewest_items and first_of_group to 0.
 #ifndef VOILE_FEATURE_ROOM_GLSL
 #define VOILE_FEATURE_ROOM_GLSL
 
@@ -14,7 +14,6 @@ shared uint items_of_group;
 shared uint fewer_items;                            // that the workgroup would have with fewer of each vertex
 shared uint fewest_items;                           // with the fewest
 shared uint first_of_group;                         // of the batch's items
-shared uint counts[k_margins * gl_WorkGroupSize.x]; // of items of each vertex
 shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen; before, margins of vertices
 shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
 
@@ -34,7 +33,7 @@ uint most_items()
 uint choose_margin(uint in_group, uint most)
 {
     for (uint i = 0; i < k_margins; ++i)
-        if (counts[k_margins * in_group + i] <= most)
+        if (scratch[k_margins * in_group + i] <= most)
             return i;
     return k_margins;
 }
@@ -62,21 +61,25 @@ void claim_items()
 uint count_with(uint in_group, uint most)
 {
     const uint chosen = choose_margin(in_group, most);
-    return chosen < k_margins ? counts[k_margins * in_group + chosen] : 0;
+    return chosen < k_margins ? scratch[k_margins * in_group + chosen] : 0;
 }
 
 // Chooses the margin of a vertex and claims room for its items. False: it has none.
 bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_group)
 {
     const uint thread = gl_LocalInvocationID.x;
+    barrier(); // all threads have read the features there
     for (uint i = 0; i < k_margins; ++i)
-        atomicAdd(counts[k_margins * in_group + i], search.counts[i]);
+        scratch[k_margins * thread + i] = 0;
+    barrier();
+    for (uint i = 0; i < k_margins; ++i)
+        atomicAdd(scratch[k_margins * in_group + i], search.counts[i]);
     barrier();
     const uint chosen = choose_margin(in_group, most_items());
     const bool fits = countable && chosen < k_margins;
     const uint of_margin = min(chosen, k_margins - 1);
     const uint count = fits ? search.counts[of_margin] : 0;
-    const uint cell_count = fits ? counts[k_margins * in_group + of_margin] : 0;
+    const uint cell_count = fits ? scratch[k_margins * in_group + of_margin] : 0;
     search.margin *= k_fractions[of_margin];
     lane_counts[thread] = count;
     if (lane == 0)

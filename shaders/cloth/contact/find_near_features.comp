@@ -172,6 +172,10 @@ void visit_feature(inout FeatureSearch search, uint f, NearFeature near)
     add_item(search, f, excess > 0 ? excess : 0); // also if it is not a number
 }
 
+const uint k_most_found = 512; // features, in a list
+// The features of a list, and, after all lists, the items of each vertex within each margin.
+shared uint scratch[k_most_found > k_margins * gl_WorkGroupSize.x ? k_most_found : k_margins * gl_WorkGroupSize.x];
+
 #include "colliders/padded_box.glsl"
 #include "contact/feature_gathering.glsl"
 #include "contact/feature_room.glsl"
@@ -376,8 +380,6 @@ void main()
     const uint in_group = thread / push.lanes;
     if ((patches[patch_of_group()].tile & VOILE_PATCH_ASLEEP) != 0)
         return;
-    for (uint i = 0; i < k_margins; ++i)
-        counts[k_margins * thread + i] = 0;
     for (uint i = thread; i < k_most_separations; i += gl_WorkGroupSize.x)
         separations[i] = ordered(3e38);
     lane_counts[thread] = 0;
