@@ -219,6 +219,12 @@ float farthest(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
     return result;
 }
 
+std::string refused(const voile::Tuning& tuning)
+{
+    const auto solver = voile::Solver::create(tests::device().context().handles, {.tuning = tuning});
+    return solver ? "accepted" : solver.error().message;
+}
+
 } // namespace
 
 TEST_CASE("edges of a collider hold cloth equally for any number of feature threads")
@@ -226,10 +232,13 @@ TEST_CASE("edges of a collider hold cloth equally for any number of feature thre
     for (const bool mesh : {false, true})
     {
         CAPTURE(mesh);
-        const std::vector<glm::vec4> usual = fall_on_walls(mesh, {.tuning = {.feature_threads = 1}});
+        const std::vector<glm::vec4> usual =
+            fall_on_walls(mesh, {.tuning = {.feature_threads = 1, .listing_threads = 1}});
         CHECK(farthest(usual, fall_on_walls(mesh, {.feature_contact = false})) > 0.01f); // it would have gone on
-        for (const voile::Tuning& tuning : {voile::Tuning{.workgroup_size = 128, .feature_threads = 8},
-                                            voile::Tuning{.workgroup_size = 64, .feature_threads = 64}})
+        for (const voile::Tuning& tuning :
+             {voile::Tuning{.workgroup_size = 128, .feature_threads = 8, .listing_threads = 8},
+              voile::Tuning{.workgroup_size = 128, .feature_threads = 1, .listing_threads = 4},
+              voile::Tuning{.workgroup_size = 64, .feature_threads = 64, .listing_threads = 64}})
         {
             CAPTURE(tuning.workgroup_size);
             CAPTURE(tuning.feature_threads);
@@ -247,8 +256,10 @@ TEST_CASE("edges of a collider hold cloth equally whether the features near it a
         {
             CAPTURE(mesh);
             CAPTURE(fall);
-            const auto fall_with = [&](uint32_t items)
-            { return fall_on_walls(mesh, {.tuning = {.feature_threads = 1, .feature_items = items}}, fall); };
+            const auto fall_with = [&](uint32_t items) {
+                return fall_on_walls(
+                    mesh, {.tuning = {.feature_threads = 1, .listing_threads = 1, .feature_items = items}}, fall);
+            };
             const std::vector<glm::vec4> listed = fall_with(8);
             CHECK(farthest(listed, fall_with(0)) < 5e-6f); // every vertex traverses; measured: 1.5e-6
             CHECK(farthest(listed, fall_with(1)) < 5e-6f); // some do
@@ -259,8 +270,10 @@ TEST_CASE("edges of a collider hold cloth equally whether a workgroup has room f
 {
     const auto check = [](const std::vector<voile::engine::Mesh>& colliders)
     {
-        const auto fall_with = [&](uint32_t items)
-        { return fall_on(colliders, false, {.tuning = {.feature_threads = 1, .feature_items = items}}); };
+        const auto fall_with = [&](uint32_t items) {
+            return fall_on(colliders, false,
+                           {.tuning = {.feature_threads = 1, .listing_threads = 1, .feature_items = items}});
+        };
         const std::vector<glm::vec4> listed = fall_with(8);
         CHECK(farthest(listed, fall_on(colliders, false, {.feature_contact = false})) > 0.01f);
         CHECK(farthest(listed, fall_with(0)) < 5e-5f); // measured: 3e-5 with many colliders, 0 with a dense one
@@ -285,7 +298,11 @@ TEST_CASE("each vertex of a workgroup finds the features that are near no other 
     {
         CAPTURE(threads);
         const auto fall_with = [&](uint32_t items)
-        { return fall_on(needles(), false, {.tuning = {.feature_threads = threads, .feature_items = items}}); };
+        {
+            return fall_on(
+                needles(), false,
+                {.tuning = {.feature_threads = threads, .listing_threads = threads, .feature_items = items}});
+        };
         const std::vector<glm::vec4> listed = fall_with(8);
         CHECK(farthest(listed, fall_on(needles(), false, {.feature_contact = false})) > 0.01f);
         CHECK(farthest(listed, fall_with(0)) < 5e-6f); // measured: 2e-6 with 8 threads
@@ -338,11 +355,6 @@ TEST_CASE("few vertices of coarse cloth on a dense mesh have room for all featur
 
 TEST_CASE("tuning outside of its range and invalid enumerators are refused")
 {
-    const auto refused = [](const voile::Tuning& tuning)
-    {
-        const auto solver = voile::Solver::create(tests::device().context().handles, {.tuning = tuning});
-        return solver ? "accepted" : solver.error().message;
-    };
     CHECK(refused({.contact_method = static_cast<voile::ContactMethod>(5)}) ==
           "Tuning: contact_method is 5, must be normal_ray or nearest_point");
     CHECK(refused({.mesh_layout = static_cast<voile::MeshLayout>(2)}) ==
@@ -354,15 +366,14 @@ TEST_CASE("tuning outside of its range and invalid enumerators are refused")
           "Tuning: contact_interval is -1.000000 s, must be at least 0 and finite");
 }
 
-TEST_CASE("feature threads are a power of two of at most the workgroup size")
+TEST_CASE("threads per vertex are a power of two of at most the workgroup size")
 {
     for (const uint32_t threads : {3u, 128u})
     {
-        const auto solver = voile::Solver::create(tests::device().context().handles,
-                                                  {.tuning = {.workgroup_size = 64, .feature_threads = threads}});
-        REQUIRE(!solver);
-        CHECK(solver.error().message == "Tuning: feature_threads is " + std::to_string(threads) +
-                                            ", must be 0 or a power of two up to workgroup_size");
+        const std::string rule =
+            " is " + std::to_string(threads) + ", must be 0 or a power of two up to workgroup_size";
+        CHECK(refused({.workgroup_size = 64, .feature_threads = threads}) == "Tuning: feature_threads" + rule);
+        CHECK(refused({.workgroup_size = 64, .listing_threads = threads}) == "Tuning: listing_threads" + rule);
     }
 }
 

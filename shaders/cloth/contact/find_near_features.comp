@@ -263,12 +263,14 @@ Whereabouts whereabouts_of(FeatureSearch search, bool exists, uint c)
     return result;
 }
 
-// Finds the features of a chunk near the pieces of this lane.
+// Finds the features of a chunk near the pieces of this lane. Lanes have pieces that follow each other, so that the order of
+// a vertex's items depends on no number of lanes.
 void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lane, uint count)
 {
-    for (uint i = lane; i < count; i += push.lanes)
+    const uint end = (lane + 1) * count / push.lanes;
+    for (uint i = lane * count / push.lanes; i < end; ++i)
     {
-        if (!select_piece(search, space, i))
+        if (!select_piece(search, space, i) || !(chunk.all || overlap(search.box, chunk_box())))
             continue;
         for (uint f = chunk.first; f < chunk.end; ++f)
         {
@@ -320,8 +322,7 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
     {
         if (!chunks.ended)
             chunk = next_chunk(chunks, tree, boxes, first);
-        const bool reaches = own.near && (chunk.all || overlap(own.boxes.pieces, chunk_box()));
-        search_chunk(search, chunk, space, lane, reaches ? piece_count(search.self) : 0);
+        search_chunk(search, chunk, space, lane, own.near ? piece_count(search.self) : 0);
     } while (!chunks.ended);
     if (!search.writes)
         keep(chunk, index);

@@ -20,13 +20,12 @@ namespace
 {
 
 // CPU devices have few, narrow subgroups. There several threads per vertex only repeat the work that they have in
-// common.
-uint32_t feature_threads(const gpu::Context& context, const SolverOptions& options)
+// common. When features are listed they save some: the fewer vertices a workgroup has, the fewer features are near.
+uint32_t threads_per_vertex(const gpu::Context& context, const Tuning& tuning, uint32_t wanted, uint32_t on_cpus)
 {
     constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
-    if (options.tuning.feature_threads > 0)
-        return options.tuning.feature_threads;
-    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : std::min(k_many, options.tuning.workgroup_size);
+    const bool is_cpu = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    return wanted > 0 ? wanted : std::min(is_cpu ? on_cpus : k_many, tuning.workgroup_size);
 }
 
 // Measured: bench/NOTES.md, "Forces that threads share".
@@ -118,10 +117,11 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     if (options.tuning.pair_capacity < 1 || options.tuning.pair_capacity > VOILE_PAIRS)
         return Error{"Tuning: pair_capacity is " + std::to_string(options.tuning.pair_capacity) + ", not from 1 to " +
                      std::to_string(VOILE_PAIRS)};
-    if (options.tuning.feature_threads > 0 && (!std::has_single_bit(options.tuning.feature_threads) ||
-                                               options.tuning.feature_threads > options.tuning.workgroup_size))
-        return Error{"Tuning: feature_threads is " + std::to_string(options.tuning.feature_threads) +
-                     ", must be 0 or a power of two up to workgroup_size"};
+    for (const auto& [name, threads] : {std::pair("feature_threads", options.tuning.feature_threads),
+                                        std::pair("listing_threads", options.tuning.listing_threads)})
+        if (threads > 0 && (!std::has_single_bit(threads) || threads > options.tuning.workgroup_size))
+            return Error{"Tuning: " + std::string(name) + " is " + std::to_string(threads) +
+                         ", must be 0 or a power of two up to workgroup_size"};
     if (auto method = check_enumerator("Tuning", "contact_method", static_cast<int>(options.tuning.contact_method),
                                        {"normal_ray", "nearest_point"});
         !method)
@@ -132,7 +132,10 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
         return layout.error();
     SolverOptions with = options;
     with.tuning.sharing_vertices = sharing_vertices(context.value(), options);
-    with.tuning.feature_threads = feature_threads(context.value(), options);
+    with.tuning.feature_threads =
+        threads_per_vertex(context.value(), options.tuning, options.tuning.feature_threads, 1);
+    with.tuning.listing_threads =
+        threads_per_vertex(context.value(), options.tuning, options.tuning.listing_threads, 4);
     with.tuning.dispatch_vertices = dispatch_vertices(context.value(), options);
     const JobScope scope(options.jobs);
     auto kernels = create_kernels(context.value(), with);

@@ -195,7 +195,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
 {
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     // Each patch has that many workgroups.
-    uint32_t lanes = solver_.options.tuning.feature_threads;
+    uint32_t lanes = solver_.options.tuning.listing_threads;
     while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
         lanes /= 2;
     const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0};
