@@ -8,7 +8,8 @@
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It is valid
-// until the end of that step. So is the list of a deforming mesh, whose boxes cover the whole step.
+// until the end of that step. The list of a deforming mesh has what its triangles come near to until lists are refreshed
+// next, and is valid until then.
 // The including kernel declares candidate_centers[], candidate_triangles[], patch_of_group() and what mesh_query.glsl
 // expects, and includes near_colliders.glsl before.
 #ifndef VOILE_CONTACT_CANDIDATES_GLSL
@@ -19,6 +20,8 @@
 
 // The margin of a vertex at rest, as a fraction of the thickness.
 const float k_candidate_margin = 0.5;
+// Of a vertex near a mesh that deforms, over the way that it goes until lists are refreshed.
+const float k_deforming_ahead = 1.25;
 // The query radius of contact over the thickness. Vertices that may touch a surface before the next pass get its plane.
 const float k_plane_radius = 1.02;
 // That of a list over the query radius: room for the rounding of distances.
@@ -51,6 +54,7 @@ struct Candidates
     float max_radius; // m, the largest radius
     float min_radius;  // m, the least radius
     float made;   // progress of the step when the list was made; < 0: in an earlier step
+    bool recent;  // made since lists were refreshed last
     bool fresh;   // made in this pass
     bool needed;  // by a mesh near the vertex, in this pass
     // Of the mesh that is being traversed to collect.
@@ -109,7 +113,7 @@ void shrink_ball(inout Candidates list)
     }
 }
 
-// m, from the query center. For a triangle that deforms a lower bound over the whole step: the triangle is never
+// m, from the query center. For a triangle that deforms a lower bound until lists are refreshed: the triangle is never
 // farther from its halfway position than half of its corners' longest displacement.
 float triangle_distance(Candidates list, uint triangle)
 {
@@ -118,7 +122,7 @@ float triangle_distance(Candidates list, uint triangle)
         const BvhTriangle t = bvh_triangles[triangle];
         return distance(list.local_center, nearest_on_triangle(list.local_center, t.a, t.b, t.c));
     }
-    const MovingTriangle t = moving_triangle(triangle, list.first_corner, vec2(0, 1));
+    const MovingTriangle t = moving_triangle(triangle, list.first_corner, vec2(push.progress_from, push.progress_next));
     const float longest = max(max(distance(t.start.a, t.end.a), distance(t.start.b, t.end.b)), distance(t.start.c, t.end.c));
     const vec3 nearest = nearest_on_triangle(list.local_center, 0.5 * (t.start.a + t.end.a), 0.5 * (t.start.b + t.end.b),
                                              0.5 * (t.start.c + t.end.c));
@@ -170,7 +174,7 @@ vec3 local_query_center(Candidates list, uint c, uint flags)
 // its end. The path is in the space of collider c.
 float needed_radius(Candidates list, uint c, uint flags, Path path)
 {
-    if (list.made < 0 && (is_moved(flags) || is_deforming(flags)))
+    if ((is_moved(flags) && list.made < 0) || (is_deforming(flags) && !list.recent))
         return 3e38;
     const vec3 center = local_query_center(list, c, flags);
     return max(distance(center, path.from), distance(center, path.to) + path.radius);
@@ -238,6 +242,7 @@ Candidates load_candidates(uint vertex)
     list.radius = ball.w;
     list.made = made < step_input.first_substep ? -1
                                           : min(float(made - step_input.first_substep + 1) * push.progress_per_substep, 1);
+    list.recent = made >= counted_substep(push.listed);
     list.fresh = false;
     list.needed = false;
     return list;
@@ -252,20 +257,24 @@ float query_radius(float thickness)
 // m: the least radius of a list around a vertex that does not move.
 float listed_radius(float thickness) { return k_list_radius * query_radius(thickness) + rounding(vec3(push.mesh_extent)); }
 
-// m: how far the vertex may get relative to a mesh until lists are refreshed again, with as much to spare.
-float distance_ahead(float path) { return 2 * path * push.refresh_substeps / push.substeps; }
+// m: how far the vertex may get relative to a mesh until lists are refreshed again. With as much to spare, so that the next
+// refresh may leave it out; none leaves out what is near a mesh that deforms.
+float distance_ahead(float path, bool deforms)
+{
+    return (deforms ? k_deforming_ahead : 2) * path * push.refresh_substeps / push.substeps;
+}
 
 // The meshes near a vertex within this pass.
 struct NearMeshes
 {
     float carried; // m, the longest displacement that one gives its surface at the vertex
-    float path;    // m, the longest path of the vertex relative to one
+    float ahead;   // m, how far the vertex may get relative to one
 };
 
 NearMeshes near_meshes(Motion motion, ClothContact cloth)
 {
     if (COLLIDERS_MOVE == 0)
-        return NearMeshes(0, length(motion.displacement));
+        return NearMeshes(0, distance_ahead(length(motion.displacement), false));
     NearMeshes result = NearMeshes(0, 0);
     ColliderWalk walk = walk_colliders(patch_of_group(), box_around(motion.from.x, position_of(motion)));
     uint c;
@@ -286,11 +295,12 @@ NearMeshes near_meshes(Motion motion, ClothContact cloth)
             carried = distance(to_world(start, to), end);
         }
         const float path = distance(from, to);
+        const float ahead = distance_ahead(path, is_deforming(flags));
         if (!overlaps_mesh(colliders[c], cloth.layers,
-                           grown(box_around(from, to), listed_radius(cloth.thickness) + distance_ahead(path))))
+                           grown(box_around(from, to), listed_radius(cloth.thickness) + ahead)))
             continue;
         result.carried = max(result.carried, carried);
-        result.path = max(result.path, path);
+        result.ahead = max(result.ahead, ahead);
     }
     return result;
 }
@@ -305,13 +315,13 @@ float path_distance(vec3 center, Motion motion)
 // A new list around the middle of the vertex's path.
 void refresh_list(inout Candidates list, Motion motion, ClothContact cloth)
 {
-    list.fresh = true;
+    list.fresh = list.recent = true;
     list.center = motion.from.x + 0.5 * motion.displacement;
     list.made = push.progress_to;
     load_radii(list);
     const NearMeshes meshes = near_meshes(motion, cloth);
     const float path = path_distance(list.center, motion) + meshes.carried;
-    refresh_candidates(list, cloth.layers, path, max(k_candidate_margin * cloth.thickness, distance_ahead(meshes.path)),
+    refresh_candidates(list, cloth.layers, path, max(k_candidate_margin * cloth.thickness, meshes.ahead),
                        listed_radius(cloth.thickness));
 }
 

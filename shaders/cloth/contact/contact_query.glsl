@@ -95,7 +95,7 @@ Contact mesh_contact(uint c, ColliderRecord collider, Path path, Motion motion, 
 {
     MeshQuery query = mesh_query(c, collider, path);
     // When all lists are refreshed, so are those of vertices that may get near.
-    const float ahead = COLLIDERS_MOVE == 0 || push.refresh == 0 ? 0 : distance_ahead(distance(path.from, path.to));
+    const float ahead = COLLIDERS_MOVE == 0 || push.refresh == 0 ? 0 : distance_ahead(distance(path.from, path.to), is_deforming(collider.flags));
     if (!overlaps_mesh(collider, path.layers, grown(query.box, ahead)))
         return no_contact();
     visit_mesh(query, list, c, collider, motion, cloth);

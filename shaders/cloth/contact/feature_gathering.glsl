@@ -18,7 +18,7 @@
 
 #include "shared/ordered.glsl"
 
-const uint k_most_loaded = 196;  // features, in shared memory with their positions
+const uint k_most_loaded = 182;  // features, in shared memory with their positions
 const uint k_most_nodes = 256;   // that wait to be visited
 const uint k_ordered_nodes = 16; // visited at a time in order
 const uint k_most_left = 14;     // features that a node leaves: 4 of each leaf, 7 of each slot

@@ -248,11 +248,11 @@ struct Whereabouts
     bool near;
 };
 
-Whereabouts whereabouts_of(FeatureSearch search, bool exists, uint c)
+Whereabouts whereabouts_of(FeatureSearch search, uint c)
 {
     Whereabouts result;
     result.near = false;
-    if (!exists)
+    if (!search.self.exists)
         return result;
     const Surrounding around = surrounding(search.self, c, colliders[c].flags);
     const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
@@ -261,6 +261,36 @@ Whereabouts whereabouts_of(FeatureSearch search, bool exists, uint c)
     result.boxes.sweep = grown(joined(around.box, around.later), radius + reach);
     result.near = overlap(result.boxes.sweep, feature_box(c));
     return result;
+}
+
+// For each vertex one bit per loaded feature: it may be near a piece. Of workgroups with more vertices all may.
+const uint k_bit_words = (k_most_loaded + 31) / 32;
+const uint k_most_with_bits = 32; // vertices
+shared uint feature_bits[k_bit_words * k_most_with_bits];
+
+bool has_bits() { return gl_WorkGroupSize.x / push.lanes <= k_most_with_bits; }
+
+// The lanes of each vertex share the features of a chunk. All threads of the workgroup call it.
+void find_bits(Chunk chunk, bool near, Box pieces, uint lane)
+{
+    if (!has_bits())
+        return;
+    const uint first = k_bit_words * (gl_LocalInvocationID.x / push.lanes);
+    for (uint word = chunk.first / 32 + lane; 32 * word < chunk.end; word += push.lanes)
+        feature_bits[first + word] &= (1u << (max(chunk.first, 32 * word) - 32 * word)) - 1;
+    barrier();
+    for (uint f = chunk.first + lane; near && f < chunk.end; f += push.lanes)
+        if (overlap(pieces, swept_box(loaded_feature(f))))
+            atomicOr(feature_bits[first + f / 32], 1u << f % 32);
+    barrier();
+}
+
+// Of a word of the features: those of the chunk that may be near a piece of the vertex.
+uint bits_of(Chunk chunk, uint word)
+{
+    const uint from = max(chunk.first, 32 * word) - 32 * word;
+    const uint bits = (chunk.end - 32 * word >= 32 ? 0xffffffffu : (1u << (chunk.end - 32 * word)) - 1) & ~((1u << from) - 1);
+    return has_bits() ? bits & feature_bits[k_bit_words * (gl_LocalInvocationID.x / push.lanes) + word] : bits;
 }
 
 // Finds the features of a chunk near the pieces of this lane. Lanes have pieces that follow each other, so that the order of
@@ -272,12 +302,14 @@ void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lan
     {
         if (!select_piece(search, space, i) || !(chunk.all || overlap(search.box, chunk_box())))
             continue;
-        for (uint f = chunk.first; f < chunk.end; ++f)
-        {
-            const NearFeature near = loaded_feature(f);
-            if (overlap(search.box, swept_box(near)))
-                visit_feature(search, loaded[f], near);
-        }
+        for (uint word = chunk.first / 32; 32 * word < chunk.end; ++word)
+            for (uint bits = bits_of(chunk, word); bits != 0; bits &= bits - 1)
+            {
+                const uint f = 32 * word + findLSB(bits);
+                const NearFeature near = loaded_feature(f);
+                if (overlap(search.box, swept_box(near)))
+                    visit_feature(search, loaded[f], near);
+            }
     }
 }
 
@@ -307,13 +339,13 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
     GroupBoxes boxes;
     if (!kept)
     {
-        own = whereabouts_of(search, searches, c);
+        own = whereabouts_of(search, c); // also of lanes that have nothing to write: they help the others of their vertex
         boxes = joined_of_group(own.near && lane == 0, own.boxes);
         if (gl_LocalInvocationID.x == 0)
             sweep_is_near = 0;
     }
     else
-        own.near = searches && (search.near & 1u << index) != 0;
+        own.near = (search.near & 1u << index) != 0;
     const uint first = first_kept(index);
     Chunk chunk = Chunk(first, kept ? kept_ends[index] : first, true);
     const bool far = !kept && any(greaterThan(boxes.sweep.min, boxes.sweep.max)); // no vertex is near
@@ -321,15 +353,18 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
     do
     {
         if (!chunks.ended)
+        {
             chunk = next_chunk(chunks, tree, boxes, first);
-        search_chunk(search, chunk, space, lane, own.near ? piece_count(search.self) : 0);
+            find_bits(chunk, own.near, own.boxes.pieces, lane);
+        }
+        search_chunk(search, chunk, space, lane, own.near && searches ? piece_count(search.self) : 0);
     } while (!chunks.ended);
     if (!search.writes)
         keep(chunk, index);
     if (!kept)
         own.near = own.near && sweep_is_near != 0;
     search.near |= own.near ? 1u << min(index, 31) : 0;
-    if (!own.near || lane > 0)
+    if (!own.near || !searches || lane > 0)
         return;
     search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
     add_item(search, floatBitsToUint(search.margin), 0);

@@ -80,6 +80,8 @@ struct ContactPush
     float pair_lasts;   // of the motion
     uint limited_only;  // 1: after the strain limit, of which cloths without one take no part
     uint kicks;         // substeps since the last contact pass
+    uint listed;        // the substep of the step in which lists were refreshed last
+    float progress_next; // 0..1, of the step, when they are refreshed next
 };
 
 // Push constants of the pass that finds exits from solids.
@@ -94,7 +96,7 @@ struct DepenetrationPush
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
 static_assert(sizeof(ContactPlane) == 32);
-static_assert(sizeof(ContactPush) == 84);
+static_assert(sizeof(ContactPush) == 92);
 #endif
 
 VOILE_SHARED_END

@@ -265,6 +265,8 @@ void BatchRecorder::record_contact(uint32_t substep)
     push.colliders = solver_.passes.colliders;
     push.refresh = substep % list_period_ == 0 ? 1 : 0;
     push.refresh_substeps = of_level_0(list_period_);
+    push.listed = substep - substep % list_period_;
+    push.progress_next = progress(std::min(push.listed + list_period_, substeps_));
     push.progress_from = progress(interval.first);
     push.progress_to = progress(substep + 1);
     push.progress_per_substep = 1 / static_cast<float>(substeps_);
