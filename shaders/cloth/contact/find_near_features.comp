@@ -180,66 +180,8 @@ shared uint scratch[k_most_found > k_margins * gl_WorkGroupSize.x ? k_most_found
 #include "contact/feature_gathering.glsl"
 #include "contact/feature_room.glsl"
 #include "contact/feature_margin.glsl"
-
-// The number of pieces that a vertex may have, and one of them. False: not this one.
-uint piece_count(PatchVertex self) { return self.columns > 0 ? 7 : 3 * corner_count(self); }
-
-bool find_piece(PatchVertex self, uint i, out PieceKind piece)
-{
-    if (self.columns > 0)
-    {
-        piece = PieceKind(i < 2 ? VOILE_PIECE_TRIANGLE : VOILE_PIECE_EDGE_B, i);
-        const ivec2 next = self.column_row + ivec2(1);
-        if (i == 2)
-            return uint(next.x) < self.columns;
-        if (i == 3)
-            return uint(next.y) < self.rows;
-        // The last two are edges on the border of the grid.
-        return in_grid(next, self.columns, self.rows) && (i != 5 || uint(next.x) + 1 == self.columns) &&
-               (i != 6 || uint(next.y) + 1 == self.rows);
-    }
-    piece = PieceKind(i % 3, i / 3);
-    if (piece.kind != VOILE_PIECE_EDGE_C)
-        return true;
-    // Most edges to a c are those to the b of the next triangle.
-    const uint c = mesh_corner(self, piece.k).c;
-    const uint count = corner_count(self);
-    for (uint k = 0; k < count; ++k)
-        if (mesh_corner(self, k).b == c)
-            return false;
-    return true;
-}
-
-Box box_of(Triangle t) { return joined(box_around(t.a, t.b), Box(t.c, t.c)); }
-
-// Notes how the vertices of the piece are expected to move until the next query. Returns where they end.
-Box expect_motion(inout FeatureSearch search, uint c, uvec3 vertices)
-{
-    const Space space = space_at(c, push.progress_to);
-    const float time = seconds(push.substeps);
-    const Triangle end = Triangle(position_in(space, vertices.x, time), position_in(space, vertices.y, time),
-                                  position_in(space, vertices.z, time));
-    const mat3 motions = mat3(end.a - search.shape.a, end.b - search.shape.b, end.c - search.shape.c);
-    search.motion = (motions[0] + motions[1] + motions[2]) / 3;
-    search.spread = max(max(distance(motions[0], search.motion), distance(motions[1], search.motion)),
-                        distance(motions[2], search.motion));
-    return box_of(end);
-}
-
-// Prepares the search around the i-th piece of the vertex. False: there is none.
-bool select_piece(inout FeatureSearch search, Space space, uint i)
-{
-    if (!find_piece(search.self, i, search.piece))
-        return false;
-    const uvec3 v = piece_vertices(search.self, search.piece.kind, search.piece.k);
-    search.shape = Triangle(position_in(space, v.x, 0), position_in(space, v.y, 0), position_in(space, v.z, 0));
-    Box shape = box_of(search.shape);
-    search.query_radius = query_radius(search.self, max(abs(shape.min), abs(shape.max)));
-    if (search.deforms)
-        shape = joined(shape, expect_motion(search, search.collider, v));
-    search.box = grown(shape, search.query_radius + search.margin);
-    return true;
-}
+#include "contact/listed_pieces.glsl"
+#include "contact/feature_bits.glsl"
 
 // Where the pieces of a vertex are, and whether they may touch features of the collider.
 struct Whereabouts
@@ -261,36 +203,6 @@ Whereabouts whereabouts_of(FeatureSearch search, uint c)
     result.boxes.sweep = grown(joined(around.box, around.later), radius + reach);
     result.near = overlap(result.boxes.sweep, feature_box(c));
     return result;
-}
-
-// For each vertex one bit per loaded feature: it may be near a piece. Of workgroups with more vertices all may.
-const uint k_bit_words = (k_most_loaded + 31) / 32;
-const uint k_most_with_bits = 32; // vertices
-shared uint feature_bits[k_bit_words * k_most_with_bits];
-
-bool has_bits() { return gl_WorkGroupSize.x / push.lanes <= k_most_with_bits; }
-
-// The lanes of each vertex share the features of a chunk. All threads of the workgroup call it.
-void find_bits(Chunk chunk, bool near, Box pieces, uint lane)
-{
-    if (!has_bits())
-        return;
-    const uint first = k_bit_words * (gl_LocalInvocationID.x / push.lanes);
-    for (uint word = chunk.first / 32 + lane; 32 * word < chunk.end; word += push.lanes)
-        feature_bits[first + word] &= (1u << (max(chunk.first, 32 * word) - 32 * word)) - 1;
-    barrier();
-    for (uint f = chunk.first + lane; near && f < chunk.end; f += push.lanes)
-        if (overlap(pieces, swept_box(loaded_feature(f))))
-            atomicOr(feature_bits[first + f / 32], 1u << f % 32);
-    barrier();
-}
-
-// Of a word of the features: those of the chunk that may be near a piece of the vertex.
-uint bits_of(Chunk chunk, uint word)
-{
-    const uint from = max(chunk.first, 32 * word) - 32 * word;
-    const uint bits = (chunk.end - 32 * word >= 32 ? 0xffffffffu : (1u << (chunk.end - 32 * word)) - 1) & ~((1u << from) - 1);
-    return has_bits() ? bits & feature_bits[k_bit_words * (gl_LocalInvocationID.x / push.lanes) + word] : bits;
 }
 
 // Finds the features of a chunk near the pieces of this lane. Lanes have pieces that follow each other, so that the order of

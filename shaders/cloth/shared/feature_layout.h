@@ -155,8 +155,8 @@ struct FeatureCell
 {
     uint first;
     uint count;
-    uint invalid;    // the last substep in which features may be near that are not among them
-    uint guarded;    // the last substep in which an item had a plane (FeatureGuard)
+    uint invalid;     // the last substep in which features may be near that are not among them
+    uint guarded;     // the last substep in which an item had a plane (FeatureGuard)
     uvec4 touched[2]; // one bit per item that is in contact, for even and for odd passes
 };
 

@@ -39,14 +39,14 @@ struct Tuning
     // workgroup_size. 0: eight, or one on CPU devices.
     uint32_t feature_threads = 0;
 
-    // Invocations per vertex when features near the cloth are listed. They share its triangles and edges, and its contacts
-    // are merged in another order. A power of two up to workgroup_size. 0: eight, or four on CPU devices.
+    // Invocations per vertex when features near the cloth are listed. They share its triangles and edges, and its
+    // contacts are merged in another order. A power of two up to workgroup_size. 0: eight, or four on CPU devices.
     uint32_t listing_threads = 0;
 
-    // The room for features near the cloth, as a mean number per vertex, at most 128, 112 bytes each. None: 8 per vertex
-    // and 65,536 more in total, but no more than 128 per vertex. If the room does not suffice, features are listed again
-    // for a shorter time or for fewer vertices. The other vertices find their features in every substep, which is
-    // slower and merges contacts in another order. Two equal runs are bit-identical.
+    // The room for features near the cloth, as a mean number per vertex, at most 128, 112 bytes each. None: 8 per
+    // vertex and 65,536 more in total, but no more than 128 per vertex. If the room does not suffice, features are
+    // listed again for a shorter time or for fewer vertices. The other vertices find their features in every substep,
+    // which is slower and merges contacts in another order. Two equal runs are bit-identical.
     std::optional<uint32_t> feature_items{};
 
     // Up to this number of vertices in the cloths that take the same substeps with one integrator, four invocations
