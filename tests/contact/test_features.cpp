@@ -272,13 +272,16 @@ TEST_CASE("edges of a collider hold cloth equally whether a workgroup has room f
 {
     const auto check = [](const std::vector<voile::engine::Mesh>& colliders)
     {
-        for (const uint32_t threads : {1u, 4u, 8u})
+        for (const auto& [group, threads] :
+             {std::pair(128u, 1u), std::pair(128u, 4u), std::pair(128u, 8u), std::pair(4u, 1u)})
         {
-            CAPTURE(threads);
-            const auto fall_with = [&](std::optional<uint32_t> items)
+            const auto fall_with = [&, of = glm::uvec2(group, threads)](std::optional<uint32_t> items)
             {
                 return fall_on(colliders, false,
-                               {.tuning = {.feature_threads = 1, .listing_threads = threads, .feature_items = items}});
+                               {.tuning = {.workgroup_size = of.x,
+                                           .feature_threads = 1,
+                                           .listing_threads = of.y,
+                                           .feature_items = items}});
             };
             const std::vector<glm::vec4> listed = fall_with({});
             CHECK(farthest(listed, fall_on(colliders, false, {.feature_contact = false})) > 0.01f);

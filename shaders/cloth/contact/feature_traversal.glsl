@@ -87,8 +87,11 @@ bool is_near_part(Box all, uint first, Box node)
 {
     bool result = false;
     if (overlap(all, node))
-        for (uint part = 0; part < k_parts && !result; ++part)
-            result = overlap(joined_corners(12 * part + first), node);
+        for (uint part = 0; part < k_parts && !result; part += 4) // fewer rounds: Mesa ends loops (bench/NOTES.md)
+            result = any(bvec4(overlap(joined_corners(12 * part + first), node),
+                               overlap(joined_corners(12 * part + 12 + first), node),
+                               overlap(joined_corners(12 * part + 24 + first), node),
+                               overlap(joined_corners(12 * part + 36 + first), node)));
     return result;
 }
 
@@ -150,7 +153,7 @@ uint protruding(uint slot, FeatureTree tree)
 // Notes whether a feature is in the sweep. Returns whether the children of a node must be visited.
 //
 // A node that overlaps the sweep and is small has one near it.
-bool visit_box(Box box, Aim aim, bool is_leaf)
+bool visit_box(Box box, Aim aim, bool is_leaf, bool near_pieces)
 {
     const float coarse = sudden_reach();
     bool in_sweep = aim.looks && is_near_sweep(aim.boxes, box);
@@ -160,15 +163,16 @@ bool visit_box(Box box, Aim aim, bool is_leaf)
         sweep_is_near = 1;
         in_sweep = false;
     }
-    return !is_leaf && (in_sweep || is_near_pieces(aim.boxes, box));
+    return !is_leaf && (in_sweep || near_pieces);
 }
 
 void visit_child(inout Visit visit, uint i, uint child, Box box, Aim aim)
 {
     const bool is_leaf = (child & VOILE_BVH_LEAF_BIT) != 0;
-    if (visit_box(box, aim, is_leaf))
+    const bool near_pieces = is_near_pieces(aim.boxes, box);
+    if (visit_box(box, aim, is_leaf, near_pieces))
         leave_node(visit, child);
-    if (!is_leaf || !is_near_pieces(aim.boxes, box))
+    if (!is_leaf || !near_pieces)
         return;
     visit.firsts[i] = aim.tree.first_leaf + (child & VOILE_BVH_FIRST_MASK);
     visit.bits[i] = (2u << (child >> VOILE_BVH_COUNT_SHIFT & VOILE_BVH_COUNT_MASK)) - 1;
@@ -186,9 +190,10 @@ void visit_padded(inout Visit visit, uint i, uint node, Aim aim)
     if (is_leaf && index >= tree.triangles)
         return; // repeats another slot
     const Box box = padded_box(tree.first_node + node);
-    if (visit_box(box, aim, is_leaf))
+    const bool near_pieces = is_near_pieces(aim.boxes, box);
+    if (visit_box(box, aim, is_leaf, near_pieces))
         leave_node(visit, node);
-    if (!is_leaf || !is_near_pieces(aim.boxes, box))
+    if (!is_leaf || !near_pieces)
         return;
     visit.firsts[i] = feature_slots[tree.first_leaf + index] >> VOILE_SLOT_FEATURE_BITS;
     visit.bits[i] = protruding(tree.first_leaf + index, tree);
@@ -249,8 +254,17 @@ void start_traversal(FeatureTree tree, GroupBoxes boxes)
 uint visited_together(uint count, bool ordered)
 {
     const uint room = k_most_nodes - VOILE_BVH_MAX_DEPTH;
-    const uint most = min(count, ordered ? k_ordered_nodes : gl_WorkGroupSize.x);
-    return min(most, count < room ? room - count : 1);
+    const uint threads = min(gl_WorkGroupSize.x, ordered ? k_ordered_nodes : gl_WorkGroupSize.x);
+    return min(min(count, threads), count < room ? room - count : 1);
+}
+
+// Nodes and features that the nodes before one of those in order leave. Without a loop, as Mesa ends those.
+uvec2 left_before(uint visited)
+{
+    uvec2 sum = uvec2(0);
+    [[unroll]] for (uint i = 0; i + 1 < k_ordered_nodes; ++i)
+        sum += i < visited ? left_counts[i] : uvec2(0);
+    return sum;
 }
 
 // Finds features until there are no more, or more than fit. `ordered`: in order, and until the list may be full. All threads
@@ -283,8 +297,8 @@ void traverse(FeatureTree tree, GroupBoxes boxes, bool ordered)
             uvec2 at = uvec2(atomicAdd(node_count, left.x), atomicAdd(found_count, left.y));
             if (ordered)
                 at = uvec2(count - visited, found);
-            for (uint i = 0; ordered && i < thread; ++i)
-                at += left_counts[i];
+            if (ordered)
+                at += left_before(thread);
             write_left(visit, at);
         }
         barrier();

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Lists the features near the pieces of all cloths, and the patches near features, until the next such pass.
 // test_features.comp runs over the listed features, feature_contact.comp over the patches, by indirect dispatches.
 //
@@ -357,7 +358,7 @@ void main()
     for (uint round = 0; round < 2; ++round)
     {
         search.writes = round == 1;
-        if (reaches)
+        if (reaches && !(search.writes && items_of_group == 0))
             search_colliders(search, searches, walked, lane);
         if (search.writes)
             continue;
