@@ -296,9 +296,7 @@ void traverse(FeatureTree tree, GroupBoxes boxes, bool ordered)
             const uvec2 left = count_left(visit);
             uvec2 at = uvec2(atomicAdd(node_count, left.x), atomicAdd(found_count, left.y));
             if (ordered)
-                at = uvec2(count - visited, found);
-            if (ordered)
-                at += left_before(thread);
+                at = uvec2(count - visited, found) + left_before(thread);
             write_left(visit, at);
         }
         barrier();
