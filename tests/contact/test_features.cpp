@@ -1,8 +1,8 @@
-// The feature edges and feature vertices of colliders: exactly those that can protrude between the vertices of a cloth.
-#include "colliders/collider_model.hpp"
+// The features of colliders near cloth: how they are found and listed, and how they hold it.
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
-#include "support/hard_shapes.hpp"
+
+#include "shared/feature_layout.h"
 
 #include "voile/engine/assets/shapes.hpp"
 
@@ -20,82 +20,6 @@ namespace
 {
 
 constexpr float k_thickness = 0.003f; // m
-constexpr float k_length = 1;         // m, of prisms, along z
-
-voile::engine::Mesh prism(double radius, uint32_t sides)
-{
-    constexpr double k_half = k_length / 2;
-    return tests::closed_cylinder(radius, -k_half, k_half, sides);
-}
-
-struct Count
-{
-    uint32_t along = 0;  // edges along z
-    uint32_t around = 0; // edges at an end
-    uint32_t corners = 0;
-};
-
-// Counts the features for a cloth whose longest edges are 5 cm.
-Count count(const voile::engine::Mesh& mesh)
-{
-    voile::Model model;
-    voile::GridCloth sheet = tests::flat_sheet(21, std::numbers::sqrt2_v<float> / 2, 1);
-    tests::fabric_of(sheet).thickness = k_thickness;
-    REQUIRE(model.add(sheet));
-    voile::ColliderModels colliders;
-    REQUIRE(colliders.add(tests::collider(mesh)));
-    voile::update_features(colliders, model);
-    Count result;
-    for (const auto& feature : colliders.colliders.at(0)->features->features)
-    {
-        if (feature.a == feature.b)
-            ++result.corners;
-        else if (std::abs(feature.a.z - feature.b.z) > k_length / 2)
-            ++result.along;
-        else
-            ++result.around;
-    }
-    return result;
-}
-
-} // namespace
-
-TEST_CASE("the flats of a cylinder are no feature edges, though they extend to its rims")
-{
-    // Within 5 cm its normals turn by 2.9 degrees on either side; 10.2 would count.
-    const Count found = count(prism(0.5, 64));
-    CHECK(found.along == 0);
-    CHECK(found.around == 2 * 64);
-    CHECK(found.corners > 64);
-}
-
-TEST_CASE("all edges of a thin rod are feature edges, however small their angles")
-{
-    const Count found = count(prism(0.01, 32)); // 11 degrees per edge
-    CHECK(found.along >= 32);
-    CHECK(found.corners >= 2);
-}
-
-TEST_CASE("the sharp edges of a prism are feature edges, the diagonals of its flats never")
-{
-    const Count found = count(prism(0.5, 6));
-    CHECK(found.along == 6);
-    CHECK(found.around == 2 * 6);
-    CHECK(found.corners == 2 * 6);
-}
-
-TEST_CASE("a round mesh has no features, a box of triangles has 12 edges and 8 corners")
-{
-    const Count ball = count(voile::engine::make_sphere({0, 0, 0}, 0.5f, 96));
-    CHECK(ball.along + ball.around + ball.corners == 0);
-    const Count box = count(voile::engine::make_box(glm::vec3(-0.5f), glm::vec3(0.5f)));
-    CHECK(box.along == 4);
-    CHECK(box.around == 8);
-    CHECK(box.corners == 8);
-}
-
-namespace
-{
 
 // A flat disc about the y axis with a fan of twelve triangles in its center: more triangles than feature threads.
 voile::MeshCloth disc(std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles)
@@ -126,7 +50,7 @@ std::vector<voile::engine::Mesh> walls()
     return result;
 }
 
-// More colliders with features near one vertex than a workgroup gathers features for.
+// More colliders with features near one vertex than those whose features stay loaded.
 std::vector<voile::engine::Mesh> stack_of_walls()
 {
     std::vector<voile::engine::Mesh> result;
@@ -138,7 +62,7 @@ std::vector<voile::engine::Mesh> stack_of_walls()
     return result;
 }
 
-// One mesh with more features near a workgroup than it gathers.
+// One mesh with more features near a workgroup than its list has room for.
 std::vector<voile::engine::Mesh> brush()
 {
     voile::engine::Mesh result;
@@ -388,35 +312,6 @@ TEST_CASE("threads per vertex are a power of two of at most the workgroup size")
     }
 }
 
-TEST_CASE("features of a mesh are found again only where cloths are thinner or coarser than all before")
-{
-    const voile::engine::Mesh mesh = prism(0.1, 12);
-    voile::Model model;
-    voile::ColliderModels colliders;
-    REQUIRE(colliders.add(tests::collider(mesh)));
-    const auto add = [&](uint32_t side, float thickness)
-    {
-        voile::GridCloth sheet = tests::flat_sheet(side, 1, 1);
-        tests::fabric_of(sheet).thickness = thickness;
-        REQUIRE(model.add(sheet));
-        voile::update_features(colliders, model);
-        return colliders.colliders.at(0)->features;
-    };
-    const auto first = add(21, k_thickness);
-    CHECK_FALSE(first->features.empty());
-    CHECK(add(21, k_thickness) == first);
-    CHECK(add(41, 2 * k_thickness) == first);
-    const auto thinner = add(21, 0.5f * k_thickness);
-    CHECK(thinner != first);
-    CHECK(add(11, k_thickness) != thinner);
-
-    REQUIRE(colliders.add(tests::collider(mesh)));
-    voile::update_features(colliders, model);
-    CHECK(colliders.colliders.at(1)->features == colliders.colliders.at(0)->features);
-}
-
-// Contacts of edges divide by sums over their vertices' inverse masses. These underflow, or leave all of a push to the
-// one light vertex.
 TEST_CASE("own masses of any size are not thrown at the edges of a box")
 {
     for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})

@@ -8,7 +8,7 @@
 //   - the ball shrinks while triangles are found, so that the list stays short;
 //   - a vertex with more triangles than fit without any margin traverses in every substep, and refreshes try again.
 // The list of a moving collider is relative to the collider's position when the list was made. It is valid
-// until the end of that step. The list of a deforming mesh has what its triangles come near to until lists are refreshed
+// until the end of that step. The list of a deforming mesh has the triangles that may come near until lists are refreshed
 // next, and is valid until then.
 // The including kernel declares candidate_centers[], candidate_triangles[], patch_of_group() and what mesh_query.glsl
 // expects, and includes near_colliders.glsl before.
