@@ -6,6 +6,8 @@
 
 #include "voile/fabrics.hpp"
 
+#include <random>
+
 namespace
 {
 
@@ -32,6 +34,26 @@ voile::engine::Mesh needle_that_points_down()
     for (glm::vec3& p : mesh.positions)
         p.y += k_length;
     return mesh;
+}
+
+// `side` needles in a row on a square, up to `height` long, at random points of its cells.
+voile::engine::Mesh brush(uint32_t side, float width, float height)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> within(0, 0.3f);
+    voile::engine::Mesh result;
+    for (uint32_t i = 0; i < side * side; ++i)
+    {
+        const glm::vec2 cell = glm::vec2(i % side, i / side) + 0.5f + glm::vec2(within(random), within(random));
+        const glm::vec2 foot = width * (cell / static_cast<float>(side) - 0.5f);
+        const voile::engine::Mesh needle = tests::needle(height * (0.7f + within(random)), 0.008f);
+        const auto first = static_cast<uint32_t>(result.positions.size());
+        for (const glm::vec3& p : needle.positions)
+            result.positions.push_back(p + glm::vec3(foot.x, 0, foot.y));
+        for (const glm::uvec3& triangle : needle.triangles)
+            result.triangles.push_back(triangle + first);
+    }
+    return result;
 }
 
 std::vector<Driven> driven()
@@ -157,4 +179,33 @@ TEST_CASE("deforming colliders that are driven through a sheet at up to 100 m/s 
 {
     for (const Driven& shape : driven())
         drive(shape, k_speeds[2], Motion::deforming);
+}
+
+// Each vertex of the sheet is near more needles than its list has room for, and a workgroup near tens of thousands of
+// features. Where loops of a kernel end after a number of rounds, as on lavapipe, features must be found in few of
+// them.
+TEST_CASE("a brush of thousands of needles that rises into a coarse sheet cuts none of it")
+{
+    for (const uint32_t side : {44u, 52u})
+    {
+        CAPTURE(side);
+        tests::IntersectionHarness harness;
+        voile::GridCloth grid = sheet();
+        grid.columns = grid.rows = 6;
+        grid.width = grid.depth = 0.8f;
+        grid.transform = tests::moved({0, 0.105f, 0});
+        grid.pins = {};
+        grid.material = voile::Fabric{.thickness = 0.003f};
+        (void)voile::engine::take(harness.solver.add_cloth(grid));
+        const voile::ColliderId id =
+            voile::engine::take(harness.solver.add_collider(tests::collider(brush(side, 0.9f, 0.1f))));
+        harness.upload();
+        for (uint32_t frame = 1; frame <= 3; ++frame)
+        {
+            const float height = 5 * k_frame * static_cast<float>(frame);
+            REQUIRE(harness.solver.move_collider(id, tests::moved({0, height, 0})));
+            harness.step({.duration = k_frame, .gravity = glm::vec3(0), .air_density = 0});
+            CHECK(harness.counts().collider_pairs == 0);
+        }
+    }
 }

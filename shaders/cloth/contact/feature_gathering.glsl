@@ -21,7 +21,6 @@ shared uint loaded[k_most_loaded];              // in the order of the features,
 shared vec4 loaded_starts[k_most_loaded];       // a, radius
 shared float loaded_ends[3 * k_most_loaded];    // b
 shared float loaded_motions[6 * k_most_loaded]; // of a and of b until the next query, in the collider's space
-shared uint chunk_corners[6];                   // of a chunk; ordered
 
 void load_feature(uint at, uint feature, NearFeature near)
 {
@@ -52,22 +51,13 @@ Box swept_box(NearFeature near)
                         box_around(near.a.xyz + near.motion_a, near.b + near.motion_b)), near.a.w);
 }
 
-void join_chunk(Box box)
-{
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        atomicMin(chunk_corners[axis], ordered(box.min[axis]));
-        atomicMax(chunk_corners[3 + axis], ordered(box.max[axis]));
-    }
-}
-
 Box chunk_box()
 {
     Box result;
     for (int axis = 0; axis < 3; ++axis)
     {
-        result.min[axis] = from_ordered(chunk_corners[axis]);
-        result.max[axis] = from_ordered(chunk_corners[3 + axis]);
+        result.min[axis] = from_ordered(corners[k_chunk_corners + axis]);
+        result.max[axis] = from_ordered(corners[k_chunk_corners + 3 + axis]);
     }
     return result;
 }
@@ -80,7 +70,7 @@ void load_chunk(Chunk chunk, FeatureTree tree, uint rank)
     {
         barrier(); // all threads have read the chunk before
         for (uint i = thread; i < 6; i += gl_WorkGroupSize.x)
-            chunk_corners[i] = ordered(i < 3 ? 3e38 : -3e38);
+            corners[k_chunk_corners + i] = ordered(i < 3 ? 3e38 : -3e38);
         barrier();
     }
     for (uint i = chunk.first + thread; i < chunk.end; i += gl_WorkGroupSize.x)
@@ -89,7 +79,7 @@ void load_chunk(Chunk chunk, FeatureTree tree, uint rank)
         const NearFeature near = near_feature(tree.collider, feature, tree.deforms);
         load_feature(i, feature, near);
         if (!chunk.all)
-            join_chunk(swept_box(near));
+            join_corners(k_chunk_corners, swept_box(near));
     }
     barrier();
 }

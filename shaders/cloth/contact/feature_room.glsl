@@ -14,6 +14,7 @@ shared uint items_of_group;
 shared uint fewer_items;                            // that the workgroup would have with fewer of each vertex
 shared uint fewest_items;                           // with the fewest
 shared uint first_of_group;                         // of the batch's items
+shared uint searching_vertices;                     // 0: all have too many items
 shared uint lane_counts[gl_WorkGroupSize.x];        // with the margin that was chosen; before, margins of vertices
 shared uint cell_firsts[gl_WorkGroupSize.x];        // of each vertex, in the workgroup's items
 
@@ -36,6 +37,31 @@ uint choose_margin(uint in_group, uint most)
         if (scratch[k_margins * in_group + i] <= most)
             return i;
     return k_margins;
+}
+
+// Narrows the margin of a vertex if there are too many features within it already. If that was the last one, it no longer
+// searches. Returns whether any vertex of the workgroup does. All of its threads call it.
+bool narrow(inout FeatureSearch search, inout bool searches, uint lane)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    lane_counts[thread] = search.narrowed == 0   ? search.counts.x
+                          : search.narrowed == 1 ? search.counts.y
+                          : search.narrowed == 2 ? search.counts.z
+                                                 : search.counts.w;
+    if (thread == 0)
+        searching_vertices = 0;
+    barrier();
+    uint count = 0;
+    for (uint i = 0; i < push.lanes; ++i)
+        count += lane_counts[thread - lane + i];
+    if (count > most_items())
+        search.narrowed = min(search.narrowed + 1, k_margins);
+    searches = searches && search.narrowed < k_margins;
+    search.margin = search.widest * k_fractions[min(search.narrowed, k_margins - 1)];
+    if (searches)
+        atomicOr(searching_vertices, 1);
+    barrier();
+    return searching_vertices != 0;
 }
 
 // Claims room for the items of the workgroup.
@@ -80,7 +106,7 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     const uint of_margin = min(chosen, k_margins - 1);
     const uint count = fits ? search.counts[of_margin] : 0;
     const uint cell_count = fits ? scratch[k_margins * in_group + of_margin] : 0;
-    search.margin *= k_fractions[of_margin];
+    search.margin = search.widest * k_fractions[of_margin];
     lane_counts[thread] = count;
     if (lane == 0)
     {
@@ -105,7 +131,7 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     if (lane == 0 && search.self.exists)
         cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
                                                uvec4[2](uvec4(0), uvec4(0)));
-    return room && count > 0;
+    return room && cell_count > 0;
 }
 
 #endif

@@ -26,7 +26,9 @@ shared uvec2 left_counts[k_ordered_nodes]; // nodes and features that each of th
 shared uint nodes[k_most_nodes];           // that wait, a stack
 shared uint node_count;
 shared uint sweep_is_near;
-shared uint corners[12 * (k_parts + 1)]; // minima and maxima of the two boxes of each part, at the end of all; as floats
+// Minima and maxima of the two boxes of each part and of the workgroup, as floats, and of a chunk of features, ordered.
+const uint k_chunk_corners = 12 * (k_parts + 1);
+shared uint corners[k_chunk_corners + 6];
 
 // Of a vertex or a workgroup, in the space of a collider.
 struct GroupBoxes
@@ -65,7 +67,7 @@ GroupBoxes joined_of_group(bool have, GroupBoxes own)
     const uint part = 12 * (thread * k_parts / gl_WorkGroupSize.x);
     const uint all_parts = 12 * k_parts;
     barrier();
-    for (uint i = thread; i < corners.length(); i += gl_WorkGroupSize.x)
+    for (uint i = thread; i < k_chunk_corners; i += gl_WorkGroupSize.x)
         corners[i] = ordered(i % 6 < 3 ? 3e38 : -3e38);
     barrier();
     if (have && is_finite(own.pieces) && is_finite(own.sweep))
@@ -76,7 +78,7 @@ GroupBoxes joined_of_group(bool have, GroupBoxes own)
         join_corners(all_parts + 6, own.sweep);
     }
     barrier();
-    for (uint i = thread; i < corners.length(); i += gl_WorkGroupSize.x)
+    for (uint i = thread; i < k_chunk_corners; i += gl_WorkGroupSize.x)
         corners[i] = floatBitsToUint(from_ordered(corners[i]));
     barrier();
     return GroupBoxes(joined_corners(all_parts), joined_corners(all_parts + 6));
@@ -87,11 +89,8 @@ bool is_near_part(Box all, uint first, Box node)
 {
     bool result = false;
     if (overlap(all, node))
-        for (uint part = 0; part < k_parts && !result; part += 4) // fewer rounds: Mesa ends loops (bench/NOTES.md)
-            result = any(bvec4(overlap(joined_corners(12 * part + first), node),
-                               overlap(joined_corners(12 * part + 12 + first), node),
-                               overlap(joined_corners(12 * part + 24 + first), node),
-                               overlap(joined_corners(12 * part + 36 + first), node)));
+        for (uint part = 0; part < k_parts && !result; ++part)
+            result = overlap(joined_corners(12 * part + first), node);
     return result;
 }
 
@@ -248,14 +247,15 @@ void start_traversal(FeatureTree tree, GroupBoxes boxes)
     barrier();
 }
 
-// How many of the nodes that wait are visited together. Each leaves two at most. Where the stack is almost full, the last
+// How many of the nodes that wait are visited together. Each leaves two at most. The fuller the stack, the fewer, so that
+// they get to leaves before it is full: nodes that are visited alone take as long as many. Where it is almost full, the last
 // node is visited alone, and the stack grows by one node per level at most, as that of a single thread. So it never
 // overflows.
 uint visited_together(uint count, bool ordered)
 {
     const uint room = k_most_nodes - VOILE_BVH_MAX_DEPTH;
     const uint threads = min(gl_WorkGroupSize.x, ordered ? k_ordered_nodes : gl_WorkGroupSize.x);
-    return min(min(count, threads), count < room ? room - count : 1);
+    return min(min(count, threads), count + 2 <= room ? (room - count) / 2 : 1);
 }
 
 // Nodes and features that the nodes before one of those in order leave. Without a loop, as Mesa ends those.

@@ -7,7 +7,8 @@
 // The threads of a workgroup gather the features near its vertices (feature_gathering.glsl). Several threads per vertex
 // (push.lanes) each take some of its pieces. They test them twice: first they count the features near them, for four
 // margins, then they write those within the widest margin with few enough. The features stay in shared memory from one
-// test to the other, if they fit, and are gathered again, if not. A vertex that has too many has none, and
+// test to the other, if they fit, and are gathered again, if not. Then a margin within which a vertex has too many features
+// already is left out of what is gathered next. A vertex that has too many within all margins has no items, and
 // feature_contact.comp traverses the hierarchies instead.
 //
 // Which vertices get items depends on no order of workgroups. If there is no room for the items of all, the query is
@@ -101,9 +102,11 @@ struct FeatureSearch
     vec3 motion;        // m, of the piece's middle; else 0
     float spread;       // m, of its vertices from that
     float widest;       // m, the margin that is counted with
-    float margin;       // m
+    float margin;       // m, of features that count yet, or that are written
+    uint narrowed;      // margins within which too many are
     bool writes;
     uvec4 counts;       // within each margin
+    bool ended;         // no vertex of the workgroup searches on
     uint near;          // one bit per collider that has a feature which may touch a triangle around the vertex
     uint next;          // item to write
     uint end;
@@ -157,7 +160,7 @@ void add_item(inout FeatureSearch search, uint feature, float excess)
     if (search.writes)
         write_item(search, feature, excess);
     else
-        search.counts += uvec4(lessThanEqual(vec4(excess), search.margin * vec4(k_fractions[0], k_fractions[1], k_fractions[2], k_fractions[3])));
+        search.counts += uvec4(lessThanEqual(vec4(excess), search.widest * vec4(k_fractions[0], k_fractions[1], k_fractions[2], k_fractions[3])));
 }
 
 void visit_feature(inout FeatureSearch search, uint f, NearFeature near)
@@ -200,10 +203,27 @@ Whereabouts whereabouts_of(FeatureSearch search, uint c)
     const Surrounding around = surrounding(search.self, c, colliders[c].flags);
     const float radius = query_radius(search.self, max(abs(around.box.min), abs(around.box.max)));
     const float reach = max(search.widest, max(around.longest, sudden_reach()));
-    result.boxes.pieces = grown(search.deforms ? joined(around.box, around.later) : around.cell, radius + search.widest);
+    result.boxes.pieces = grown(search.deforms ? joined(around.box, around.later) : around.cell, radius + search.margin);
     result.boxes.sweep = grown(joined(around.box, around.later), radius + reach);
     result.near = overlap(result.boxes.sweep, feature_box(c));
     return result;
+}
+
+// The boxes of the workgroup. There are pieces of vertices that search alone.
+GroupBoxes boxes_of_group(Whereabouts own, bool searches, uint lane)
+{
+    if (!searches)
+        own.boxes.pieces = Box(vec3(1e38), vec3(-1e38));
+    return joined_of_group(own.near && lane == 0, own.boxes);
+}
+
+// The boxes in which a vertex of the workgroup may still have few enough features.
+GroupBoxes narrowed_boxes(inout FeatureSearch search, inout bool searches, inout Whereabouts own, uint lane)
+{
+    const float margin = search.margin;
+    search.ended = !narrow(search, searches, lane);
+    own.boxes.pieces = grown(own.boxes.pieces, search.margin - margin);
+    return boxes_of_group(own, searches, lane);
 }
 
 // Finds the features of a chunk near the pieces of this lane. Lanes have pieces that follow each other, so that the order of
@@ -240,8 +260,9 @@ void keep(Chunk chunk, uint index)
 // Where the features of the `index`-th collider begin.
 uint first_kept(uint index) { return keeps == 0 || index == 0 ? 0 : kept_ends[min(index, k_most_kept) - 1]; }
 
-// Finds the features of the `index`-th collider near the pieces of this lane. All threads of the workgroup call it.
-void search_collider(inout FeatureSearch search, bool searches, uint c, uint lane, uint index)
+// Finds the features of the `index`-th collider near the pieces of this lane. `searches`: the same for all lanes of a
+// vertex. All threads of the workgroup call it.
+void search_collider(inout FeatureSearch search, inout bool searches, uint c, uint lane, uint index)
 {
     const Space space = space_at(c, push.progress_from);
     search.collider = c;
@@ -252,8 +273,8 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
     GroupBoxes boxes;
     if (!kept)
     {
-        own = whereabouts_of(search, c); // also of lanes that have nothing to write: they help the others of their vertex
-        boxes = joined_of_group(own.near && lane == 0, own.boxes);
+        own = whereabouts_of(search, c);
+        boxes = boxes_of_group(own, searches, lane);
         if (gl_LocalInvocationID.x == 0)
             sweep_is_near = 0;
     }
@@ -268,10 +289,13 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
         if (!chunks.ended)
         {
             chunk = next_chunk(chunks, tree, boxes, first);
-            find_bits(chunk, own.near, own.boxes.pieces, lane);
+            find_bits(chunk, own.near && searches, own.boxes.pieces, lane);
         }
-        search_chunk(search, chunk, space, lane, own.near && searches ? piece_count(search.self) : 0);
-    } while (!chunks.ended);
+        const bool full = search.writes && search.next == search.end;
+        search_chunk(search, chunk, space, lane, own.near && searches && !full ? piece_count(search.self) : 0);
+        if (!chunks.ended && !search.writes)
+            boxes = narrowed_boxes(search, searches, own, lane);
+    } while (!chunks.ended && !search.ended);
     if (!search.writes)
         keep(chunk, index);
     if (!kept)
@@ -284,13 +308,13 @@ void search_collider(inout FeatureSearch search, bool searches, uint c, uint lan
 }
 
 // Finds the features near the pieces of this lane. `walked`: of the workgroup, whose threads all call this.
-void search_colliders(inout FeatureSearch search, bool searches, Box walked, uint lane)
+void search_colliders(inout FeatureSearch search, inout bool searches, Box walked, uint lane)
 {
     ColliderWalk walk = walk_colliders(patch_of_group(), walked);
     uint c;
     uint position = 0;
     uint index = 0; // of the colliders that are reached
-    while (next_collider(walk, c))
+    while (!search.ended && next_collider(walk, c))
         if (may_touch(c, search.self) && is_reached(position++))
             search_collider(search, searches, c, lane, index++);
 }
@@ -346,6 +370,7 @@ void main()
     barrier();
 
     search.counts = uvec4(0);
+    search.narrowed = 0;
     search.near = 0;
     search.deforms = false;
     search.motion = vec3(0);
@@ -358,8 +383,8 @@ void main()
     for (uint round = 0; round < 2; ++round)
     {
         search.writes = round == 1;
-        if (reaches && !(search.writes && items_of_group == 0))
-            search_colliders(search, searches, walked, lane);
+        search.ended = !reaches || (search.writes && items_of_group == 0);
+        search_colliders(search, searches, walked, lane);
         if (search.writes)
             continue;
         if (search.near != 0)
