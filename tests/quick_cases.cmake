@@ -129,7 +129,9 @@ quick(test_self_collision
 quick(test_stability
     "damping of springs folded into one line is as stable as in a plane"
     "two slivers in a small mesh are softened, many slivers are not")
-quick(test_static_friction)
+quick(test_static_friction
+    "every preset sticks and slips within 1 % of the incline's tangent"
+    "static friction holds on a collider of constant velocity as on one at rest")
 quick(test_statistics
     "vertices under a surface are counted, and the deepest is measured"
     "a vertex is inside a mesh if the mesh winds around it, at any depth"

@@ -301,10 +301,13 @@ void search_collider(inout FeatureSearch search, inout bool searches, uint c, ui
     if (!kept)
         own.near = own.near && sweep_is_near != 0;
     search.near |= own.near ? 1u << min(index, 31) : 0;
-    if (!own.near || !searches || lane > 0)
+    if (!own.near || !searches)
         return;
-    search.piece = PieceKind(VOILE_PIECE_GUARD, 0);
-    add_item(search, floatBitsToUint(search.margin), 0);
+    for (uint k = lane; k < guard_count(search.self); k += push.lanes)
+    {
+        search.piece = PieceKind(VOILE_PIECE_GUARD, k);
+        add_item(search, floatBitsToUint(search.margin), 0);
+    }
 }
 
 // Finds the features near the pieces of this lane. `walked`: of the workgroup, whose threads all call this.

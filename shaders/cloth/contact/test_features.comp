@@ -5,8 +5,8 @@
 // are kept with the item, and feature_contact.comp merges those of each vertex. So are planes that fast pieces may not
 // cross (feature_guard.glsl).
 //
-// Guards have no feature. They check that no vertex of a cell has moved farther than its margin since the items were
-// made, relative to the collider: then no other feature can touch the cell's pieces.
+// Guards have no feature. They check that no vertex of a cell, which they share, has moved farther than its margin since the
+// items were made, relative to the collider: then no other feature can touch the cell's pieces.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
@@ -111,13 +111,13 @@ float longest_push()
     return uintBitsToFloat(deforming_reach[0]) * (push.progress_to - push.progress_from);
 }
 
-// Whether a vertex has moved by `bound` m since near features were listed; also if that is not a number. A guard is of all
+// Whether a vertex has moved by `bound` m since near features were listed; also if that is not a number. The k-th guard is of
 // vertices of the cell. One loop for all: code that stands once is fetched once (bench/NOTES.md).
-bool any_has_moved(float bound, bool is_guard, uvec3 vertices)
+bool any_has_moved(float bound, bool is_guard, uint k, uvec3 vertices)
 {
     bool result = false;
-    const uint count = is_guard ? cell_count(self.vertex) : 3;
-    [[dont_unroll]] for (uint i = 0; i < count; ++i)
+    const uvec2 range = is_guard ? guarded_range(self.vertex, k) : uvec2(0, 3);
+    [[dont_unroll]] for (uint i = range.x; i < range.y; ++i)
     {
         uint vertex = i == 0 ? vertices.x : i == 1 ? vertices.y : vertices.z;
         if (!is_guard || find_in_cell(self.vertex, i, vertex))
@@ -242,7 +242,7 @@ void main()
         bound = guarded_room(uintBitsToFloat(item.feature));
     else
         vertices = piece_vertices(self.vertex, kind, k);
-    if (!any_has_moved(bound, is_guard, vertices))
+    if (!any_has_moved(bound, is_guard, k, vertices))
         return;
     if (is_guard)
         cells[self.vertex.index].invalid = counted_substep(push.substep);
