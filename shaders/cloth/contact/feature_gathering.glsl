@@ -22,6 +22,11 @@ shared vec4 loaded_starts[k_most_loaded];       // a, radius
 shared float loaded_ends[3 * k_most_loaded];    // b
 shared float loaded_motions[6 * k_most_loaded]; // of a and of b until the next query, in the collider's space
 
+// The features of the first colliders stay loaded, if those of all fit.
+const uint k_most_kept = 8;
+shared uint kept_ends[k_most_kept]; // of their chunks, which follow each other
+shared uint keeps;                  // 0: they do not
+
 void load_feature(uint at, uint feature, NearFeature near)
 {
     loaded[at] = feature;
@@ -133,5 +138,19 @@ Chunk next_chunk(inout Chunks chunks, FeatureTree tree, GroupBoxes boxes, uint f
     chunks.rank = empty ? 0 : chunks.rank;
     return chunk;
 }
+
+// Notes that the features of the `index`-th collider stay loaded, or that there is no room for those of all.
+void keep(Chunk chunk, uint index)
+{
+    if (gl_LocalInvocationID.x != 0)
+        return;
+    if (chunk.all && index < k_most_kept)
+        kept_ends[index] = chunk.end;
+    else
+        keeps = 0;
+}
+
+// Where the features of the `index`-th collider begin.
+uint first_kept(uint index) { return keeps == 0 || index == 0 ? 0 : kept_ends[min(index, k_most_kept) - 1]; }
 
 #endif

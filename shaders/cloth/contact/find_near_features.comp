@@ -67,11 +67,6 @@ const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
 
 shared uint near_vertices; // of the workgroup
 
-// The features of the first colliders stay loaded, if those of all fit.
-const uint k_most_kept = 8;
-shared uint kept_ends[k_most_kept]; // of their chunks, which follow each other
-shared uint keeps;                  // 0: they do not
-
 // Each patch has as many workgroups as vertices have lanes.
 uint patch_of_group() { return push.first_patch + gl_WorkGroupID.x / push.lanes; }
 
@@ -245,20 +240,6 @@ void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lan
             }
     }
 }
-
-// Notes that the features of the `index`-th collider stay loaded, or that there is no room for those of all.
-void keep(Chunk chunk, uint index)
-{
-    if (gl_LocalInvocationID.x != 0)
-        return;
-    if (chunk.all && index < k_most_kept)
-        kept_ends[index] = chunk.end;
-    else
-        keeps = 0;
-}
-
-// Where the features of the `index`-th collider begin.
-uint first_kept(uint index) { return keeps == 0 || index == 0 ? 0 : kept_ends[min(index, k_most_kept) - 1]; }
 
 // Finds the features of the `index`-th collider near the pieces of this lane. `searches`: the same for all lanes of a
 // vertex. All threads of the workgroup call it.
