@@ -288,6 +288,37 @@ TEST_CASE("few vertices of coarse cloth on a dense mesh have room for all featur
     CHECK_FALSE(tests::same_bits(usual, fall_with(VOILE_FEATURE_ITEMS)));
 }
 
+// Without room for items all vertices near a feature overflow.
+TEST_CASE("vertices near more features than a list holds are counted, until no collider has features")
+{
+    const auto overflowing = [](const std::vector<voile::engine::Mesh>& colliders, std::optional<uint32_t> items)
+    {
+        tests::ClothHarness harness({.tuning = {.feature_items = items}});
+        voile::GridCloth sheet = tests::flat_sheet(12, 0.44f, 0.01f);
+        sheet.velocity = {0, -2, 0};
+        (void)voile::engine::take(harness.solver.add_cloth(sheet));
+        std::vector<voile::ColliderId> ids;
+        for (const voile::engine::Mesh& mesh : colliders)
+            ids.push_back(voile::engine::take(harness.solver.add_collider(tests::collider(mesh))));
+        (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -2}));
+        harness.upload();
+        CHECK(harness.statistics().overflowing_vertices == 0); // before a step
+        harness.step({});
+        const uint32_t result = harness.statistics().overflowing_vertices;
+        for (const voile::ColliderId id : ids)
+            REQUIRE(harness.solver.remove(id));
+        harness.step({});
+        CHECK(harness.statistics().overflowing_vertices == 0);
+        return result;
+    };
+    CHECK(overflowing(walls(), {}) == 0);
+    CHECK(overflowing(needles(), {}) == 0);
+    CHECK(overflowing(needles(), 0) == 144); // all
+    const uint32_t of_brush = overflowing(brush(), 8);
+    CHECK(of_brush > 0);
+    CHECK(of_brush < 144);
+}
+
 TEST_CASE("tuning outside of its range and invalid enumerators are refused")
 {
     CHECK(refused({.contact_method = static_cast<voile::ContactMethod>(5)}) ==

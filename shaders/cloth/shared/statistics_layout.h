@@ -15,6 +15,7 @@ struct StatisticsPush
 {
     uint colliders;
     uint near_stride;
+    uint features; // 1: the last step found the features near cloth
 };
 
 // Push constants of the passes that count intersections. Row y of the workgroups works on tree first_tree + y.
@@ -54,7 +55,7 @@ struct StatisticsRecord
     uint penetrating_vertices; // vertices inside a collider
     uint contacts;             // vertices that touch a collider
     uint candidates;           // triangles in the lists of all vertices
-    uint overflowing_vertices; // vertices near more triangles than a list can contain; they traverse in every substep
+    uint overflowing_vertices; // near more triangles or features than a list can contain; they traverse in every substep
     uint forced_pairs;         // in which vertices without mass took more room than there was, in the last step
     uint tangled_pairs;        // of cloths that collide with themselves, that intersected when the last step started
     uint pair_searches;        // of the last step, for near pairs of cloths that collide with themselves

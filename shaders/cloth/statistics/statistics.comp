@@ -9,6 +9,7 @@
 #include "shared/cloth_layout.h"
 #include "shared/collider_layout.h"
 #include "shared/contact_layout.h"
+#include "shared/feature_layout.h"
 #include "shared/padded_layout.h"
 #include "shared/sleep_layout.h"
 #include "shared/statistics_layout.h"
@@ -34,6 +35,7 @@ layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { 
 layout(VOILE_BINDING(residuals)) readonly buffer Residuals { uvec2 residuals[]; };
 layout(VOILE_BINDING(sleeps)) readonly buffer Sleeps { SleepRecord sleeps[]; };
 layout(VOILE_BINDING(near_colliders)) readonly buffer NearColliders { uint near_colliders[]; };
+layout(VOILE_BINDING(feature_cells)) readonly buffer FeatureCells { FeatureCell cells[]; };
 
 layout(push_constant, std430) uniform Push { StatisticsPush push; };
 
@@ -128,11 +130,14 @@ void measure_penetration(FinePosition p, uint layers, inout StatisticsRecord rec
     record.penetrating_vertices = depth > 0 ? 1 : 0;
 }
 
-void count_candidates(uint vertex, inout StatisticsRecord record)
+// Of the triangles and features near a vertex.
+void count_listed(PatchVertex self, inout StatisticsRecord record)
 {
-    const uint count = candidate_triangles[vertex] & VOILE_CANDIDATE_COUNT_MASK;
+    const uint count = candidate_triangles[self.index] & VOILE_CANDIDATE_COUNT_MASK;
+    const bool finds_features = push.features != 0 && !is_asleep(self.cloth);
+    const bool traverses = finds_features && cells[self.index].invalid == VOILE_EVERY_SUBSTEP;
     record.candidates = min(count, VOILE_CANDIDATES);
-    record.overflowing_vertices = count > VOILE_CANDIDATES ? 1 : 0;
+    record.overflowing_vertices = count > VOILE_CANDIDATES || traverses ? 1 : 0;
 }
 
 void main()
@@ -157,7 +162,7 @@ void main()
                 measure_mesh_springs(cloth, self.local, record);
             measure_penetration(position_of(i), cloths[cloth].layers, record);
             if (push.colliders > 0)
-                count_candidates(i, record);
+                count_listed(self, record);
             record.kinetic_energy = x.w > 0 ? 0.5 * dot(v.xyz, v.xyz) / x.w : 0;
             record.contacts = (uint(v.w) & (VOILE_VERTEX_TOUCHES | VOILE_VERTEX_TOUCHES_FEATURE)) != 0 ? 1 : 0;
         }

@@ -64,7 +64,8 @@ struct Statistics
     uint32_t nan_vertices = 0;         // vertices whose position or velocity is not finite
     uint32_t contacts = 0;             // vertices that touched a collider in the last substep
     uint32_t candidates = 0;           // triangles in the lists of near triangles of all vertices
-    uint32_t overflowing_vertices = 0; // vertices near more triangles than a list holds. They traverse the hierarchy in
+    uint32_t overflowing_vertices = 0; // vertices near more triangles, or more edges and corners of colliders
+                                       // (Tuning::feature_items), than a list holds. They traverse the hierarchy in
                                        // every substep, which is slower but misses nothing
     uint32_t forced_pairs = 0;    // of cloths that collide with themselves: how often in the last step vertices without
                                   // mass, such as pins, left a pair of near primitives too little room, so that it

@@ -87,7 +87,8 @@ Result<void> Solver::record_statistics(VkCommandBuffer cmd, uint32_t slot, Inter
     if (counted)
         record_intersections(recorder, *state_);
     recorder.dispatch(kernels.statistics, device.sets.statistics, device.patch_count * group, group,
-                      shared::StatisticsPush{state_->passes.colliders, device.near_stride});
+                      shared::StatisticsPush{state_->passes.colliders, device.near_stride,
+                                             state_->history.features_listed ? 1u : 0u});
     recorder.dispatch(kernels.statistics_reduce, device.sets.statistics_reduce, group, group,
                       shared::StatisticsReducePush{device.patch_count, slot, state_->history.pairs_met ? 1u : 0u});
     if (counted)

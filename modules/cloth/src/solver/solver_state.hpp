@@ -96,6 +96,7 @@ struct StepHistory
     uint32_t next_substep = 0;       // counted through all steps, below k_substeps_counted
     uint32_t next_pair_pass = 2;     // counted through all steps
     bool pairs_met = false;          // in the last step, since the last upload
+    bool features_listed = false;    // the same
 
     // What vertices remember from the last pass over pairs does not fit where they are now.
     void forget_pairs() { next_pair_pass += VOILE_PAIR_HALVED_PASSES; }

@@ -399,6 +399,7 @@ void Solver::State::finish_upload(gpu::Recorder& recorder)
     history.normals_due = true;
     history.depenetration_due = true;
     history.pairs_met = false;
+    history.features_listed = false;
     history.forget_pairs();
     dirty = false;
 }
