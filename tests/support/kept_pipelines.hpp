@@ -171,15 +171,21 @@ private:
     static void VKAPI_CALL bind_pipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline)
     {
         Promise& promise = promise_of(pipeline);
-        std::call_once(promise.made, [&] { s_kept->make(promise); });
+        std::call_once(promise.made,
+                       [&]
+                       {
+                           const std::lock_guard lock(s_kept->mutex_); // the module may be named meanwhile
+                           s_kept->make(promise);
+                       });
         s_kept->fn_.vkCmdBindPipeline(cmd, point, promise.pipeline);
     }
 
     static VkResult VKAPI_CALL set_name(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info)
     {
+        // Kernels share modules, and solvers share promises. Drivers replace the name of an object without a lock.
+        const std::lock_guard lock(s_kept->mutex_);
         if (info->objectType != VK_OBJECT_TYPE_PIPELINE)
             return s_kept->context_.set_object_name(device, info);
-        const std::lock_guard lock(s_kept->mutex_); // solvers share promises
         promise_of(reinterpret_cast<VkPipeline>(info->objectHandle)).name = info->pObjectName;
         return VK_SUCCESS;
     }
@@ -188,10 +194,12 @@ private:
     static void VKAPI_CALL keep_pipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*) {}
     static void VKAPI_CALL keep_layout(VkDevice, VkPipelineLayout layout, const VkAllocationCallbacks*)
     {
+        const std::lock_guard lock(s_kept->mutex_);
         s_kept->layouts_.push_back(layout);
     }
     static void VKAPI_CALL keep_set_layout(VkDevice, VkDescriptorSetLayout layout, const VkAllocationCallbacks*)
     {
+        const std::lock_guard lock(s_kept->mutex_);
         s_kept->set_layouts_.push_back(layout);
     }
 
