@@ -55,7 +55,7 @@ struct StatisticsRecord
     uint penetrating_vertices; // vertices inside a collider
     uint contacts;             // vertices that touch a collider
     uint candidates;           // triangles in the lists of all vertices
-    uint overflowing_vertices; // near more triangles or features than a list can contain; they traverse in every substep
+    uint overflowing_vertices; // near more triangles or features than a list holds; they traverse in every substep
     uint forced_pairs;         // in which vertices without mass took more room than there was, in the last step
     uint tangled_pairs;        // of cloths that collide with themselves, that intersected when the last step started
     uint pair_searches;        // of the last step, for near pairs of cloths that collide with themselves
