@@ -62,21 +62,18 @@ uvec3 piece_vertices(PatchVertex self, uint kind, uint k)
 // The vertices that the pieces of a vertex have: of a grid those of its cell.
 uint cell_count(PatchVertex self) { return self.columns > 0 ? 4 : 1 + 2 * corner_count(self); }
 
-// Guards share the vertices of a cell: at most five each, so that none waits for long, or a sixteenth of a large fan.
-uint guard_triangles(PatchVertex self) { return max(2, (corner_count(self) + 15) / 16); }
-
-uint guard_count(PatchVertex self)
-{
-    return self.columns > 0 ? 1 : max(1, (corner_count(self) + guard_triangles(self) - 1) / guard_triangles(self));
-}
+// Guards share the vertices of a mesh's cell: at most five each, so that none waits for long, or an eighth of a large fan.
+// Guard 0 is of the whole cell, those that share it are numbered from 1 on.
+uint guard_triangles(PatchVertex self) { return max(2, (corner_count(self) + 7) / 8); }
+uint guard_count(PatchVertex self) { return (corner_count(self) + guard_triangles(self) - 1) / guard_triangles(self); }
 
 // The first vertex of the k-th guard in the cell, and the first after its last one.
 uvec2 guarded_range(PatchVertex self, uint k)
 {
-    if (self.columns > 0)
-        return uvec2(0, 4);
+    if (k == 0)
+        return uvec2(0, cell_count(self));
     const uint vertices = 2 * guard_triangles(self);
-    return uvec2(k == 0 ? 0 : 1 + vertices * k, min(1 + vertices * (k + 1), cell_count(self)));
+    return uvec2(k == 1 ? 0 : 1 + vertices * (k - 1), min(1 + vertices * k, cell_count(self)));
 }
 
 // False: outside of the grid.

@@ -84,13 +84,20 @@ GroupBoxes joined_of_group(bool have, GroupBoxes own)
     return GroupBoxes(joined_corners(all_parts), joined_corners(all_parts + 6));
 }
 
-// Whether a node overlaps one of the parts' boxes. `all`: their union. `first`: the corners of the first one.
+// Whether a node overlaps one of the parts' boxes. `all`: their union. `first`: the corners of the first one. Four parts per
+// round are slow on GPUs, but Mesa's CPU devices end the loops of a thread after a number of rounds (bench/NOTES.md).
 bool is_near_part(Box all, uint first, Box node)
 {
     bool result = false;
     if (overlap(all, node))
-        for (uint part = 0; part < k_parts && !result; ++part)
+        for (uint part = 0; part < k_parts && !result; part += FEWER_ROUNDS != 0 ? 4 : 1)
+        {
             result = overlap(joined_corners(12 * part + first), node);
+            if (FEWER_ROUNDS != 0)
+                result = any(bvec4(result, overlap(joined_corners(12 * part + 12 + first), node),
+                                   overlap(joined_corners(12 * part + 24 + first), node),
+                                   overlap(joined_corners(12 * part + 36 + first), node)));
+        }
     return result;
 }
 

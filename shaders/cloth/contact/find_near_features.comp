@@ -22,6 +22,7 @@
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
+layout(constant_id = k_constant_fewer_rounds) const uint FEWER_ROUNDS = 0; // 1: loops of more work per round
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) buffer Patches { Patch patches[]; };
@@ -64,6 +65,9 @@ layout(push_constant, std430) uniform Push { NearFeaturesPush push; };
 // Each margin is half of the one before.
 const uint k_margins = 4;
 const float k_fractions[k_margins] = float[](1, 0.5, 0.25, 0.125);
+
+// For so many colliders several guards share a mesh's cell.
+const uint k_most_shared = 2;
 
 shared uint near_vertices; // of the workgroup
 
@@ -241,6 +245,19 @@ void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lan
     }
 }
 
+// The guards of the vertex for the `index`-th collider. Where many colliders are near, more of them would leave no room for
+// features.
+void add_guards(inout FeatureSearch search, uint lane, uint index)
+{
+    const bool one = search.self.columns > 0 || corner_count(search.self) == 0 || index >= k_most_shared;
+    const uint count = one ? 1 : guard_count(search.self);
+    for (uint k = lane; k < count; k += push.lanes)
+    {
+        search.piece = PieceKind(VOILE_PIECE_GUARD, one ? 0 : k + 1);
+        add_item(search, floatBitsToUint(search.margin), 0);
+    }
+}
+
 // Finds the features of the `index`-th collider near the pieces of this lane. `searches`: the same for all lanes of a
 // vertex. All threads of the workgroup call it.
 void search_collider(inout FeatureSearch search, inout bool searches, uint c, uint lane, uint index)
@@ -282,13 +299,8 @@ void search_collider(inout FeatureSearch search, inout bool searches, uint c, ui
     if (!kept)
         own.near = own.near && sweep_is_near != 0;
     search.near |= own.near ? 1u << min(index, 31) : 0;
-    if (!own.near || !searches)
-        return;
-    for (uint k = lane; k < guard_count(search.self); k += push.lanes)
-    {
-        search.piece = PieceKind(VOILE_PIECE_GUARD, k);
-        add_item(search, floatBitsToUint(search.margin), 0);
-    }
+    if (own.near && searches)
+        add_guards(search, lane, index);
 }
 
 // Finds the features near the pieces of this lane. `walked`: of the workgroup, whose threads all call this.

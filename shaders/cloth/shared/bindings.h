@@ -16,7 +16,8 @@
     VOILE_CONSTANT(6, from_leaves)                                                                                     \
     VOILE_CONSTANT(7, pairs)                                                                                           \
     VOILE_CONSTANT(8, force_threads)                                                                                   \
-    VOILE_CONSTANT(9, force_parts)
+    VOILE_CONSTANT(9, force_parts)                                                                                     \
+    VOILE_CONSTANT(10, fewer_rounds)
 
 #ifdef __cplusplus
 

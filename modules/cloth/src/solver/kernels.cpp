@@ -46,7 +46,7 @@ Result<void> check_replacements(const SolverOptions& options)
     return {};
 }
 
-std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
+std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options, VkPhysicalDeviceType device)
 {
     const uint32_t group = options.tuning.workgroup_size;
     const auto method = static_cast<uint32_t>(options.tuning.contact_method);
@@ -119,7 +119,9 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options)
     const auto add_features = [&](gpu::Kernel& near, gpu::Kernel& test, gpu::Kernel& contact, uint32_t move)
     {
         const Specialization with{.workgroup_size = group, .interleaved = interleaved, .colliders_move = move};
-        add(near, "cloth near features", shaders::k_find_near_features_comp, with);
+        Specialization traversing = with;
+        traversing.fewer_rounds = device == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : 0;
+        add(near, "cloth near features", shaders::k_find_near_features_comp, traversing);
         add(test, "cloth feature tests", shaders::k_test_features_comp, with);
         add(contact, "cloth feature contact", shaders::k_feature_contact_comp, with);
     };
@@ -174,7 +176,7 @@ uint32_t most_storage_buffers()
 {
     Kernels none;
     ptrdiff_t most = 0;
-    for (const Request& request : requests_of(none, {.intersections = true}))
+    for (const Request& request : requests_of(none, {.intersections = true}, VK_PHYSICAL_DEVICE_TYPE_OTHER))
         if (const auto shader = gpu::reflect(request.description))
             most = std::max(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
@@ -183,7 +185,7 @@ uint32_t most_storage_buffers()
 Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)
 {
     Kernels none;
-    for (const Request& request : requests_of(none, options))
+    for (const Request& request : requests_of(none, options, VK_PHYSICAL_DEVICE_TYPE_OTHER))
         if (auto within = gpu::check_limits(limits, request.description); !within)
             return within;
     return {};
@@ -196,7 +198,7 @@ Result<Kernels> create_kernels(const gpu::Context& context, const SolverOptions&
     if (auto within = check_limits(context.limits, options); !within) // before any is compiled
         return within.error();
     Kernels kernels;
-    if (auto created = create(context, requests_of(kernels, options)); !created)
+    if (auto created = create(context, requests_of(kernels, options, context.device_type)); !created)
         return created.error();
     auto refit = create_refit_kernels(context, k_refit_workgroup, code_of(shaders::k_refit_comp, options));
     if (!refit)
