@@ -319,6 +319,29 @@ TEST_CASE("vertices near more features than a list holds are counted, until no c
     CHECK(of_brush < 144);
 }
 
+// Each collider within reach has guards in the list of a vertex, also where none of its features is near.
+TEST_CASE("a vertex of twelve triangles near sixty colliders has room for features")
+{
+    tests::ClothHarness harness;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;
+    voile::MeshCloth round = disc(positions, triangles);
+    round.transform = tests::moved({0, 0.006f, 0});
+    round.material = voile::Fabric{.thickness = k_thickness};
+    (void)voile::engine::take(harness.solver.add_cloth(round));
+    const voile::engine::Mesh post = voile::engine::make_box({-0.001f, -0.02f, -0.001f}, {0.001f, 0, 0.001f});
+    for (int i = 0; i < 60; ++i)
+    {
+        voile::MeshCollider collider = tests::collider(post);
+        collider.transform =
+            tests::moved(0.006f * glm::vec3(static_cast<float>(i % 10) - 4.5f, 0, static_cast<float>(i / 10) - 2.5f));
+        (void)voile::engine::take(harness.solver.add_collider(collider));
+    }
+    harness.upload();
+    harness.step({.gravity = glm::vec3(0)});
+    CHECK(harness.statistics().overflowing_vertices == 0);
+}
+
 TEST_CASE("tuning outside of its range and invalid enumerators are refused")
 {
     CHECK(refused({.contact_method = static_cast<voile::ContactMethod>(5)}) ==
