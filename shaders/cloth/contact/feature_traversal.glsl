@@ -9,8 +9,8 @@
 // parts, and a node is visited if it is near one of these.
 //
 // The including kernel declares bvh_nodes[], feature_slots[], padded_boxes[] and push (NearFeaturesPush), and includes
-// box.glsl, padded_box.glsl and near_feature.glsl before. It declares scratch[], where the list is, and the list's length,
-// k_most_found.
+// box.glsl, padded_box.glsl and near_feature.glsl before. It declares scratch[], where the list is, the list's length,
+// k_most_found, and FEWER_ROUNDS (bindings.h).
 #ifndef VOILE_FEATURE_TRAVERSAL_GLSL
 #define VOILE_FEATURE_TRAVERSAL_GLSL
 

@@ -208,7 +208,7 @@ Whereabouts whereabouts_of(FeatureSearch search, uint c)
     return result;
 }
 
-// The boxes of the workgroup. There are pieces of vertices that search alone.
+// The boxes of the workgroup, with the pieces of only those vertices that search.
 GroupBoxes boxes_of_group(Whereabouts own, bool searches, uint lane)
 {
     if (!searches)
@@ -245,8 +245,8 @@ void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lan
     }
 }
 
-// The guards of the vertex for the `index`-th collider. Where many colliders are near, more of them would leave no room for
-// features.
+// Adds the guards of the vertex for the `index`-th collider. With several for each of many colliders there would be no room
+// for features.
 void add_guards(inout FeatureSearch search, uint lane, uint index)
 {
     const bool one = search.self.columns > 0 || corner_count(search.self) == 0 || index >= k_most_shared;
