@@ -115,7 +115,6 @@ quick(test_physics
 quick(test_refit)
 quick(test_renderer)
 quick(test_samples
-    "hello_cloth draws a cloth on a sphere"
     "the shooting method gives the known drops of a heavy elastica")
 quick(test_scene_meshes)
 quick(test_self_collision
