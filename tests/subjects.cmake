@@ -16,7 +16,7 @@ voile_add_test(test_viewer_parts
     SOURCES viewer/test_scene_file.cpp viewer/test_scene_errors.cpp viewer/test_scene_syntax.cpp viewer/test_options.cpp viewer/test_exports.cpp viewer/test_usd.cpp viewer/test_statistics_file.cpp
             viewer/test_film.cpp viewer/test_shader_compiler.cpp viewer/test_looks.cpp viewer/test_progress.cpp viewer/test_frame_sequence.cpp viewer/test_scene_writer.cpp viewer/test_picking.cpp
     LIBRARIES voile_viewer_parts nlohmann_json::nlohmann_json)
-voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_feature_selection.cpp contact/test_feature_spacing.cpp contact/test_round_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_contact SOURCES contact/test_contact.cpp contact/test_swept_contact.cpp contact/test_candidates.cpp contact/test_features.cpp contact/test_feature_selection.cpp contact/test_tuning.cpp contact/test_feature_spacing.cpp contact/test_round_features.cpp contact/test_friction.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_scene_meshes SOURCES viewer/test_scene_meshes.cpp LIBRARIES voile_scene_meshes voile::cloth voile::engine)
 voile_add_test(test_viewer
                SOURCES viewer/test_viewer.cpp viewer/test_viewer_solids.cpp viewer/test_viewer_frames.cpp viewer/test_viewer_inputs.cpp viewer/test_viewer_ribbons.cpp
