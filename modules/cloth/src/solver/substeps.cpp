@@ -16,8 +16,9 @@ namespace
 constexpr std::array<const char*, VOILE_SUBSTEP_LEVELS> k_group_names = {
     "substep", "level 1, substep", "level 2, substep", "level 3, substep", "level 4, substep"};
 
-// Lists last about 3.8 ms, or 16 substeps if these take longer. Those of fine cloth share the step evenly, so that none is made
-// for its last few substeps. Near queries read the state in its own buffers, not in stage B, so the number is even.
+// Lists last about 3.8 ms, or 16 substeps if these take longer. Those of fine cloth share the step evenly, so that none
+// is made for its last few substeps. Near queries read the state in its own buffers, not in stage B, so the number is
+// even.
 uint32_t substeps_per_list(float substep, uint32_t substeps, uint32_t contact_period)
 {
     constexpr float k_time = 3.8e-3f; // s
@@ -32,9 +33,9 @@ uint32_t substeps_per_list(float substep, uint32_t substeps, uint32_t contact_pe
     return (shared + unit - 1) / unit * unit;
 }
 
-// Between contact passes planes hold vertices, and forces what features push. More than four substeps would leave a vertex
-// that features push too fast, and odd numbers but 1 do not work. Passes over pairs need all contact of the substeps
-// before, and friction between cloths that of two substeps at most (bench/NOTES.md).
+// Between contact passes planes hold vertices, and forces what features push. More than four substeps would leave a
+// vertex that features push too fast, and odd numbers but 1 do not work. Passes over pairs need all contact of the
+// substeps before, and friction between cloths that of two substeps at most (bench/NOTES.md).
 uint32_t substeps_per_contact(const Solver::State& solver, const PairSchedule& pairs, float substep)
 {
     constexpr float k_rounding = 1e-3f;
