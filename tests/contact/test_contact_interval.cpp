@@ -15,7 +15,8 @@ namespace
 {
 
 constexpr uint32_t k_frames = 30;
-constexpr uint32_t k_least_substeps = 140; // per frame, so that four share a pass
+constexpr uint32_t k_hanging_frames = 150;
+constexpr uint32_t k_least_substeps = 140; // per frame, so that several share a pass
 
 // What the cloth falls on.
 struct Stage
@@ -59,7 +60,7 @@ glm::dvec3 mean_of(const std::vector<glm::vec4>& positions)
     return sum / static_cast<double>(positions.size());
 }
 
-// The mean position of leather two thirds of which lie on a box, at the end.
+// The mean position, at the end, of leather two thirds of which lie on a box.
 glm::dvec3 hang_over_edge(float contact_interval)
 {
     tests::ClothHarness harness(with_interval(contact_interval));
@@ -68,7 +69,7 @@ glm::dvec3 hang_over_edge(float contact_interval)
         harness.solver.add_collider(voile::BoxCollider{.min = {-0.2f, 0, -0.2f}, .max = {0.03f, 0.08f, 0.2f}}));
     harness.upload();
     REQUIRE(harness.solver.stable_substeps(1.f / 60) > k_least_substeps);
-    harness.step({}, 2 * k_frames);
+    harness.step({}, k_hanging_frames);
     return mean_of(harness.positions(id));
 }
 
@@ -116,10 +117,10 @@ TEST_CASE("substeps that share contact passes fold and rest as with contact in e
     }
 }
 
-// Features push pieces of cloth, which have no plane. Without their forces between passes leather slides off: 35 mm.
-TEST_CASE("cloth hangs over an edge as with contact in each substep")
+// Features push pieces of cloth, which have no plane. If cloth creeps, it slides off in the end.
+TEST_CASE("cloth hangs over an edge for seconds as with contact in each substep")
 {
     const double moved = glm::distance(hang_over_edge(voile::Tuning{}.contact_interval), hang_over_edge(0));
     MESSAGE("moved: ", moved, " m");
-    CHECK(moved < 5e-3);
+    CHECK(moved < 1.5e-4); // measured: 3.0e-5; 0.09 with four substeps per pass
 }

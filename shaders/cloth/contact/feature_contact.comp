@@ -70,13 +70,10 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "shared/mesh.glsl"
 #include "shared/step_input.glsl"
 #include "contact/feature_fan.glsl"
-#include "contact/feature_force.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/swept_feature.glsl"
-#include "contact/piece_contact.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
-#include "pairs/direction.glsl"
 #include "contact/feature_lanes.glsl"
 #include "contact/feature_cells.glsl"
 
@@ -167,7 +164,7 @@ void visit_collider(uint c, uint part, uint parts)
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
     select_collider(c);
-    piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass, self.force);
+    piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
     const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
@@ -205,7 +202,6 @@ bool load_self()
     self.inverse_mass = proposed_positions[i].w;
     self.velocity = proposed_velocities[i].xyz;
     self.thickness = cloths[self.vertex.cloth].thickness;
-    self.force = force_on(i);
     return self.inverse_mass > 0;
 }
 
@@ -240,17 +236,9 @@ void hold_at_features()
     }
 }
 
-// For the substeps until the next pass.
-void write_force()
-{
-    if (push.forces != 0)
-        predicted[self.vertex.index].w = uintBitsToFloat(pack_force(response.force));
-}
-
 void write_correction()
 {
     const uint i = self.vertex.index;
-    write_force();
     if (response.collider == k_no_collider && !is_guarded)
         return;
     if (is_guarded)
@@ -267,13 +255,8 @@ void write_correction()
 bool merge_cells()
 {
     const Items items = load_items();
-    if (!items.valid)
-        return false;
-    if (!items.any || !load_self())
-    {
-        write_force();
-        return true;
-    }
+    if (!items.valid || !items.any || !load_self())
+        return items.valid;
     for (uint i = 0; i < 4; ++i)
         merge_items(items.firsts[i], items.touched[i], i);
     find_change();

@@ -19,7 +19,6 @@ layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
 layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(VOILE_BINDING(proposed_predicted)) readonly buffer ProposedPredicted { vec4 predicted[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
@@ -50,10 +49,8 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/feature_fan.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
-#include "contact/feature_force.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/swept_feature.glsl"
-#include "contact/piece_contact.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
 
@@ -84,7 +81,7 @@ float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition ea
     vec3 end = to;
     if (collider_moves)
         end = to_collider(pose_at(collider_index, push.progress_next), to);
-    const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1, vec3(0));
+    const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1);
     return max(distance(mix(start, end, (push.progress_from - push.progress_listed) / duration), path.from),
                distance(mix(start, end, (push.progress_to - push.progress_listed) / duration), path.to));
 }
@@ -203,7 +200,7 @@ void test_piece(uint item, uint kind, uint k, uvec3 vertices)
         return;
     if (guarded)
         cells[self.vertex.index].guarded = counted_substep(push.substep);
-    Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0, true);
+    Impulse impulse = Impulse(vec3(0), 0, vec3(0), 0);
     vec4 in_cell_portions = vec4(0);
     if (touch.contact.found)
     {
@@ -213,8 +210,7 @@ void test_piece(uint item, uint kind, uint k, uvec3 vertices)
     const FeatureMotion motion = motion_of(feature);
     feature_responses[item] =
         FeatureResponse(impulse.direction, impulse.correction, impulse.slowing, impulse.approach, in_cell_portions,
-                        plane.plane, motion.carried, collider_index, motion.turned,
-                        cell_vertices(k) | (impulse.lasts ? 0 : VOILE_IMPACT_BIT));
+                        plane.plane, motion.carried, collider_index, motion.turned, cell_vertices(k));
     const uint in_cell = item - cells[self.vertex.index].first;
     atomicOr(cells[self.vertex.index].touched[push.pass & 1][in_cell / 32], 1u << in_cell % 32);
 }

@@ -36,7 +36,6 @@ layout(push_constant, std430) uniform Push { StagePush push; };
 #define VOILE_SHARES_FORCES
 #include "forces/forces.glsl"
 #include "contact/contact_vertex.glsl"
-#include "contact/feature_force.glsl"
 #include "integration/integrator.glsl"
 
 float slip_time(Motion motion) { return drift_time(true, seconds(push.substeps), 1); }
@@ -78,12 +77,10 @@ void main()
     const vec4 stage_x = stage_positions[i];
     const vec4 before = velocities[i];
     const FinePosition x = FinePosition(stage_x.xyz, unpack_residual(stage_residuals[i]));
-    const vec4 predicted = stage_velocities[i];
-    const vec3 forced = acceleration(true, self, x, stage_x.w, predicted.xyz);
+    const vec3 forced = acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz);
     if (!is_first(own))
         return;
-    const uint force = push.planes != 0 ? floatBitsToUint(predicted.w) : 0;
-    const vec3 a = stage_x.w > 0 ? forced + unpack_force(force) : vec3(0);
+    const vec3 a = stage_x.w > 0 ? forced : vec3(0);
     // A vertex that touches a collider, or hangs on a spring or a taut tether, ends the step with the velocity of that.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;
@@ -103,5 +100,5 @@ void main()
     next_velocities[i] = vec4(motion.v, ends ? touches : 0);
     const StabilityScales scales =
         stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, seconds(push.substeps));
-    next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * seconds(push.substeps) * a, uintBitsToFloat(force));
+    next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * seconds(push.substeps) * a, 0);
 }

@@ -22,7 +22,6 @@
 #define VOILE_PIECE_EDGE_C 2
 #define VOILE_PIECE_GUARD 3 // no feature: the item checks that the items of the vertex suffice
 #define VOILE_ITEM_CLOTH_BITS 20
-#define VOILE_IMPACT_BIT 0x80000000u
 #define VOILE_NO_VERTEX 0xffffffffu // of an item that is none
 // Of a batch: the size of the dispatch over items, and how many there would be with fewer items of a vertex; the size
 // of that over patches near features, and the number of items; the size of a second query if there is no room for them,
@@ -173,7 +172,7 @@ struct FeatureResponse
     vec3 carried;     // the motion of the feature and of the plane as the collider deforms, FeatureMotion
     uint collider;
     vec3 turned;
-    uint vertices; // of the cell that the piece has, one bit each, and whether the contact is an impact
+    uint vertices; // of the cell that the piece has, one bit each
 };
 
 // Push constants of the query for near features. Times are in substeps of level 0.
@@ -211,7 +210,6 @@ struct FeaturePush
     uint lanes;            // threads per vertex that traverses
     uint kicks;            // substeps since the last contact pass
     uint pass;             // counted since near features were listed
-    uint forces;           // 1: features push vertices until the next pass, too (feature_force.glsl)
 };
 
 VOILE_SHARED_END
