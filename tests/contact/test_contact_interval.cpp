@@ -16,7 +16,6 @@ namespace
 
 constexpr uint32_t k_frames = 30;
 constexpr uint32_t k_hanging_frames = 150;
-constexpr uint32_t k_least_substeps = 140; // per frame, so that several share a pass
 
 // What the cloth falls on.
 struct Stage
@@ -68,7 +67,7 @@ glm::dvec3 hang_over_edge(float contact_interval)
     (void)voile::engine::take(
         harness.solver.add_collider(voile::BoxCollider{.min = {-0.2f, 0, -0.2f}, .max = {0.03f, 0.08f, 0.2f}}));
     harness.upload();
-    REQUIRE(harness.solver.stable_substeps(1.f / 60) > k_least_substeps);
+    REQUIRE(harness.solver.stable_substeps(1.f / 60) > 140); // so that two share a pass, or four would
     harness.step({}, k_hanging_frames);
     return mean_of(harness.positions(id));
 }
@@ -83,7 +82,7 @@ Outcome drop(const Stage& stage, const voile::Fabric& fabric, float contact_inte
         (void)voile::engine::take(harness.solver.add_collider(*stage.ball));
     (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{}));
     harness.upload();
-    REQUIRE(harness.solver.stable_substeps(1.f / 60) > k_least_substeps);
+    REQUIRE(harness.solver.stable_substeps(1.f / 60) > 200); // so that two share a pass
     Outcome result;
     for (uint32_t frame = 0; frame < k_frames; ++frame)
     {
