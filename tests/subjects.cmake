@@ -27,7 +27,7 @@ voile_add_test(test_statistics SOURCES statistics/test_statistics.cpp LIBRARIES 
 voile_add_test(test_mesh_cloth SOURCES forces/test_mesh_cloth.cpp geometry/test_mesh_input.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_membrane SOURCES forces/test_membrane.cpp forces/test_shared_forces.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_verlet SOURCES integration/test_verlet.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_static_friction SOURCES contact/test_static_friction.cpp contact/test_contact_interval.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_static_friction SOURCES contact/test_static_friction.cpp contact/test_contact_interval.cpp contact/test_ridges.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_energy SOURCES integration/test_energy.cpp integration/test_energy_random.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_stability SOURCES forces/test_stability.cpp forces/test_slivers.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_fabric SOURCES forces/test_fabric.cpp forces/test_air.cpp forces/test_far.cpp contact/test_far_contact.cpp LIBRARIES voile::cloth voile::engine)

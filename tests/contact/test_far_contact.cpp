@@ -133,6 +133,16 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     return largest;
 }
 
+void check_statistics(const Outcomes& here, const Outcomes& far)
+{
+    CHECK(std::abs(static_cast<int>(far.after.contacts) - static_cast<int>(here.after.contacts)) <=
+          12); // measured: 9 of 891
+    CHECK(far.before.penetrating_vertices == here.before.penetrating_vertices);
+    CHECK(far.after.penetrating_vertices == here.after.penetrating_vertices);
+    CHECK(far.before.deepest_penetration == doctest::Approx(here.before.deepest_penetration).epsilon(1e-5));
+    CHECK(far.after.deepest_penetration == doctest::Approx(here.after.deepest_penetration).epsilon(1e-3));
+}
+
 // At any distance, sheets end within five thousandths of their displacement (measured: 3.6 without friction, on
 // lavapipe).
 void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
@@ -146,12 +156,7 @@ void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Ou
         CAPTURE(differs);
         CHECK(differs < std::max(5e-3 * displacement, 1e-6));
     }
-    CHECK(std::abs(static_cast<int>(far.after.contacts) - static_cast<int>(here.after.contacts)) <=
-          12); // measured: 9 of 891
-    CHECK(far.before.penetrating_vertices == here.before.penetrating_vertices);
-    CHECK(far.after.penetrating_vertices == here.after.penetrating_vertices);
-    CHECK(far.before.deepest_penetration == doctest::Approx(here.before.deepest_penetration).epsilon(1e-5));
-    CHECK(far.after.deepest_penetration == doctest::Approx(here.after.deepest_penetration).epsilon(1e-3));
+    check_statistics(here, far);
 }
 
 voile::ColliderId add(voile::Solver& solver, const voile::engine::Mesh& mesh, const glm::mat4& transform,
@@ -320,11 +325,27 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
                               {.name = "a capsule", .add = add_capsule, .static_friction = 0},
                               {.name = "a box", .add = add_box},
                               {.name = "a mesh", .add = add_mesh_ball}};
-    for (Scene& scene : scenes)
-        scene.start = glm::vec3(13, -100, 7) / 1024.f;
-    const Outcomes here = run(scenes, glm::vec3(0), 6);
-    REQUIRE(here.before.penetrating_vertices > 100);
-    check_same(scenes, here, run(scenes, k_far, 6));
+    // From some starts rounding decides what touches, or whether it slips, and 1 % of the displacement follows (mesh: 4
+    // of 12 starts). So the median of three counts.
+    std::vector<std::vector<double>> parts(scenes.size());
+    for (const float x : {13.f, 15.f, 16.f})
+    {
+        for (Scene& scene : scenes)
+            scene.start = glm::vec3(x, -100, 7) / 1024.f;
+        const Outcomes here = run(scenes, glm::vec3(0), 6);
+        const Outcomes far = run(scenes, k_far, 6);
+        REQUIRE(here.before.penetrating_vertices > 100);
+        check_statistics(here, far);
+        for (size_t i = 0; i < scenes.size(); ++i)
+            parts[i].push_back(farthest(here.scenes[i].end, far.scenes[i].end) /
+                               farthest(here.scenes[i].end, here.scenes[i].start));
+    }
+    for (size_t i = 0; i < scenes.size(); ++i)
+    {
+        std::sort(parts[i].begin(), parts[i].end());
+        MESSAGE(scenes[i].name, ": ", parts[i][0], ", ", parts[i][1], ", ", parts[i][2], " of the displacement");
+        CHECK(parts[i][1] < 1.5e-3); // measured: 3.4e-4
+    }
 }
 
 TEST_CASE("cloth 132 km from the origin falls through no kind of collider and stays finite")

@@ -38,7 +38,6 @@ layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { 
 layout(VOILE_BINDING(feature_corrections)) writeonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
 layout(VOILE_BINDING(feature_guards)) writeonly buffer FeatureGuards { FeatureGuard feature_guards[]; };
 layout(VOILE_BINDING(feature_patches)) readonly buffer FeaturePatches { uint near_patches[]; };
-layout(VOILE_BINDING(proposed_predicted)) buffer ProposedPredicted { vec4 predicted[]; }; // of cloths that use Verlet
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
@@ -247,8 +246,6 @@ void write_correction()
         feature_guards[i] = guard;
     }
     corrections[i] = FeatureCorrection(response.shift, counted_substep(push.substep), response.change, is_guarded ? 1 : 0);
-    if (is_verlet(cloths[self.vertex.cloth].flags))
-        predicted[i] += vec4(response.change, 0);
 }
 
 // Merges the contacts of the items around the vertex. False: they do not suffice.

@@ -234,7 +234,6 @@ void Describer::add_contact()
                                              {binding::earlier_residuals, earlier.residuals},
                                              {binding::step_votes, k_depenetration_votes[votes]}};
             add(sets_.test_features[proposal][votes], kernels_.test_features, roles);
-            roles.push_back({binding::proposed_predicted, predicted});
             add(sets_.feature_contact[proposal][votes], kernels_.feature_contact, roles);
         }
     }
