@@ -325,10 +325,10 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
                               {.name = "a capsule", .add = add_capsule, .static_friction = 0},
                               {.name = "a box", .add = add_box},
                               {.name = "a mesh", .add = add_mesh_ball}};
-    // From some starts rounding decides what touches, or whether it slips, and 1 % of the displacement follows (mesh: 4
-    // of 12 starts). So the median of three counts.
+    // From some starts rounding decides what touches, or whether it slips, and 1 % of the displacement follows (a mesh:
+    // 5 of 12 starts). A fault of large coordinates would show from all of them, so the second best counts.
     std::vector<std::vector<double>> parts(scenes.size());
-    for (const float x : {13.f, 15.f, 16.f})
+    for (const float x : {11.f, 12.f, 13.f, 15.f, 16.f})
     {
         for (Scene& scene : scenes)
             scene.start = glm::vec3(x, -100, 7) / 1024.f;
@@ -343,8 +343,9 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
     for (size_t i = 0; i < scenes.size(); ++i)
     {
         std::sort(parts[i].begin(), parts[i].end());
-        MESSAGE(scenes[i].name, ": ", parts[i][0], ", ", parts[i][1], ", ", parts[i][2], " of the displacement");
-        CHECK(parts[i][1] < 1.5e-3); // measured: 3.4e-4
+        MESSAGE(scenes[i].name, ": ", parts[i].front(), ", ", parts[i][1], " to ", parts[i].back(),
+                " of the displacement");
+        CHECK(parts[i][1] < 1.5e-3); // measured: 1.5e-4 on lavapipe; on an H200 5.4e-4
     }
 }
 

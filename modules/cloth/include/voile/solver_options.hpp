@@ -124,7 +124,7 @@ struct SolverOptions
     uint32_t statistics_slots = 2; // slots for the statistics of frames in flight, 1..16
 
     // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
-    // with features that can protrude between the vertices of a cloth costs two more passes per substep, and 160 bytes
+    // with features that can protrude between the vertices of a cloth costs two more passes per substep, and 176 bytes
     // of device memory per vertex and 112 per item (Tuning::feature_items).
     bool feature_contact = true;
 
