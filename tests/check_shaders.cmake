@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 set(sources ${CMAKE_CURRENT_LIST_DIR}/../shaders/cloth)
 set(most_parameters 6)
 # Feature contact keeps its piece, its response and its guard in variables of the thread.
-set(variables_of_threads feature_guard.glsl feature_pieces.glsl feature_response.glsl piece_contact.glsl)
+set(variables_of_threads feature_guard.glsl feature_pieces.glsl feature_response.glsl)
 
 file(GLOB_RECURSE files ${sources}/*.comp ${sources}/*.glsl ${sources}/*.h)
 set(functions 0)

@@ -34,8 +34,8 @@ void merge_items(uint first, uvec4 touched, uint i)
     {
         const FeatureResponse touch = feature_responses[first + item];
         if (touch.portions[i] > 0)
-            respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach),
-                    touch.portions[i], touch.collider, FeatureMotion(touch.carried, touch.turned));
+            respond(Impulse(touch.direction, touch.correction, touch.slowing, touch.approach), touch.portions[i],
+                    touch.collider, FeatureMotion(touch.carried, touch.turned));
     }
 }
 

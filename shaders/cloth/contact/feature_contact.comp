@@ -38,7 +38,6 @@ layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { 
 layout(VOILE_BINDING(feature_corrections)) writeonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
 layout(VOILE_BINDING(feature_guards)) writeonly buffer FeatureGuards { FeatureGuard feature_guards[]; };
 layout(VOILE_BINDING(feature_patches)) readonly buffer FeaturePatches { uint near_patches[]; };
-layout(VOILE_BINDING(feature_forces)) buffer FeatureForces { FeatureForce feature_forces[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
@@ -70,13 +69,10 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "shared/mesh.glsl"
 #include "shared/step_input.glsl"
 #include "contact/feature_fan.glsl"
-#include "contact/feature_force.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/swept_feature.glsl"
-#include "contact/piece_contact.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
-#include "pairs/direction.glsl"
 #include "contact/feature_lanes.glsl"
 #include "contact/feature_cells.glsl"
 
@@ -84,12 +80,11 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 shared uint traversing[gl_WorkGroupSize.x];
 shared uint traversing_count;
 
-// Whether two boxes are so close that cloth may touch.
+// Whether two boxes are closer than the thickness.
 bool is_near(Box a, Box b)
 {
     const vec3 gap = max(max(b.min - a.max, a.min - b.max), vec3(0));
-    const float nearest = VOILE_CARRIED * self.thickness;
-    return dot(gap, gap) <= nearest * nearest;
+    return dot(gap, gap) <= self.thickness * self.thickness;
 }
 
 struct FeatureQuery
@@ -168,7 +163,7 @@ void visit_collider(uint c, uint part, uint parts)
     if (set.features == 0 || (collider.layers & cloths[self.vertex.cloth].layers) == 0)
         return;
     select_collider(c);
-    piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass, self.force);
+    piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
     const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
@@ -206,7 +201,6 @@ bool load_self()
     self.inverse_mass = proposed_positions[i].w;
     self.velocity = proposed_velocities[i].xyz;
     self.thickness = cloths[self.vertex.cloth].thickness;
-    self.force = force_on(i);
     return self.inverse_mass > 0;
 }
 
@@ -251,20 +245,15 @@ void write_correction()
         hold_at_features();
         feature_guards[i] = guard;
     }
-    const uint substep = counted_substep(push.substep);
-    corrections[i] = FeatureCorrection(response.shift, substep, response.change, is_guarded ? 1 : 0);
-    if (push.forces != VOILE_FORCES_NONE)
-        feature_forces[force_index(i, push.force_slot)] = FeatureForce(response.force, substep);
+    corrections[i] = FeatureCorrection(response.shift, counted_substep(push.substep), response.change, is_guarded ? 1 : 0);
 }
 
 // Merges the contacts of the items around the vertex. False: they do not suffice.
 bool merge_cells()
 {
     const Items items = load_items();
-    if (!items.valid)
-        return false;
-    if (!items.any || !load_self())
-        return true;
+    if (!items.valid || !items.any || !load_self())
+        return items.valid;
     for (uint i = 0; i < 4; ++i)
         merge_items(items.firsts[i], items.touched[i], i);
     find_change();

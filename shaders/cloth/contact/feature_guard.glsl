@@ -136,7 +136,7 @@ void insert_plane(vec4 plane, float urgent)
 void add_plane(GuardPlane added)
 {
     const vec4 plane = added.plane;
-    const SweptVertex own = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass, self.force);
+    const SweptVertex own = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     if (plane.xyz == vec3(0))
         return;
     const float slack = k_guarded_part * max(dot(plane.xyz, own.from) - plane.w, 0);

@@ -1,6 +1,6 @@
 // What the threads of one vertex found, in shared memory: first their responses, then their guards in the same place.
 //
-// The including kernel includes feature_guard.glsl and direction.glsl before. A barrier must separate storing from reading.
+// The including kernel includes feature_guard.glsl before. A barrier must separate storing from reading.
 #ifndef VOILE_FEATURE_LANES_GLSL
 #define VOILE_FEATURE_LANES_GLSL
 
@@ -11,24 +11,21 @@ shared vec4 lanes[k_lane_words * gl_WorkGroupSize.x];
 void store_response(uint thread)
 {
     const float collider = response.collider == k_no_collider ? -1 : float(response.collider);
-    const float borne = length(response.borne);
-    const float along = uintBitsToFloat(pack_direction(response.borne / max(borne, 1e-30)));
     lanes[k_lane_words * thread] = vec4(response.shift, response.pressed);
     lanes[k_lane_words * thread + 1] = vec4(response.change, collider);
     lanes[k_lane_words * thread + 2] = vec4(response.slowing, response.impulses);
-    lanes[k_lane_words * thread + 3] = vec4(response.motion.carried, borne);
-    lanes[k_lane_words * thread + 4] = vec4(response.motion.turned, along);
+    lanes[k_lane_words * thread + 3] = vec4(response.motion.carried, 0);
+    lanes[k_lane_words * thread + 4] = vec4(response.motion.turned, 0);
 }
 
 Response stored_response(uint thread)
 {
-    const vec4 shift = lanes[k_lane_words * thread];
     const vec4 change = lanes[k_lane_words * thread + 1];
     const vec4 slowing = lanes[k_lane_words * thread + 2];
-    const vec4 carried = lanes[k_lane_words * thread + 3];
-    const vec4 turned = lanes[k_lane_words * thread + 4];
-    return Response(shift.xyz, shift.w, change.xyz, change.w < 0 ? k_no_collider : uint(change.w), slowing.xyz, slowing.w,
-                    FeatureMotion(carried.xyz, turned.xyz), carried.w * unpack_direction(floatBitsToUint(turned.w)), vec3(0));
+    const FeatureMotion motion =
+        FeatureMotion(lanes[k_lane_words * thread + 3].xyz, lanes[k_lane_words * thread + 4].xyz);
+    return Response(lanes[k_lane_words * thread].xyz, lanes[k_lane_words * thread].w, change.xyz,
+                    change.w < 0 ? k_no_collider : uint(change.w), slowing.xyz, motion, slowing.w);
 }
 
 void store_guard(uint thread)

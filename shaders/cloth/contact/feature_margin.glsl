@@ -35,7 +35,7 @@ bool may_touch(uint c, PatchVertex self)
 }
 
 // m: the thickness with room for rounding. `far`: m, from the origin of the collider's space.
-float query_radius(PatchVertex self, vec3 far) { return (VOILE_CARRIED + 0.01) * cloths[self.cloth].thickness + rounding(far); }
+float query_radius(PatchVertex self, vec3 far) { return 1.01 * cloths[self.cloth].thickness + rounding(far); }
 
 // m: the largest distance between the boxes along an axis; negative: they overlap.
 float separation(Box a, Box b)

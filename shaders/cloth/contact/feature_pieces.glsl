@@ -1,8 +1,8 @@
 // The triangles and edges around a vertex of a cloth, and their motion within a substep.
 //
 // The including kernel declares cloths[], mesh_vertices[], mesh_corners[], earlier_positions[], proposed_positions[],
-// the residuals of both, proposed_velocities[] and push (FeaturePush), and includes box.glsl, patch.glsl,
-// collider_pose.glsl, feature_fan.glsl and feature_force.glsl before.
+// the residuals of both and proposed_velocities[], and includes box.glsl, patch.glsl, collider_pose.glsl and
+// feature_fan.glsl before.
 #ifndef VOILE_FEATURE_PIECES_GLSL
 #define VOILE_FEATURE_PIECES_GLSL
 
@@ -15,7 +15,6 @@ struct Self
     float inverse_mass;
     vec3 velocity;
     float thickness;
-    vec3 force; // m/s^2, of features since the last contact pass
 };
 Self self;
 
@@ -58,7 +57,6 @@ struct SweptVertex
     vec3 velocity; // m/s, world
     float inverse_mass;
     vec3 displaced; // m, world, within the substep
-    vec3 force;     // m/s^2, of features since the last contact pass
 };
 
 FinePosition earlier_position(uint index)
@@ -71,19 +69,11 @@ FinePosition proposed_position(uint index)
     return FinePosition(proposed_positions[index].xyz, unpack_residual(proposed_residuals[index]));
 }
 
-// m/s^2, of features since the last contact pass.
-vec3 force_on(uint index)
-{
-    if (push.forces != VOILE_FORCES_LAST)
-        return vec3(0);
-    return force_after(index, 1 - push.force_slot, push.substep - push.kicks);
-}
-
-SweptVertex swept_vertex(FinePosition earlier, FinePosition proposed, vec3 velocity, float inverse_mass, vec3 force)
+SweptVertex swept_vertex(FinePosition earlier, FinePosition proposed, vec3 velocity, float inverse_mass)
 {
     SweptVertex result = SweptVertex(from_origin(collider_index, collider_flags, earlier),
                                      from_origin(collider_index, collider_flags, proposed), velocity, inverse_mass,
-                                     displacement(earlier, proposed), force);
+                                     displacement(earlier, proposed));
     if (collider_moves)
     {
         result.from = to_collider(pose_from, result.from);
@@ -95,7 +85,7 @@ SweptVertex swept_vertex(FinePosition earlier, FinePosition proposed, vec3 veloc
 SweptVertex swept_vertex(uint index)
 {
     return swept_vertex(earlier_position(index), proposed_position(index), proposed_velocities[index].xyz,
-                        proposed_positions[index].w, force_on(index));
+                        proposed_positions[index].w);
 }
 
 // The vertex and two of its neighbors. Features are tested one after the other, so their common input is kept here.

@@ -19,7 +19,6 @@ layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { vec4 proposed_positions[]; };
 layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
-layout(VOILE_BINDING(feature_forces)) readonly buffer FeatureForces { FeatureForce feature_forces[]; };
 layout(VOILE_BINDING(proposed_residuals)) readonly buffer ProposedResiduals { uvec2 proposed_residuals[]; };
 layout(VOILE_BINDING(earlier_positions)) readonly buffer EarlierPositions { vec4 earlier_positions[]; }; // before the substep
 layout(VOILE_BINDING(earlier_residuals)) readonly buffer EarlierResiduals { uvec2 earlier_residuals[]; };
@@ -50,10 +49,8 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/feature_fan.glsl"
 #include "contact/friction.glsl"
 #include "integration/integrator.glsl"
-#include "contact/feature_force.glsl"
 #include "contact/feature_pieces.glsl"
 #include "contact/swept_feature.glsl"
-#include "contact/piece_contact.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
 
@@ -84,7 +81,7 @@ float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition ea
     vec3 end = to;
     if (collider_moves)
         end = to_collider(pose_at(collider_index, push.progress_next), to);
-    const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1, vec3(0));
+    const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1);
     return max(distance(mix(start, end, (push.progress_from - push.progress_listed) / duration), path.from),
                distance(mix(start, end, (push.progress_to - push.progress_listed) / duration), path.to));
 }

@@ -11,7 +11,6 @@
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/contact_layout.h"
-#include "shared/feature_layout.h"
 #include "shared/step_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
@@ -30,7 +29,6 @@ layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mes
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 stage_residuals[]; };
 layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
 layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
-layout(VOILE_BINDING(feature_forces)) readonly buffer FeatureForces { FeatureForce feature_forces[]; };
 layout(VOILE_BINDING(contact_planes)) buffer ContactPlanes { ContactPlane planes[]; };
 
 layout(push_constant, std430) uniform Push { StagePush push; };
@@ -38,7 +36,6 @@ layout(push_constant, std430) uniform Push { StagePush push; };
 #define VOILE_SHARES_FORCES
 #include "forces/forces.glsl"
 #include "contact/contact_vertex.glsl"
-#include "contact/feature_force.glsl"
 #include "integration/integrator.glsl"
 
 float slip_time(Motion motion) { return drift_time(true, seconds(push.substeps), 1); }
@@ -69,18 +66,9 @@ void respond_to_plane(uint i, inout Motion motion)
         stay_above(i, plane, motion);
 }
 
-// m/s^2, of features near the patch.
-vec3 force_of_features(uint i, uint patch_index)
-{
-    if (push.forces != VOILE_FORCES_LAST || patches[patch_index].near_features == 0)
-        return vec3(0);
-    return force_after(i, push.force_slot, push.pass_substep);
-}
-
 void main()
 {
-    const uint patch_index = patch_of_batch(push.first_patch);
-    const PatchVertex own = patch_vertex(patch_index);
+    const PatchVertex own = patch_vertex(patch_of_batch(push.first_patch));
     if (is_idle(own))
         return;
     const PatchVertex self = force_vertex(own);
@@ -92,7 +80,7 @@ void main()
     const vec3 forced = acceleration(true, self, x, stage_x.w, stage_velocities[i].xyz);
     if (!is_first(own))
         return;
-    const vec3 a = stage_x.w > 0 ? forced + force_of_features(i, patch_index) : vec3(0);
+    const vec3 a = stage_x.w > 0 ? forced : vec3(0);
     // A vertex that touches a collider, or hangs on a spring or a taut tether, ends the step with the velocity of that.
     // Another half kick would drive it into the surface. The next step's first kick includes that half.
     const bool ends = push.drift == 0;

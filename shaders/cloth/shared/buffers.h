@@ -105,7 +105,6 @@ VOILE_BUFFER(89, feature_slots, uint, feature_slots, "per slot of a deforming me
 VOILE_BUFFER(90, feature_facings, FeatureFacing, 2 * feature_sources, "which way a feature of a deforming mesh faces, twice: at the step's start and at its end")
 VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, featured_vertices, "a shift, a change of velocity, and the substep in which they apply")
 VOILE_SCRATCH_BUFFER(86, feature_guards, FeatureGuard, featured_vertices, "where a vertex near features may move in a substep")
-VOILE_SCRATCH_BUFFER(97, feature_forces, FeatureForce, 2 * featured_vertices, "per vertex the forces that features exert after the last contact pass and the one before, if such passes span several substeps")
 VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are near features")
 VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, VOILE_SUBSTEP_BATCHES * VOILE_FEATURE_DISPATCH_WORDS, "the sizes of the indirect dispatches over feature items, over the patches near features and of a second query for them, with the numbers of items, for each batch of cloths; cleared before they are written")
 VOILE_SCRATCH_BUFFER(79, feature_centers, FeatureCenter, featured_vertices, "the position of a vertex when near features were listed")

@@ -8,9 +8,6 @@
 
 // Edges of a cloth that are longer than this many times the longest edge at rest may pass features undetected.
 #define VOILE_MOST_STRETCH 4
-// Over the thickness: where features push between contact passes, they carry a piece of cloth that is no farther, so that
-// the force does not end with each small overshoot.
-#define VOILE_CARRIED 1.01f
 // The mean number of items per vertex that there is room for, and the number of all vertices beyond that. The largest
 // number of one vertex, and those of a second query where the items of the first are more than there is room for. Where
 // that is not enough, either, all vertices get the same.
@@ -135,13 +132,6 @@ struct FeatureCorrection
     uint guarded; // 1: the vertex has a guard in this substep
 };
 
-// What features exert on a vertex in each substep after a contact pass, until the next one.
-struct FeatureForce
-{
-    vec3 acceleration; // m/s^2
-    uint substep;      // of the pass, counted over all steps; of any other: none
-};
-
 // The motion of a vertex when near features were listed.
 struct FeatureCenter
 {
@@ -220,8 +210,6 @@ struct FeaturePush
     uint lanes;            // threads per vertex that traverses
     uint kicks;            // substeps since the last contact pass
     uint pass;             // counted since near features were listed
-    uint forces;           // VOILE_FORCES_...
-    uint force_slot;       // of the forces that the pass finds; those of the last pass are in the other one
 };
 
 VOILE_SHARED_END

@@ -19,11 +19,6 @@
 #define VOILE_EDIT_TRANSFORM 2 // transforms positions by the matrix, velocities by its linear part
 #define VOILE_EDIT_VELOCITY 3  // sets all velocities to one value
 
-// Between contact passes features push with the force that the last pass found, but not from step to step.
-#define VOILE_FORCES_NONE 0
-#define VOILE_FORCES_START 1 // the first pass of a step
-#define VOILE_FORCES_LAST 2
-
 // The forces of a mesh's vertex are summed up in so many parts where threads may take one each.
 #define VOILE_FORCE_PARTS 4
 // Of shared memory, per vertex of a workgroup whose threads share forces, at most (mesh_forces.glsl).
@@ -62,9 +57,6 @@ struct StagePush
     uint first_patch; // of the dispatch
     uint planes;      // Verlet: 1: vertices stay above the planes of the last contact pass
     uint gusts;       // 1: the step has gusts. Known before StepInput has arrived, so the gather need not wait for it
-    uint forces;      // Verlet: VOILE_FORCES_...
-    uint pass_substep; // the substep of the last contact pass, in the step
-    uint force_slot;   // of its forces
 };
 
 // Push constants of an edit of one cloth.

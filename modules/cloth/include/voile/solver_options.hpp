@@ -77,11 +77,9 @@ struct Tuning
     // at rest keep up to three times the energy, and cloths that hit each other lose up to 8 % more of their momentum.
     uint32_t waiting_vertices = 0;
 
-    // s. Two or four Verlet substeps within this time share one query for contact with colliders; with self-collision
-    // at most two. Between two queries a vertex stays above the plane of the surface that it last touched, with
-    // friction, and edges and corners of colliders push cloth with the force that it needed last. 0: a query in every
-    // substep. RK4, normal_ray, and cloths whose near pairs are resolved in every substep always query in every
-    // substep.
+    // s. Two Verlet substeps within this time share one query for contact with colliders. Between two queries a vertex
+    // stays above the plane of the surface that it last touched, with friction. 0: a query in every substep. RK4,
+    // normal_ray, and cloths whose near pairs are resolved in every substep always query in every substep.
     float contact_interval = 0.5e-3f;
 
     ContactMethod contact_method = ContactMethod::nearest_point;
@@ -126,8 +124,8 @@ struct SolverOptions
     uint32_t statistics_slots = 2; // slots for the statistics of frames in flight, 1..16
 
     // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
-    // with features that can protrude between the vertices of a cloth costs two more passes per query for contact, and
-    // 208 bytes of device memory per vertex and 112 per item (Tuning::feature_items).
+    // with features that can protrude between the vertices of a cloth costs two more passes per substep, and 176 bytes
+    // of device memory per vertex and 112 per item (Tuning::feature_items).
     bool feature_contact = true;
 
     // Vertices that are inside a collider at the start of a step are moved out along a smooth field. Without this, they

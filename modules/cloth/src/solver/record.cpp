@@ -169,7 +169,6 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device)
     fill(buffer::candidate_centers, std::bit_cast<uint32_t>(k_none));
     fill(buffer::candidate_triangles, 0);
     fill(buffer::feature_corrections, VOILE_NO_SUBSTEP);
-    fill(buffer::feature_forces, VOILE_NO_SUBSTEP);
     fill(buffer::depenetrations, 0);
     constexpr uint32_t k_not_a_number = 0xffffffff; // no position is in a box of these
     fill(buffer::near_colliders, k_not_a_number);

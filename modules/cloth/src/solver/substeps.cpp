@@ -16,33 +16,25 @@ namespace
 constexpr std::array<const char*, VOILE_SUBSTEP_LEVELS> k_group_names = {
     "substep", "level 1, substep", "level 2, substep", "level 3, substep", "level 4, substep"};
 
-// Lists last about 3.8 ms, or 16 substeps if these take longer. Those of fine cloth share the step evenly, so that none
-// is made for its last few substeps. Near queries read the state in its own buffers, not in stage B, so the number is
-// even.
-uint32_t substeps_per_list(float substep, uint32_t substeps, uint32_t contact_period)
+// Near queries read the state in its own buffers, not in stage B, so the number is even.
+uint32_t substeps_per_list(float substep, uint32_t contact_period)
 {
     constexpr float k_time = 3.8e-3f; // s
     constexpr uint32_t k_least = 16;
-    constexpr uint32_t k_fine = 32;
-    const uint32_t unit = 2 * contact_period;
-    const auto usual = static_cast<uint32_t>(std::min(k_time / substep, 1024.f));
-    if (usual < k_fine)
-        return std::max(k_least, usual) / unit * unit;
-    const uint32_t lists = std::max(1u, (substeps + usual / 2) / usual);
-    const uint32_t shared = (substeps + lists - 1) / lists;
-    return (shared + unit - 1) / unit * unit;
+    const auto substeps = static_cast<uint32_t>(std::min(k_time / substep, 1024.f));
+    return std::max(k_least, substeps) / (2 * contact_period) * (2 * contact_period);
 }
 
-// Between contact passes planes hold vertices, and forces what features push. More than four substeps would leave a
-// vertex that features push too fast, and odd numbers but 1 do not work. Passes over pairs need all contact of the
-// substeps before, and friction between cloths that of two substeps at most (bench/NOTES.md).
+// Between contact passes nothing holds what features have pushed. Within two substeps springs hardly respond; within
+// more they would carry part of the load, and friction would lose its hold (bench/NOTES.md). Without features more
+// would do, but then a cloth would move differently beside one that has features. Passes over pairs need all contact
+// of the substeps before.
 uint32_t substeps_per_contact(const Solver::State& solver, const PairSchedule& pairs, float substep)
 {
     constexpr float k_rounding = 1e-3f;
-    uint32_t period = solver.passes.pairs ? pairs.period % 2 == 1 ? 1 : 2 : 4;
-    while (period > 1 && static_cast<float>(period) > solver.options.tuning.contact_interval / substep + k_rounding)
-        period /= 2;
-    return period;
+    const float most = solver.passes.pairs && pairs.period % 2 == 1 ? 1.f : 2.f;
+    const float interval = solver.options.tuning.contact_interval;
+    return std::max(1u, static_cast<uint32_t>(std::min(interval / substep + k_rounding, most)));
 }
 
 } // namespace
@@ -56,7 +48,7 @@ BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
       contact_period_(swaps_ && verlet_ ? substeps_per_contact(solver_, context.plan.pairs, h_) : 1),
-      list_period_(substeps_per_list(h_, substeps_, contact_period_))
+      list_period_(substeps_per_list(h_, contact_period_))
 {
 }
 
@@ -77,8 +69,6 @@ void BatchRecorder::record_substep(uint32_t substep)
     if (solver_.passes.features)
         record_features(substep);
     record_contact(substep);
-    pass_substep_ = substep;
-    force_slot_ = 1 - force_slot_;
 }
 
 bool BatchRecorder::contact_is_due(uint32_t substep) const
@@ -97,11 +87,6 @@ BatchRecorder::ContactInterval BatchRecorder::contact_interval(uint32_t substep)
 bool BatchRecorder::keeps_contact_start(uint32_t substep) const
 {
     return contact_period_ > 1 && in_stage_b(substep) != in_stage_b(substep + 1);
-}
-
-bool BatchRecorder::has_forces() const
-{
-    return contact_period_ > 2 && solver_.passes.features;
 }
 
 size_t BatchRecorder::proposal(uint32_t substep) const
@@ -148,10 +133,6 @@ void BatchRecorder::record_rk4(uint32_t substep)
 void BatchRecorder::record_verlet(shared::StagePush push, uint32_t substep)
 {
     push.planes = contact_period_ > 1 && substep > 0 ? 1 : 0;
-    if (has_forces() && substep > 0)
-        push.forces = VOILE_FORCES_LAST;
-    push.pass_substep = pass_substep_;
-    push.force_slot = 1 - force_slot_;
     push.kick = of_level_0(substep == 0 ? 0.5f : 1);
     push.drift = of_level_0(1);
     VkDescriptorSet set = in_stage_b(substep) ? device_.sets.verlet_back : device_.sets.verlet_forth;
@@ -249,9 +230,6 @@ void BatchRecorder::record_features(uint32_t substep)
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
     const ItemRange items = feature_items();
-    const uint32_t forces = !has_forces()  ? VOILE_FORCES_NONE
-                            : substep == 0 ? VOILE_FORCES_START
-                                           : VOILE_FORCES_LAST;
     const shared::FeaturePush push{of_level_0(interval.count),
                                    progress(interval.first),
                                    progress(substep + 1),
@@ -266,9 +244,7 @@ void BatchRecorder::record_features(uint32_t substep)
                                    word,
                                    solver_.options.tuning.feature_threads,
                                    interval.count,
-                                   feature_passes_++,
-                                   forces,
-                                   force_slot_};
+                                   feature_passes_++};
     const bool moving = solver_.passes.moving;
     const size_t begins = proposal(substep);
     const size_t votes = context_.history.depenetration_step % 2;

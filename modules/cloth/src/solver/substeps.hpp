@@ -83,8 +83,6 @@ private:
     // Whether the contact pass keeps positions from which the next one starts. Else it starts from the state before the
     // substep.
     [[nodiscard]] bool keeps_contact_start(uint32_t substep) const;
-    // Whether features push between contact passes.
-    [[nodiscard]] bool has_forces() const;
     [[nodiscard]] size_t proposal(uint32_t substep) const;
     // Contact of odd numbers of substeps ends with a pass over one, which copies its result into the state.
     [[nodiscard]] bool ends_alone() const { return contact_period_ > 1 && substeps_ % 2 == 1; }
@@ -112,8 +110,6 @@ private:
     const DeviceState& device_;
     const BatchLists& lists_;
     uint32_t feature_passes_ = 0; // since near features were listed
-    uint32_t pass_substep_ = 0;   // of the last contact pass
-    uint32_t force_slot_ = 0;     // of the forces that the next one finds
     uint32_t batch_;              // its index
     uint32_t level_;
     bool verlet_;
