@@ -325,9 +325,10 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
                               {.name = "a capsule", .add = add_capsule, .static_friction = 0},
                               {.name = "a box", .add = add_box},
                               {.name = "a mesh", .add = add_mesh_ball}};
-    // From some starts rounding decides what touches, or whether it slips, and 1 % of the displacement follows (a mesh:
-    // 5 of 12 starts). A fault of large coordinates would show from all of them, so the second best counts.
-    std::vector<std::vector<double>> parts(scenes.size());
+    // From some starts rounding decides what touches, or whether it slips, and 1 to 15 % of the displacement follow (a
+    // mesh: 5 of 12 starts on lavapipe, 4 of 5 on an H200). A fault of large coordinates would show from all of them,
+    // so the best counts.
+    std::vector<double> parts(scenes.size(), 1);
     for (const float x : {11.f, 12.f, 13.f, 15.f, 16.f})
     {
         for (Scene& scene : scenes)
@@ -337,15 +338,13 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
         REQUIRE(here.before.penetrating_vertices > 100);
         check_statistics(here, far);
         for (size_t i = 0; i < scenes.size(); ++i)
-            parts[i].push_back(farthest(here.scenes[i].end, far.scenes[i].end) /
-                               farthest(here.scenes[i].end, here.scenes[i].start));
+            parts[i] = std::min(parts[i], farthest(here.scenes[i].end, far.scenes[i].end) /
+                                              farthest(here.scenes[i].end, here.scenes[i].start));
     }
     for (size_t i = 0; i < scenes.size(); ++i)
     {
-        std::sort(parts[i].begin(), parts[i].end());
-        MESSAGE(scenes[i].name, ": ", parts[i].front(), ", ", parts[i][1], " to ", parts[i].back(),
-                " of the displacement");
-        CHECK(parts[i][1] < 1.5e-3); // measured: 1.5e-4 on lavapipe; on an H200 5.4e-4
+        MESSAGE(scenes[i].name, ": ", parts[i], " of the displacement");
+        CHECK(parts[i] < 5e-4); // measured: 1.0e-4, on an H200 1.5e-4
     }
 }
 
