@@ -323,29 +323,32 @@ TEST_CASE("cloth 16 km from the origin leaves solids as at the origin")
 {
     std::vector<Scene> scenes{{.name = "a sphere", .add = add_ball},
                               {.name = "a capsule", .add = add_capsule, .static_friction = 0},
-                              {.name = "a box", .add = add_box},
-                              {.name = "a mesh", .add = add_mesh_ball}};
-    // From some starts rounding decides what touches, or whether it slips, and 1 to 15 % of the displacement follow (a
-    // mesh: 5 of 12 starts on lavapipe, 4 of 5 on an H200). A fault of large coordinates would show from all of them,
-    // so the best counts.
-    std::vector<double> parts(scenes.size(), 1);
+                              {.name = "a box", .add = add_box}};
+    for (Scene& scene : scenes)
+        scene.start = glm::vec3(13, -100, 7) / 1024.f;
+    const Outcomes here = run(scenes, glm::vec3(0), 6);
+    REQUIRE(here.before.penetrating_vertices > 100);
+    check_same(scenes, here, run(scenes, k_far, 6));
+}
+
+// From some starts rounding decides what touches, or whether it slips, and 1 to 15 % of the displacement follow (5 of
+// 12 on lavapipe, 4 of 5 on an H200). A fault of large coordinates would show from all of them, so the best counts.
+TEST_CASE("cloth 16 km from the origin leaves a mesh as at the origin, from one of five starts")
+{
+    double differs = 1; // over the displacement
     for (const float x : {11.f, 12.f, 13.f, 15.f, 16.f})
     {
-        for (Scene& scene : scenes)
-            scene.start = glm::vec3(x, -100, 7) / 1024.f;
+        const std::vector<Scene> scenes{
+            {.name = "a mesh", .add = add_mesh_ball, .start = glm::vec3(x, -100, 7) / 1024.f}};
         const Outcomes here = run(scenes, glm::vec3(0), 6);
         const Outcomes far = run(scenes, k_far, 6);
-        REQUIRE(here.before.penetrating_vertices > 100);
+        REQUIRE(here.before.penetrating_vertices > 30);
         check_statistics(here, far);
-        for (size_t i = 0; i < scenes.size(); ++i)
-            parts[i] = std::min(parts[i], farthest(here.scenes[i].end, far.scenes[i].end) /
-                                              farthest(here.scenes[i].end, here.scenes[i].start));
+        differs = std::min(differs, farthest(here.scenes[0].end, far.scenes[0].end) /
+                                        farthest(here.scenes[0].end, here.scenes[0].start));
     }
-    for (size_t i = 0; i < scenes.size(); ++i)
-    {
-        MESSAGE(scenes[i].name, ": ", parts[i], " of the displacement");
-        CHECK(parts[i] < 5e-4); // measured: 1.0e-4, on an H200 1.5e-4
-    }
+    MESSAGE(differs, " of the displacement");
+    CHECK(differs < 2.5e-4); // measured: 5.5e-5
 }
 
 TEST_CASE("cloth 132 km from the origin falls through no kind of collider and stays finite")
