@@ -286,8 +286,8 @@ enum class Sidedness
 // Rest. Cloth at rest stays at rest where its vertices touch. Cloth that hangs free swings for a long time: the hem of
 // coarse wool on a box still moves at about 50 mm/s after 10 s.
 //
-// Cost. A collider costs time where cloth is near. With more than 8 colliders, the solver lists every 16 substeps which
-// are near which part of a cloth. Planes count as near everywhere.
+// Cost. A collider costs time where cloth is near. With more than 8 colliders, the solver lists a few times per frame
+// which are near which part of a cloth. Planes count as near everywhere.
 
 // A triangle mesh.
 //

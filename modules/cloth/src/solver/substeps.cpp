@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace voile
 {
@@ -16,13 +17,16 @@ namespace
 constexpr std::array<const char*, VOILE_SUBSTEP_LEVELS> k_group_names = {
     "substep", "level 1, substep", "level 2, substep", "level 3, substep", "level 4, substep"};
 
-// Near queries read the state in its own buffers, not in stage B, so the number is even.
-uint32_t substeps_per_list(float substep, uint32_t contact_period)
+// Lists last equally long within a step. Near queries read the state in its own buffers, not in stage B, so the number
+// is even.
+uint32_t substeps_per_list(float substep, uint32_t substeps, uint32_t contact_period)
 {
-    constexpr float k_time = 3.8e-3f; // s
+    constexpr float k_time = 4.3e-3f; // s
     constexpr uint32_t k_least = 16;
-    const auto substeps = static_cast<uint32_t>(std::min(k_time / substep, 1024.f));
-    return std::max(k_least, substeps) / (2 * contact_period) * (2 * contact_period);
+    const uint32_t multiple = 2 * contact_period;
+    const auto lists = static_cast<uint32_t>(std::ceil(static_cast<float>(substeps) * substep / k_time));
+    const uint32_t each = std::max(k_least, substeps / std::max(lists, 1u));
+    return (each + multiple - 1) / multiple * multiple;
 }
 
 // Between contact passes nothing holds what features have pushed. Within two substeps springs hardly respond; within
@@ -48,7 +52,7 @@ BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
       // Rays along normals read the proposals of neighbors, which must not change meanwhile.
       swaps_(has_contact_ && solver_.options.tuning.contact_method == ContactMethod::nearest_point),
       contact_period_(swaps_ && verlet_ ? substeps_per_contact(solver_, context.plan.pairs, h_) : 1),
-      list_period_(substeps_per_list(h_, contact_period_))
+      list_period_(substeps_per_list(h_, substeps_, contact_period_))
 {
 }
 
