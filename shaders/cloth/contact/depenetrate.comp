@@ -66,6 +66,7 @@ const float k_mean_weight = 1.0;
 // they are inside, so a sheet deep inside moves as one.
 const float k_own_weight = 0.6;
 const uint k_none = 0xffffffffu;
+const float k_nowhere = 3e38; // m: there is no such exit
 // The most overlapping solids that are searched for an exit.
 const int k_most_overlaps = 8;
 
@@ -142,11 +143,25 @@ bool other_solid(Vertex vertex, vec3 displacement, uint excluded, out uint c)
     return false;
 }
 
+struct NearestExit
+{
+    vec3 direction; // unit
+    float distance; // m
+};
+
+void join(inout NearestExit nearest, vec3 direction, float distance)
+{
+    if (distance < nearest.distance)
+        nearest = NearestExit(direction, distance);
+}
+
 struct Field
 {
     vec3 sum;    // 1/m
     float size;  // 1/m, the sum of the terms' lengths
     float width; // m, of the solid along the axis along which it is thinnest
+    NearestExit free;
+    NearestExit obstructed; // by another collider
 };
 
 // m, between neighboring vertices. The mean for a mesh.
@@ -178,7 +193,8 @@ vec2 exits_along(Solid solid, vec3 local, int axis)
 // The field of the exits that no collider obstructs, or of all six if each is obstructed.
 Field field_at(Solid solid, Vertex vertex, vec3 local)
 {
-    Field all_exits = Field(vec3(0), 0, 3e38);
+    const NearestExit none = NearestExit(vec3(0), k_nowhere);
+    Field all_exits = Field(vec3(0), 0, k_nowhere, none, none);
     Field free_exits = all_exits;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -191,12 +207,19 @@ Field field_at(Solid solid, Vertex vertex, vec3 local)
             add(all_exits, direction, exits[side]);
             const vec3 displacement = (exits[side] + 0.01 * vertex.thickness) * direction;
             if (is_free(vertex, rotated_out_of(solid.index, solid.collider.flags, displacement)))
+            {
                 add(free_exits, direction, exits[side]);
+                join(all_exits.free, direction, exits[side]);
+            }
+            else
+                join(all_exits.obstructed, direction, exits[side]);
         }
     }
-    free_exits.width = all_exits.width;
     if (free_exits.size > 0)
-        return free_exits;
+    {
+        all_exits.sum = free_exits.sum;
+        all_exits.size = free_exits.size;
+    }
     return all_exits;
 }
 
@@ -264,6 +287,65 @@ float exit_of_all(Vertex vertex, Solid solid, vec3 local, vec3 local_direction, 
     return min(distance, limit);
 }
 
+// m, world: the displacement of collider c within the step at a point of its space.
+vec3 step_displacement(uint c, vec3 local)
+{
+    return is_moved(colliders[c].flags) ? displacement(pose_at(c, 0), pose_change(c, 0, 1), local) : vec3(0);
+}
+
+// What obstructs an exit.
+struct Obstacle
+{
+    float overlap;     // m, back from the exit to its surface; 0: there is none with an inside
+    vec3 displacement; // m, of its surface within the step
+};
+
+// `displacement`: m, of the exit from the vertex; `direction`: unit, from the vertex to the exit; `excluded`: the solid of
+// the exit; `limit`: m, of the overlap.
+Obstacle obstacle_at(Vertex vertex, vec3 displacement, vec3 direction, uint excluded, float limit)
+{
+    const vec3 to = vertex.x.x + displacement;
+    Obstacle result = Obstacle(0, vec3(0));
+    ColliderWalk walk = walk_colliders(gl_WorkGroupID.x, Box(to, to));
+    uint c;
+    while (next_collider(walk, c))
+    {
+        const Solid solid = solid_at(c);
+        const uint flags = solid.collider.flags;
+        if (c == excluded || (solid.collider.layers & vertex.layers) == 0)
+            continue;
+        const vec3 local = into_collider(c, flags, vertex.x, 0) + rotated_into(c, flags, displacement);
+        const vec3 back = -rotated_into(c, flags, direction);
+        float overlap = 0;
+        if (solid.collider.kind == VOILE_COLLIDER_PLANE)
+            overlap = max(-plane_surface(solid.collider, local).distance, 0) / max(dot(back, solid.collider.shape.xyz), 0.1);
+        else if (is_solid(solid.collider) && is_inside(solid, local))
+            overlap = exit_of_one(solid, local, back, 0, limit);
+        if (overlap > result.overlap)
+            result = Obstacle(overlap, step_displacement(c, local));
+    }
+    return result;
+}
+
+// Whether surfaces have closed on the vertex. Then it stays halfway between them, so that they release it where it was.
+// `local`: of the vertex in the solid's space; `velocity`: m/s, world, relative to the solid.
+bool is_pinched(Vertex vertex, Solid solid, vec3 local, Field field, out vec3 velocity)
+{
+    velocity = vec3(0);
+    if (field.free.distance < min(field.obstructed.distance, vertex.thickness))
+        return false;
+    const vec3 direction = rotated_out_of(solid.index, solid.collider.flags, field.obstructed.direction);
+    const float way_out = field.obstructed.distance + 0.01 * vertex.thickness;
+    const Obstacle obstacle =
+        obstacle_at(vertex, way_out * direction, direction, solid.index, 2 * (way_out + field.width));
+    if (obstacle.overlap == 0)
+        return false;
+    const float parting = dot(obstacle.displacement - step_displacement(solid.index, local), direction);
+    const float most = k_exit_speed * push.step;
+    velocity = clamp(way_out + 0.5 * (parting - obstacle.overlap), -most, most) / push.step * direction;
+    return true;
+}
+
 // The rest of the exit at full speed is divided evenly between the last two steps. Full steps would end beside the
 // offset surface. `normal`: of the cloth, world.
 Depenetration depenetration_of(Vertex vertex, uint c, vec3 normal)
@@ -272,14 +354,23 @@ Depenetration depenetration_of(Vertex vertex, uint c, vec3 normal)
     const uint flags = solid.collider.flags;
     const vec3 local = into_collider(c, flags, vertex.x, 0);
     const Field field = field_at(solid, vertex, local);
+    const uint began = VOILE_VOTE_WORDS * vertex.cloth + VOILE_VOTE_BEGAN;
+    const bool entered = last_votes[began] == 0 && field.obstructed.distance < k_nowhere; // between colliders
+    vec3 velocity;
+    if (entered && is_pinched(vertex, solid, local, field, velocity))
+        return Depenetration(velocity, c + 1);
+    atomicOr(next_votes[began], last_votes[began]);
     const float size = length(field.sum);
-    // In a solid thinner than the cloth's spacing a vertex has no neighbors to agree with.
-    const bool alone = field.width < spacing(vertex.cloth) && size > 0;
+    // In a solid thinner than the cloth's spacing a vertex has no neighbors to agree with. Between colliders the exit along
+    // the cloth's normal may lead all through a solid.
+    const bool nearest = entered && field.free.distance < k_nowhere;
+    const bool alone = nearest || (field.width < spacing(vertex.cloth) && size > 0);
     const float own = clamp(k_own_weight * spacing(vertex.cloth) * field.size, 0, 1);
     const vec3 direction =
-        alone ? field.sum / size
-              : agreed_direction(vertex.cloth, c, flags,
-                                 direction_out(vertex.cloth, field, rotated_into(c, flags, normal)), own);
+        nearest ? field.free.direction
+        : alone ? field.sum / size
+                : agreed_direction(vertex.cloth, c, flags,
+                                   direction_out(vertex.cloth, field, rotated_into(c, flags, normal)), own);
     const float most = k_exit_speed * push.step;
     const vec3 world = rotated_out_of(c, flags, direction);
     const float distance = exit_of_all(vertex, solid, local, direction, world, 2 * most);

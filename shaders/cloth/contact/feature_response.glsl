@@ -45,8 +45,11 @@ Response response = no_response();
 
 // Static and kinetic coefficient of the cloth with the current collider.
 vec2 friction;
-// The exit direction of the cloth from that collider, in its space, of any length. 0: it is not inside.
+// The exit direction of the cloth from that collider, in its space, of any length. 0: it is not inside, or pinched.
 vec3 exits_along;
+// Whether vertices of the cloth are between that collider and another one that have closed on them. Edges would hook into
+// the cloth around them, and stretch it until it snaps free.
+bool pinched;
 
 vec2 find_friction()
 {
@@ -56,21 +59,23 @@ vec2 find_friction()
                 pair_friction(cloth.kinetic_friction, collider.kinetic_friction, collider.flags));
 }
 
-// The sum of the exit directions of the cloth's vertices, in the collider's space; 0 if none is inside it.
-vec3 exit_direction(uint cloth, uint c)
+void find_exits()
 {
-    const uint word = VOILE_VOTE_WORDS * cloth;
-    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (c % 32))) == 0)
-        return vec3(0);
+    const uint word = VOILE_VOTE_WORDS * self.vertex.cloth;
+    exits_along = vec3(0);
+    pinched = false;
+    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (collider_index % 32))) == 0)
+        return;
     const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
-    return collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
+    exits_along = collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
+    pinched = votes[word + VOILE_VOTE_COUNT] == 0;
 }
 
 // After select_collider.
 void prepare_collider()
 {
     friction = find_friction();
-    exits_along = exit_direction(self.vertex.cloth, collider_index);
+    find_exits();
 }
 
 // The contact of a feature with a piece of cloth.
@@ -100,7 +105,7 @@ bool is_behind(Feature feature, vec3 direction)
 // them.
 bool holds_back(Feature feature, vec3 direction)
 {
-    return feature.cosine > -1 && dot(exits_along, direction) < 0;
+    return feature.cosine > -1 && (pinched || dot(exits_along, direction) < 0);
 }
 
 // The piece of cloth was at height `from` (m) along the unit vector `before` and is at `to` along `now`. It belongs to

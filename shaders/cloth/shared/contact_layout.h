@@ -32,10 +32,11 @@
 
 // The votes of a cloth's vertices that are inside of colliders. Word 0: the sum of the votes for sides. Words 1-3: the
 // sum of the exit directions in the world. Word 4: the number of directions. Word 5: one bit per collider, for collider
-// c bit c % 32.
-#define VOILE_VOTE_WORDS 6
+// c bit c % 32. Word 6: 1 if vertices are inside that may have begun there.
+#define VOILE_VOTE_WORDS 7
 #define VOILE_VOTE_COUNT 4     // the word of the number of directions
 #define VOILE_VOTE_COLLIDERS 5 // the word of the bits
+#define VOILE_VOTE_BEGAN 6
 
 VOILE_SHARED_BEGIN(voile)
 

@@ -6,6 +6,7 @@
 //   solver.set_attachments(cape, {max_distance(7, 0.05f).with_backstop({0, 0, 1}, 0.01f).to(spine)});
 #pragma once
 
+#include "voile/export.hpp"
 #include "voile/ids.hpp"
 #include "voile/math.hpp"
 
@@ -51,26 +52,26 @@ struct Attachment
     float backstop = 0; // m, -1e6..1e6
 
     // Copies of the attachment: to an anchor; at a point (m, in the anchor's space); with a limit; with a backstop.
-    [[nodiscard]] Attachment to(AnchorId frame) const;
-    [[nodiscard]] Attachment at(const Vec3& point) const;
-    [[nodiscard]] Attachment with_max_distance(float distance) const;
-    [[nodiscard]] Attachment with_backstop(const Vec3& normal, float distance) const;
+    [[nodiscard]] VOILE_API Attachment to(AnchorId frame) const;
+    [[nodiscard]] VOILE_API Attachment at(const Vec3& point) const;
+    [[nodiscard]] VOILE_API Attachment with_max_distance(float distance) const;
+    [[nodiscard]] VOILE_API Attachment with_backstop(const Vec3& normal, float distance) const;
 };
 
 // The vertex stays where it is.
-[[nodiscard]] Attachment pin(uint32_t vertex);
+[[nodiscard]] VOILE_API Attachment pin(uint32_t vertex);
 // The vertex follows the anchor: from where it is, or at a point in the anchor's space (m).
-[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor);
-[[nodiscard]] Attachment pin(uint32_t vertex, AnchorId anchor, const Vec3& position);
+[[nodiscard]] VOILE_API Attachment pin(uint32_t vertex, AnchorId anchor);
+[[nodiscard]] VOILE_API Attachment pin(uint32_t vertex, AnchorId anchor, const Vec3& position);
 
 // A spring pulls the vertex to the point. N/m, N s/m.
-[[nodiscard]] Attachment spring(uint32_t vertex, float stiffness, float damping = 0);
+[[nodiscard]] VOILE_API Attachment spring(uint32_t vertex, float stiffness, float damping = 0);
 
 // The vertex moves freely within `distance` (m) of the point.
-[[nodiscard]] Attachment max_distance(uint32_t vertex, float distance);
+[[nodiscard]] VOILE_API Attachment max_distance(uint32_t vertex, float distance);
 
 // The vertex moves freely in front of a plane `distance` (m) behind the point. `normal` is of unit length.
-[[nodiscard]] Attachment backstop(uint32_t vertex, const Vec3& normal, float distance);
+[[nodiscard]] VOILE_API Attachment backstop(uint32_t vertex, const Vec3& normal, float distance);
 
 // Tethers limit the distance from each vertex to the pins. The limit is the length of the cloth at rest between them,
 // times (1 + stretch) (Kim, Chentanez and Müller 2012, "Long range attachments"). Pins that are connected by edges form

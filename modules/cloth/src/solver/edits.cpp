@@ -122,10 +122,34 @@ struct Moved
     bool colliders = false;
 };
 
+bool is_uploaded(const Solver::State& solver, const shared::EditPush& edit)
+{
+    const ClothModel* cloth = solver.model.cloths.at(edit.cloth);
+    return cloth != nullptr && cloth->uploaded;
+}
+
+bool jumps(const shared::EditPush& edit)
+{
+    return edit.kind == VOILE_EDIT_RESET || edit.kind == VOILE_EDIT_TRANSFORM;
+}
+
+// Vertices of a cloth that jumps may begin inside solids.
+void update_votes(gpu::Recorder& recorder, const Solver::State& solver)
+{
+    constexpr uint32_t k_began = 1;
+    const buffer::Name votes = k_depenetration_votes[solver.history.depenetration_step % 2];
+    for (const shared::EditPush& edit : solver.edits.state_edits)
+        if (jumps(edit) && is_uploaded(solver, edit))
+            recorder.update((*solver.device)[votes].handle(),
+                            (edit.cloth * VOILE_VOTE_WORDS + VOILE_VOTE_BEGAN) * sizeof(k_began),
+                            std::as_bytes(std::span(&k_began, 1)));
+}
+
 void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved& moved)
 {
     const DeviceState& device = *solver.device;
     update_records(recorder, solver);
+    update_votes(recorder, solver);
     record_woken(recorder, solver);
     if (solver.edits.patches)
         record_patches(recorder, solver);
@@ -148,12 +172,6 @@ float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::
     for (int column = 0; column < 3; ++column)
         squares += glm::dot(glm::dvec3(change[column]), glm::dvec3(change[column]));
     return static_cast<float>(glm::length(glm::dvec3(change * glm::dvec4(center, 1))) + std::sqrt(squares) * radius);
-}
-
-bool is_uploaded(const Solver::State& solver, const shared::EditPush& edit)
-{
-    const ClothModel* cloth = solver.model.cloths.at(edit.cloth);
-    return cloth != nullptr && cloth->uploaded;
 }
 
 Moved find_moved(const Solver::State& solver)
@@ -211,7 +229,7 @@ size_t record_state_edits(gpu::Recorder& recorder, Solver::State& solver)
         if (uploaded(edit))
         {
             ClothModel& cloth = *solver.model.cloths.at(edit.cloth);
-            cloth.jumped |= edit.kind == VOILE_EDIT_RESET || edit.kind == VOILE_EDIT_TRANSFORM;
+            cloth.jumped |= jumps(edit);
             recorder.dispatch(solver.kernels.edit, solver.device->sets.edit, cloth.record.vertices,
                               solver.options.tuning.workgroup_size, edit);
         }

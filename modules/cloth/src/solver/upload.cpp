@@ -46,8 +46,10 @@ void stage_cloth(Staging& staging, const ClothModel& cloth, uint32_t index, cons
     shared::SleepRecord awake{};
     awake.island = index;
     staging.add_copy(buffer::sleeps, index, std::vector{awake});
-    for (const buffer::Name votes : k_depenetration_votes)
-        staging.add_copy(votes, index * uint64_t{VOILE_VOTE_WORDS}, std::vector<uint32_t>(VOILE_VOTE_WORDS));
+    std::vector<uint32_t> votes(VOILE_VOTE_WORDS);
+    votes[VOILE_VOTE_BEGAN] = 1;
+    for (const buffer::Name name : k_depenetration_votes)
+        staging.add_copy(name, index * uint64_t{VOILE_VOTE_WORDS}, votes);
 }
 
 // The lists of a mesh. Vertices count theirs from the first entries of all meshes.
