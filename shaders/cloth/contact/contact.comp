@@ -107,7 +107,7 @@ struct RelativeMotion
     bool moves;
     Pose end;   // of a collider that moves
     Pose start;
-    PoseChange change; // from start to end
+    PoseChange change; // from start to end; of a motion that takes no time, in the substep before
     vec3 from;
     vec3 to;
 };
@@ -123,7 +123,7 @@ RelativeMotion relative_motion(uint c, uint flags, Motion motion)
     {
         result.start = pose_at(c, push.progress_from);
         result.end = pose_at(c, push.progress_to);
-        result.change = pose_change(c, push.progress_from, push.progress_to);
+        result.change = pose_change(c, push.progress_before, push.progress_to);
         result.from = to_collider(result.start, result.from);
         result.to = to_collider(result.end, result.to);
     }
@@ -137,8 +137,14 @@ vec3 surface_displacement(RelativeMotion relative, vec3 point, vec3 deformation)
 {
     if (!relative.moves)
         return deformation;
-    return displacement(relative.start, relative.change, point) + rotate(relative.start.rotation, deformation);
+    Pose start = relative.start;
+    if (push.limited_only != 0)
+        start.rotation -= relative.change.rotation;
+    return displacement(start, relative.change, point) + rotate(start.rotation, deformation);
 }
+
+// The same for a motion that may take no time.
+vec3 displacement_within(vec3 surface) { return push.limited_only == 0 ? surface : vec3(0); }
 
 vec3 world_direction(RelativeMotion relative, vec3 direction)
 {
@@ -179,7 +185,7 @@ vec3 carrying_velocity(Motion motion, Depenetration depenetration)
 Drive depenetrate(uint i, uint flags, inout Motion motion, Depenetration depenetration)
 {
     const vec3 surface = carrying_velocity(motion, depenetration);
-    if (push.kicks == 1 || (flags & VOILE_VERTEX_TAUT) != 0)
+    if (push.limited_only == 0 && (push.kicks == 1 || (flags & VOILE_VERTEX_TAUT) != 0))
         leave(motion, depenetration.velocity, surface, seconds(push.substeps));
     if (push.result == VOILE_CONTACT_KEEPS_START)
         planes[i] = ContactPlane(depenetration.velocity, 0, surface, VOILE_PLANE_OF_EXIT);
@@ -193,7 +199,7 @@ void stop_at_start(inout Motion motion, RelativeMotion relative, Contact contact
 {
     const vec3 surface = surface_displacement(relative, relative.from + contact.deformation, contact.deformation);
     const vec3 n = world_direction(relative, contact.direction);
-    motion.displacement = surface;
+    motion.displacement = displacement_within(surface);
     motion.v -= min(dot(motion.v - surface / seconds(push.substeps), n), 0) * n;
 }
 
@@ -214,7 +220,7 @@ Path path_of(RelativeMotion relative, ClothContact cloth, bool path_only, float 
 // counts as touching.
 void keep_plane(uint i, Surface surface, float slack)
 {
-    planes[i] = ContactPlane(surface.normal, slack, surface.displacement / surface.duration,
+    planes[i] = ContactPlane(surface.normal, slack, surface.velocity,
                              packHalf2x16(vec2(surface.friction.at_rest, surface.friction.kinetic)));
 }
 
@@ -248,7 +254,10 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     const vec3 n = world_direction(relative, contact.direction);
     const vec3 surface =
         surface_displacement(relative, relative.to - contact.gap * contact.direction, contact.deformation);
-    const Surface touched = Surface(n, surface, seconds(push.substeps), slop, pair_friction(cloth.friction, collider));
+    // After the strain limit the velocity of a mesh that deforms is not known. It is taken for that of the cloth.
+    const bool follows = push.limited_only != 0 && is_deforming(collider.flags);
+    const Surface touched = Surface(n, displacement_within(surface), follows ? motion.v : surface / seconds(push.substeps),
+                                    slop, pair_friction(cloth.friction, collider));
     if (push.result == VOILE_CONTACT_KEEPS_START && contact.start >= 0 && !state.leaves_solid)
     {
         keep_plane(list.vertex, touched, contact.gap - cloth.thickness - slop - dot(motion.displacement, n));

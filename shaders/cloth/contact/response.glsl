@@ -20,7 +20,7 @@ struct Surface
 {
     vec3 normal;       // unit, world, away from the surface
     vec3 displacement; // m, of the surface during the motion
-    float duration;    // s, of the motion
+    vec3 velocity;     // m/s, of the surface
     float slop;        // m: a vertex this close to the offset surface rests on it
     Friction friction;
 };
@@ -30,7 +30,7 @@ void respond(inout Motion motion, Surface surface, float lift)
 {
     const vec3 n = surface.normal;
     motion.displacement += lift * n;
-    const vec3 relative = motion.v - surface.displacement / surface.duration;
+    const vec3 relative = motion.v - surface.velocity;
     const float approach = min(dot(relative, n), 0);
     motion.v -= approach * n;
     const float normal_impulse = -approach; // per unit of mass, m/s

@@ -53,7 +53,7 @@ void stay_above(uint i, ContactPlane plane, inout Motion motion)
     if (slack > 0)
         return;
     const vec2 friction = unpackHalf2x16(plane.friction);
-    respond(motion, Surface(plane.normal, displacement, h, k_plane_slop, Friction(friction.x, friction.y)), -slack);
+    respond(motion, Surface(plane.normal, displacement, plane.velocity, k_plane_slop, Friction(friction.x, friction.y)), -slack);
 }
 
 // Contact with the surface that the vertex touched in the last contact pass.

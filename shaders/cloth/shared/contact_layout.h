@@ -83,6 +83,7 @@ struct ContactPush
     uint kicks;          // substeps since the last contact pass
     uint listed;         // the substep of the step in which lists were refreshed last
     float progress_next; // 0..1, of the step, when they are refreshed next
+    float progress_before; // 0..1, of the step, since when surfaces have had their velocity
 };
 
 // Push constants of the pass that finds exits from solids.
@@ -97,7 +98,7 @@ struct DepenetrationPush
 #ifdef __cplusplus
 static_assert(sizeof(Depenetration) == 16 && sizeof(Depenetration) == VOILE_DISPATCH_WORDS * sizeof(uint));
 static_assert(sizeof(ContactPlane) == 32);
-static_assert(sizeof(ContactPush) == 92);
+static_assert(sizeof(ContactPush) == 96);
 #endif
 
 VOILE_SHARED_END

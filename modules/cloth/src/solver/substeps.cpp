@@ -273,6 +273,7 @@ void BatchRecorder::record_contact(uint32_t substep)
     push.progress_next = progress(std::min(push.listed + list_period_, substeps_));
     push.progress_from = progress(interval.first);
     push.progress_to = progress(substep + 1);
+    push.progress_before = progress(std::min(interval.first, substeps_ - 1));
     push.progress_per_substep = 1 / static_cast<float>(substeps_);
     push.substep = substep;
     push.vertices = static_cast<uint32_t>(device_.capacities.vertices);
