@@ -198,9 +198,8 @@ Drive depenetrate(uint i, uint flags, inout Motion motion, Depenetration depenet
 void stop_at_start(inout Motion motion, RelativeMotion relative, Contact contact)
 {
     const vec3 surface = surface_displacement(relative, relative.from + contact.deformation, contact.deformation);
-    const vec3 n = world_direction(relative, contact.direction);
     motion.displacement = displacement_within(surface);
-    motion.v -= min(dot(motion.v - surface / seconds(push.substeps), n), 0) * n;
+    motion.v = surface / seconds(push.substeps);
 }
 
 Friction pair_friction(Friction fabric, ColliderRecord collider)
