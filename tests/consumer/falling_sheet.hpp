@@ -7,6 +7,20 @@
 
 #include <cmath>
 #include <cstdio>
+#include <vector>
+
+// One by each function of voile/attachments.hpp: a shared library must show them all.
+inline std::vector<voile::Attachment> all_attachments(voile::AnchorId hand)
+{
+    const voile::Vec3 up(0, 1, 0);
+    return {voile::pin(0),
+            voile::pin(1, hand),
+            voile::pin(2, hand, up),
+            voile::spring(3, 10).to(hand).at(up),
+            voile::max_distance(4, 0.1f),
+            voile::backstop(5, up, 0.1f).with_max_distance(0.2f),
+            voile::spring(6, 10).with_backstop(up, 0.1f)};
+}
 
 // 0, or 1 and a line on stderr.
 inline int let_a_sheet_fall(foreign::Engine& engine, const voile::Handles& handles,
@@ -17,8 +31,16 @@ inline int let_a_sheet_fall(foreign::Engine& engine, const voile::Handles& handl
     if (!solver)
         return fail(solver.error());
     const voile::GridCloth grid{.columns = 8, .rows = 8, .material = voile::Material{.vertex_mass = 1.f / 64}};
-    if (const auto sheet = solver->add_cloth(grid); !sheet)
+    const auto sheet = solver->add_cloth(grid);
+    if (!sheet)
         return fail(sheet.error());
+    const auto hand = solver->add_anchor(voile::Mat4(1.f));
+    if (!hand)
+        return fail(hand.error());
+    if (const auto attached = solver->set_attachments(*sheet, all_attachments(*hand)); !attached)
+        return fail(attached.error());
+    if (const auto released = solver->set_attachments(*sheet, {}); !released)
+        return fail(released.error());
     voile::Upload upload;
     for (int frame = 0; frame < 6; ++frame)
     {

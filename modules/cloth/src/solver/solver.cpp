@@ -233,7 +233,7 @@ Statistics Solver::statistics(uint32_t slot) const
     shared::StatisticsResult read{};
     std::memcpy(&read, buffer.mapped().data() + slot * sizeof(read), sizeof(read));
     const shared::StatisticsRecord& record = read.cloths;
-    result.max_stretch = record.max_stretch;
+    result.max_stretch = record.springs > 0 ? record.max_stretch : 0;
     result.mean_stretch = record.springs > 0 ? record.stretch_sum / static_cast<float>(record.springs) : 0;
     result.kinetic_energy = record.kinetic_energy;
     result.deepest_penetration = record.deepest_penetration;
