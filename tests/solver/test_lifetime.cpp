@@ -112,7 +112,7 @@ TEST_CASE("an upload and a snapshot may outlive their solver")
         harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_save(cmd, *snapshot)); });
     }
     CHECK(snapshot->bytes().size() ==
-          36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (6 + 16 + 6 + 1) * sizeof(uint32_t));
+          36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (7 + 16 + 6 + 1) * sizeof(uint32_t));
     float first = 0;
     std::memcpy(&first, snapshot->bytes().data(), sizeof(first));
     CHECK(first == -0.25f);

@@ -67,22 +67,22 @@ struct ContactPush
     float progress_from;    // 0..1, of the step, at the last contact pass
     float progress_to;      // 0..1, of the step, at the substep's end
     float progress_per_substep;
-    uint substep;        // of the step
-    uint vertices;       // of all cloths
-    uint features;       // 1: colliders have features that may have touched cloth
-    uint depenetrates;   // 1: there are solids that vertices can be inside of
-    uint near_stride;    // words per patch of near colliders; 0: there are no lists
-    uint dispatch_word;  // of the depenetration's dispatch size; 0 there: no vertex is inside a solid
-    uint result;         // VOILE_CONTACT_...
-    float mesh_extent;   // m, the largest extent of a mesh from its origin along an axis
-    uint first_patch;    // of the dispatch
-    float pair_ahead;    // from one pass over pairs to the next, of the time since the last contact pass
-    float pair_from;     // from the last pass over pairs to the start of the motion
-    float pair_lasts;    // of the motion
-    uint limited_only;   // 1: after the strain limit, of which cloths without one take no part
-    uint kicks;          // substeps since the last contact pass
-    uint listed;         // the substep of the step in which lists were refreshed last
-    float progress_next; // 0..1, of the step, when they are refreshed next
+    uint substep;          // of the step
+    uint vertices;         // of all cloths
+    uint features;         // 1: colliders have features that may have touched cloth
+    uint depenetrates;     // 1: there are solids that vertices can be inside of
+    uint near_stride;      // words per patch of near colliders; 0: there are no lists
+    uint dispatch_word;    // of the depenetration's dispatch size; 0 there: no vertex is inside a solid
+    uint result;           // VOILE_CONTACT_...
+    float mesh_extent;     // m, the largest extent of a mesh from its origin along an axis
+    uint first_patch;      // of the dispatch
+    float pair_ahead;      // from one pass over pairs to the next, of the time since the last contact pass
+    float pair_from;       // from the last pass over pairs to the start of the motion
+    float pair_lasts;      // of the motion
+    uint limited_only;     // 1: after the strain limit, of which cloths without one take no part
+    uint kicks;            // substeps since the last contact pass
+    uint listed;           // the substep of the step in which lists were refreshed last
+    float progress_next;   // 0..1, of the step, when they are refreshed next
     float progress_before; // 0..1, of the step, since when surfaces have had their velocity
 };
 

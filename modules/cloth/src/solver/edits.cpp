@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace voile
@@ -137,12 +138,15 @@ bool jumps(const shared::EditPush& edit)
 void update_votes(gpu::Recorder& recorder, const Solver::State& solver)
 {
     constexpr uint32_t k_began = 1;
-    const buffer::Name votes = k_depenetration_votes[solver.history.depenetration_step % 2];
+    std::set<uint32_t> jumping;
     for (const shared::EditPush& edit : solver.edits.state_edits)
         if (jumps(edit) && is_uploaded(solver, edit))
-            recorder.update((*solver.device)[votes].handle(),
-                            (edit.cloth * VOILE_VOTE_WORDS + VOILE_VOTE_BEGAN) * sizeof(k_began),
-                            std::as_bytes(std::span(&k_began, 1)));
+            jumping.insert(edit.cloth);
+    const buffer::Name votes = k_depenetration_votes[solver.history.depenetration_step % 2];
+    for (const uint32_t cloth : jumping)
+        recorder.update((*solver.device)[votes].handle(),
+                        (cloth * VOILE_VOTE_WORDS + VOILE_VOTE_BEGAN) * sizeof(k_began),
+                        std::as_bytes(std::span(&k_began, 1)));
 }
 
 void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved& moved)
