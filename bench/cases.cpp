@@ -310,6 +310,8 @@ constexpr Case k_cases[] = {
      0, 0, true},
     {"flat-self-512", "the same, which collides with itself, after a fall of 0.5 s", add_verlet_sheet<512, true>,
      k_nearest, k_fallen_frames, false, k_interleaved, 0, 0, true},
+    {"verlet-1024", "1024 x 1024 with velocity Verlet", add_verlet_sheet<1024, false>, k_nearest, 0, false,
+     k_interleaved, 0, 0, true},
     {"isometric-128", "isometric bending instead of springs", add_changed_sheet<bend_isometrically>},
     {"air-128", "air drag", add_changed_sheet<feel_air>},
     {"gusts-128", "air drag in a wind with gusts", add_changed_sheet<feel_air>, k_nearest, 0, false, k_interleaved, 5,

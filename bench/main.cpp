@@ -54,7 +54,7 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--csv", options.csv, "Append one row per case to this file; keep one file per machine")
         ->type_name("FILE");
     app.add_option("--meshes", options.meshes,
-                   "Folder of OBJ meshes; each makes two cases, real-NAME and real-NAME-turning")
+                   "Folder of OBJ meshes; each makes three cases: real-NAME, real-NAME-turning, real-NAME-self")
         ->type_name("FOLDER");
     app.add_option("--repeat", options.repetitions, "Repetitions of each measurement; default: 100, on CPU devices 20")
         ->type_name("N")
@@ -162,7 +162,9 @@ void list_cases(std::span<const bench::RealCase> reals)
                     bench::describe(item.subject), item.side, item.side, item.max_substeps);
     for (const bench::RealCase& item : reals)
         std::printf("%-28s cotton over %s%s\n", item.name.c_str(), item.file.string().c_str(),
-                    item.turns ? ", which turns by 90 degrees per second" : "");
+                    item.turns            ? ", which turns by 90 degrees per second"
+                    : item.self_collision ? ", with cloth that collides with itself"
+                                          : "");
     for (const bench::AddCase& item : bench::add_cases())
         std::printf("%-28s adding a mesh collider: %s\n", item.name, item.purpose);
     std::printf("%-28s adding cloth meshes and cooked data; adding and removing beside much else\n",

@@ -42,7 +42,7 @@ voile::engine::Mesh load_fitted(const std::filesystem::path& file)
     return mesh;
 }
 
-Scene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, const Settings& settings)
+Scene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, bool self_collision, const Settings& settings)
 {
     voile::SolverOptions options;
     options.tuning.workgroup_size = settings.workgroup_size;
@@ -55,6 +55,7 @@ Scene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, const Setti
     grid.transform[3] = {0, voile::engine::bounds(mesh).max.y + k_gap, 0, 1};
     grid.material = voile::cotton();
     grid.integrator = voile::Integrator::verlet;
+    grid.self_collision = self_collision;
     (void)voile::engine::take(scene.solver.add_cloth(grid));
     scene.mesh = voile::engine::take(
         scene.solver.add_collider(voile::MeshCollider{.positions = mesh.positions, .triangles = mesh.triangles}));
@@ -95,16 +96,20 @@ std::vector<RealCase> real_cases(const std::filesystem::path& folder)
     std::sort(files.begin(), files.end());
     std::vector<RealCase> cases;
     for (const std::filesystem::path& file : files)
-        for (const bool turns : {false, true})
-            cases.push_back({"real-" + file.stem().string() + (turns ? "-turning" : ""), file, turns});
+    {
+        const std::string name = "real-" + file.stem().string();
+        cases.push_back({name, file});
+        cases.push_back({name + "-turning", file, true});
+        cases.push_back({name + "-self", file, false, true});
+    }
     return cases;
 }
 
 RealMeasurement measure_real(TimedQueue& queue, const RealCase& item, const Settings& settings)
 {
     const voile::engine::Mesh mesh = load_fitted(item.file);
-    Scene scene = make_scene(queue, mesh, settings);
-    Scene other = make_scene(queue, mesh, settings);
+    Scene scene = make_scene(queue, mesh, item.self_collision, settings);
+    Scene other = make_scene(queue, mesh, item.self_collision, settings);
     const voile::Step step{.duration = k_frame};
     RealMeasurement result;
     result.vertices = scene.solver.vertex_count();

@@ -18,6 +18,7 @@ struct RealCase
     std::string name; // real-NAME or real-NAME-turning
     std::filesystem::path file;
     bool turns = false;
+    bool self_collision = false;
 };
 
 // Two cases per OBJ file of the folder, in the order of the names. StartupError if the folder has none.

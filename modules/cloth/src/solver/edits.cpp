@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <span>
 #include <utility>
 
 namespace voile
@@ -134,19 +134,20 @@ bool jumps(const shared::EditPush& edit)
     return edit.kind == VOILE_EDIT_RESET || edit.kind == VOILE_EDIT_TRANSFORM;
 }
 
-// Vertices of a cloth that jumps may begin inside solids.
+// Vertices of a cloth that jumps may begin inside solids. A word is written once, however often its cloth jumps.
 void update_votes(gpu::Recorder& recorder, const Solver::State& solver)
 {
     constexpr uint32_t k_began = 1;
-    std::set<uint32_t> jumping;
-    for (const shared::EditPush& edit : solver.edits.state_edits)
-        if (jumps(edit) && is_uploaded(solver, edit))
-            jumping.insert(edit.cloth);
-    const buffer::Name votes = k_depenetration_votes[solver.history.depenetration_step % 2];
-    for (const uint32_t cloth : jumping)
-        recorder.update((*solver.device)[votes].handle(),
-                        (cloth * VOILE_VOTE_WORDS + VOILE_VOTE_BEGAN) * sizeof(k_began),
-                        std::as_bytes(std::span(&k_began, 1)));
+    const VkBuffer votes = (*solver.device)[k_depenetration_votes[solver.history.depenetration_step % 2]].handle();
+    const std::span edits(solver.edits.state_edits);
+    for (size_t i = 0; i < edits.size(); ++i)
+    {
+        const uint32_t cloth = edits[i].cloth;
+        const auto is_jump = [&](const shared::EditPush& edit) { return edit.cloth == cloth && jumps(edit); };
+        if (is_jump(edits[i]) && is_uploaded(solver, edits[i]) && std::ranges::none_of(edits.first(i), is_jump))
+            recorder.update(votes, (cloth * VOILE_VOTE_WORDS + VOILE_VOTE_BEGAN) * sizeof(k_began),
+                            std::as_bytes(std::span(&k_began, 1)));
+    }
 }
 
 void update_buffers(gpu::Recorder& recorder, Solver::State& solver, const Moved& moved)
