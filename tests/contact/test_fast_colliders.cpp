@@ -109,16 +109,16 @@ voile::GridCloth sheet()
 }
 
 // The vertices as they are given.
-std::vector<glm::vec3> lowered(const Driven& shape, float way)
+std::vector<glm::vec3> lowered(const Driven& shape, float distance)
 {
-    const glm::vec3 down(glm::inverse(shape.start) * glm::vec4(0, -way, 0, 0));
+    const glm::vec3 down(glm::inverse(shape.start) * glm::vec4(0, -distance, 0, 0));
     std::vector<glm::vec3> positions = shape.mesh.positions;
     for (glm::vec3& p : positions)
         p += down;
     return positions;
 }
 
-// `move` moves the collider down by a way, m.
+// `move` moves the collider down by a distance, m.
 template <typename Move>
 void drive(const voile::Collider& collider, float speed, bool self_collision, const Move& move)
 {
@@ -146,9 +146,9 @@ void drive(const voile::Collider& collider, float speed, bool self_collision, co
     CHECK(lowest < -0.02f); // it was hit
 }
 
-bool lower(voile::Solver& solver, voile::ColliderId id, float way)
+bool lower(voile::Solver& solver, voile::ColliderId id, float distance)
 {
-    return static_cast<bool>(solver.move_collider(id, tests::moved({0, -way, 0})));
+    return static_cast<bool>(solver.move_collider(id, tests::moved({0, -distance, 0})));
 }
 
 void drive_rigid(const Driven& shape, float speed, bool self_collision)
@@ -165,8 +165,8 @@ void drive_deforming(const Driven& shape, float speed)
     voile::MeshCollider mesh = tests::deforming(shape.mesh);
     mesh.transform = shape.start;
     drive(mesh, speed, false,
-          [&](voile::Solver& solver, voile::ColliderId id, float way)
-          { return static_cast<bool>(solver.deform_collider(id, lowered(shape, way))); });
+          [&](voile::Solver& solver, voile::ColliderId id, float distance)
+          { return static_cast<bool>(solver.deform_collider(id, lowered(shape, distance))); });
 }
 
 } // namespace

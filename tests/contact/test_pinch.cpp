@@ -1,12 +1,12 @@
 // Solids that close on cloth, and part again.
 #include "support/collider_scenes.hpp"
+#include "support/fastest.hpp"
 #include "support/intersection_harness.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
 
 #include <algorithm>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace
@@ -53,7 +53,7 @@ struct Pinched
     uint32_t inside_at_end = 0;
 };
 
-// The solids overlap by `overlap` (m) for 6 of 40 frames.
+// The solids overlap by `overlap` (m) for 8 of 40 frames.
 Pinched pinch(const Jaws& jaws, float overlap, voile::Integrator integrator)
 {
     tests::IntersectionHarness harness;
@@ -70,17 +70,16 @@ Pinched pinch(const Jaws& jaws, float overlap, voile::Integrator integrator)
     for (int frame = 0; frame < 40; ++frame)
     {
         const int closed = std::min({frame + 1, 12, std::max(30 - frame, 0)});
-        const float way = (k_open + (jaws.lower_moves ? 0.5f : 1.f) * overlap) * static_cast<float>(closed) / 12;
-        voile::engine::take(harness.solver.move_collider(upper, tests::moved({0, -way, 0})));
+        const float depth = (k_open + (jaws.lower_moves ? 0.5f : 1.f) * overlap) * static_cast<float>(closed) / 12;
+        voile::engine::take(harness.solver.move_collider(upper, tests::moved({0, -depth, 0})));
         if (jaws.lower_moves)
-            voile::engine::take(harness.solver.move_collider(lower, tests::moved({0, way, 0})));
+            voile::engine::take(harness.solver.move_collider(lower, tests::moved({0, depth, 0})));
         harness.step({.gravity = glm::vec3(0)});
         const voile::Statistics statistics = harness.statistics();
         result.most_inside = std::max(result.most_inside, statistics.penetrating_vertices);
         result.stretch = std::max(result.stretch, statistics.max_stretch);
         result.inside_at_end = statistics.penetrating_vertices;
-        for (const glm::vec4& v : harness.velocities(cloth))
-            result.fastest = std::max(result.fastest, glm::length(glm::vec3(v)));
+        result.fastest = std::max(result.fastest, tests::fastest(harness.velocities(cloth)));
     }
     result.end = harness.counts();
     return result;

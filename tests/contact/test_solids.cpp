@@ -3,6 +3,7 @@
 #include "support/close_to.hpp"
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
+#include "support/fastest.hpp"
 #include "support/odd_solids.hpp"
 
 #include "voile/engine/assets/shapes.hpp"
@@ -20,6 +21,7 @@ namespace
 
 using tests::ClothHarness;
 using tests::collider;
+using tests::fastest;
 using tests::joined;
 using tests::moved;
 using tests::spire;
@@ -44,14 +46,6 @@ uint32_t count_inside(const voile::MeshDistance& exact, const std::vector<glm::v
                                                    return exact.winding_number(local) > 0.5 &&
                                                           exact.nearest(local).signed_distance < -2e-6;
                                                }));
-}
-
-float fastest(const std::vector<glm::vec4>& velocities)
-{
-    float speed = 0;
-    for (const glm::vec4& v : velocities)
-        speed = std::max(speed, std::isfinite(v.x) ? glm::length(glm::vec3(v)) : INFINITY);
-    return speed;
 }
 
 // m/s: by how much a speed exceeds that of a free fall since the start.

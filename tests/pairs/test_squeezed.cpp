@@ -1,4 +1,5 @@
 // Cloth that is squeezed, by colliders that leave it room or not, and by pins.
+#include "support/fastest.hpp"
 #include "support/pair_harness.hpp"
 
 #include <doctest/doctest.h>
@@ -61,8 +62,7 @@ float fastest(PairHarness& harness)
 {
     float result = 0;
     for (const voile::ClothId cloth : harness.cloths)
-        for (const glm::vec4& v : harness.velocities(cloth))
-            result = std::max(result, glm::length(glm::vec3(v)));
+        result = std::max(result, tests::fastest(harness.velocities(cloth)));
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "support/cloth_harness.hpp"
 #include "support/collider_scenes.hpp"
+#include "support/fastest.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -29,14 +30,6 @@ inline int steps_to_sleep(ClothHarness& harness, const voile::Step& step, int mo
             return i + 1;
     }
     return -1;
-}
-
-inline float fastest(const std::vector<glm::vec4>& velocities)
-{
-    float most = 0;
-    for (const glm::vec4& v : velocities)
-        most = std::max(most, glm::length(glm::vec3(v)));
-    return most;
 }
 
 // That steps leave the cloth as it is, to the bit, and that it sleeps.

@@ -335,14 +335,14 @@ bool is_pinched(Vertex vertex, Solid solid, vec3 local, Field field, out vec3 ve
     if (field.free.distance < min(field.obstructed.distance, vertex.thickness))
         return false;
     const vec3 direction = rotated_out_of(solid.index, solid.collider.flags, field.obstructed.direction);
-    const float way_out = field.obstructed.distance + 0.01 * vertex.thickness;
+    const float exit = field.obstructed.distance + 0.01 * vertex.thickness;
     const Obstacle obstacle =
-        obstacle_at(vertex, way_out * direction, direction, solid.index, 2 * (way_out + field.width));
+        obstacle_at(vertex, exit * direction, direction, solid.index, 2 * (exit + field.width));
     if (obstacle.overlap == 0)
         return false;
     const float parting = dot(obstacle.displacement - step_displacement(solid.index, local), direction);
     const float most = k_exit_speed * push.step;
-    velocity = clamp(way_out + 0.5 * (parting - obstacle.overlap), -most, most) / push.step * direction;
+    velocity = clamp(exit + 0.5 * (parting - obstacle.overlap), -most, most) / push.step * direction;
     return true;
 }
 
