@@ -9,7 +9,7 @@ voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.
 voile_add_test(test_sleep SOURCES solver/test_sleep.cpp solver/test_wake.cpp solver/test_awake_patches.cpp pairs/test_sleeping_islands.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_refit SOURCES colliders/test_refit.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_intersections SOURCES intersections/test_cloth_intersections.cpp intersections/test_collider_intersections.cpp support/test_exact_intersections.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_self_collision SOURCES pairs/test_self_collision.cpp pairs/test_pair_lists.cpp pairs/test_hard_cases.cpp pairs/test_squeezed.cpp pairs/test_pair_response.cpp pairs/test_pair_motion.cpp pairs/test_impacts.cpp pairs/test_crowded.cpp pairs/test_near_layers.cpp pairs/test_tangles.cpp pairs/test_islands.cpp pairs/test_waiting.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_self_collision SOURCES pairs/test_self_collision.cpp pairs/test_pair_lists.cpp pairs/test_hard_cases.cpp pairs/test_squeezed.cpp pairs/test_pair_response.cpp pairs/test_pair_motion.cpp pairs/test_impacts.cpp pairs/test_crowded.cpp pairs/test_near_layers.cpp pairs/test_tangles.cpp pairs/test_islands.cpp pairs/test_waiting.cpp pairs/test_moving_frame.cpp pairs/test_sliding_layers.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_shaders(TARGET test_refit NAMESPACE tests::shaders FOLDER ${PROJECT_SOURCE_DIR}/shaders/cloth SHADERS ../../tests/colliders/visit_padded.comp)
 voile_add_test(test_integration SOURCES integration/test_integration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_viewer_parts

@@ -1,26 +1,145 @@
-// Whether a vertex stays clear of all colliders on its way, until the end of the step. If in doubt, it does not.
+// Whether a vertex stays clear of all colliders on its way, until the end of the step, and how those that it may reach sooner
+// restrain it. If in doubt, it is not clear.
 //
-// The including kernel declares colliders[], collider_motions[], bvh_nodes[], padded_boxes[], push.colliders and a
-// constant COLLIDERS_MOVE.
+// The including kernel declares colliders[], collider_motions[], bvh_nodes[], bvh_triangles[], padded_boxes[],
+// padded_leaves[], deforming_positions[], push (PairPush) and a constant COLLIDERS_MOVE.
 #ifndef VOILE_CLEAR_GLSL
 #define VOILE_CLEAR_GLSL
 
 #include "colliders/collider_pose.glsl"
+#include "colliders/deforming.glsl"
 #include "contact/convex.glsl"
 #include "shared/box.glsl"
 
-// Around the way of a vertex in the space of a collider.
-struct Way
+// Directions in which vertices are restrained, and how fast (VOILE_FRAME_SUMS).
+struct Restraints
 {
-    Box box;
-    bool clear;
+    vec3 mean; // m/s, of the cloth
+    vec3 diagonal;
+    vec3 beside;
+    vec3 drives;
+    float squares;
 };
 
-#define VOILE_QUERY Way
+// m/s: a restraint counts more if the mean motion of the cloth leads against it by more. Few vertices that are stopped would be
+// led into what stops them.
+const float k_slow = 0.25;
+const float k_most_weight = 1000;
 
-// The first leaf in the way suffices.
-bool enters_node(Way way, Box node) { return way.clear && overlap(way.box, node); }
-void visit_leaf(inout Way way, uint first, uint count) { way.clear = false; }
+Restraints no_restraints(vec3 mean) { return Restraints(mean, vec3(0), vec3(0), vec3(0), 0); }
+
+// `against`: m/s.
+float weight_of(float against) { return min(1 + against * against / (k_slow * k_slow), k_most_weight); }
+
+// By a surface of velocity `surface`, m/s. `n`: unit, away from it. `v`: m/s, of the vertex, which may leave the surface.
+void restrain(inout Restraints restraints, vec3 n, vec3 surface, vec3 v, float part)
+{
+    const float drive = max(dot(n, surface), dot(n, v));
+    const float weight = part * weight_of(max(drive - dot(n, restraints.mean), 0));
+    restraints.diagonal += weight * n * n;
+    restraints.beside += weight * n.yzx * n.zxy;
+    restraints.drives += weight * drive * n;
+    restraints.squares += weight * drive * drive;
+}
+
+// In all directions.
+void restrain(inout Restraints restraints, vec3 v)
+{
+    const float weight = weight_of(distance(v, restraints.mean));
+    restraints.diagonal += weight;
+    restraints.drives += weight * v;
+    restraints.squares += weight * dot(v, v);
+}
+
+// More triangles of a mesh in the way of a vertex restrain it in all directions.
+const uint k_most_triangles = 32;
+// Vertices that are farther from a collider than this part of their thickness, after their way, are not restrained.
+const float k_near = 2;
+
+// The way of a vertex.
+struct Way
+{
+    vec3 x;
+    vec3 v;       // m/s
+    float time;   // s
+    float margin; // m, within which it is not clear
+    float near;   // m, within which it is restrained
+};
+
+// The same from a collider.
+struct RelativeWay
+{
+    Box wide;     // in the collider's space: where the vertex is not clear
+    Box near;     // where it is restrained, in the time of the way
+    vec3 from;    // m
+    vec3 surface; // m/s, in the world, of the collider there, but for what its vertices do
+};
+
+// What of a mesh is in the way of a vertex.
+struct WayQuery
+{
+    RelativeWay way;
+    vec3 v; // m/s
+    uint collider;
+    uint flags;
+    bool clear;
+    uint count; // of triangles that restrain it
+    vec3 deformation; // m/s, of the first of them
+    Restraints restraints;
+};
+
+#define VOILE_QUERY WayQuery
+
+bool enters_node(WayQuery query, Box node)
+{
+    if (query.clear)
+        return overlap(query.way.wide, node);
+    return query.count <= k_most_triangles && overlap(query.way.near, node);
+}
+
+vec3 into_world(uint c, uint flags, vec3 direction)
+{
+    return is_moved(flags) ? rotate(collider_motions[c].rotation_from, direction) : direction;
+}
+
+// Within the step.
+MovingTriangle triangle_of(WayQuery query, uint triangle)
+{
+    if (is_deforming(query.flags))
+        return moving_triangle(triangle, uvec2(collider_motions[query.collider].first_from, collider_motions[query.collider].first_to),
+                               vec2(0, 1));
+    const BvhTriangle t = bvh_triangles[triangle];
+    return MovingTriangle(Triangle(t.a, t.b, t.c), Triangle(t.a, t.b, t.c));
+}
+
+vec3 middle_of(Triangle t) { return (t.a + t.b + t.c) / 3; }
+
+Box box_of(Triangle t) { return Box(min(min(t.a, t.b), t.c), max(max(t.a, t.b), t.c)); }
+
+// Unit, towards a point.
+vec3 side_of(Triangle t, vec3 point)
+{
+    const vec3 across = cross(t.b - t.a, t.c - t.a);
+    const vec3 n = across / max(length(across), 1e-30);
+    return dot(n, point - t.a) < 0 ? -n : n;
+}
+
+void visit_leaf(inout WayQuery query, uint first, uint count)
+{
+    query.clear = false;
+    for (uint k = 0; k < count && query.count <= k_most_triangles; ++k)
+    {
+        const MovingTriangle moving = triangle_of(query, first + k);
+        if (!overlap(query.way.near, joined(box_of(moving.start), box_of(moving.end))))
+            continue;
+        const vec3 n = into_world(query.collider, query.flags, side_of(moving.start, query.way.from));
+        const vec3 deformation = step_input.rate * into_world(query.collider, query.flags, middle_of(moving.end) - middle_of(moving.start));
+        if (query.count == 0)
+            query.deformation = deformation;
+        restrain(query.restraints, n, query.way.surface + deformation, query.v, 1);
+        ++query.count;
+    }
+}
 
 #include "colliders/mesh_traversal.glsl"
 
@@ -34,44 +153,87 @@ float motion_at(ColliderMotion motion, vec3 point)
     return distance(motion.offset_from, motion.offset_to) + k_chord_rate * angle * length(point);
 }
 
-// From `from` to `from + way`, in the collider's space.
-bool is_clear_of(ColliderRecord collider, vec3 from, vec3 way, float margin)
+// What one collider does to a vertex has the same weight, however many triangles it has.
+void add_mesh(inout Restraints restraints, WayQuery query)
 {
-    const vec3 middle = from + 0.5 * way;
-    const float radius = 0.5 * length(way) + margin;
-    if (collider.kind == VOILE_COLLIDER_PLANE)
-        return min(plane_surface(collider, from).distance, plane_surface(collider, from + way).distance) > margin;
-    if (collider.kind != VOILE_COLLIDER_MESH)
-        return convex_surface(collider, middle).distance > radius;
-    Way query = Way(grown(box_around(from, from + way), margin), true);
-    if (is_deforming(collider.flags) || overlap(query.box, Box(collider.box_min, collider.box_max)))
-        traverse(query, collider);
+    if (query.count > k_most_triangles)
+        restrain(restraints, query.way.surface + query.deformation);
+    if (query.count == 0 || query.count > k_most_triangles)
+        return;
+    const float each = 1 / float(query.count);
+    restraints.diagonal += each * query.restraints.diagonal;
+    restraints.beside += each * query.restraints.beside;
+    restraints.drives += each * query.restraints.drives;
+    restraints.squares += each * query.restraints.squares;
+}
+
+bool is_clear_of_mesh(inout Restraints restraints, uint c, ColliderRecord collider, RelativeWay relative, vec3 v)
+{
+    if (!is_deforming(collider.flags) && !overlap(relative.wide, Box(collider.box_min, collider.box_max)))
+        return true;
+    WayQuery query = WayQuery(relative, v, c, collider.flags, true, 0, vec3(0), no_restraints(restraints.mean));
+    traverse(query, collider);
+    add_mesh(restraints, query);
     return query.clear;
 }
 
-// `way`: m, from x on.
-bool is_clear(vec3 x, vec3 way, float margin, uint layers)
+// m: of a collider with a formula, from the middle of a box around it, less what the box extends.
+ConvexSurface surface_of(ColliderRecord collider, Box box)
 {
+    const vec3 middle = 0.5 * (box.min + box.max);
+    const vec3 half_size = box.max - middle;
+    const bool plane = collider.kind == VOILE_COLLIDER_PLANE;
+    ConvexSurface surface = plane ? plane_surface(collider, middle) : convex_surface(collider, middle);
+    surface.distance -= dot(abs(surface.direction), half_size);
+    return surface;
+}
+
+bool is_clear_of(inout Restraints restraints, uint c, ColliderRecord collider, RelativeWay relative, vec3 v)
+{
+    if (surface_of(collider, relative.wide).distance > 0)
+        return true;
+    const ConvexSurface near = surface_of(collider, relative.near);
+    if (near.distance <= 0)
+        restrain(restraints, into_world(c, collider.flags, near.direction), relative.surface, v, 1);
+    return false;
+}
+
+RelativeWay relative_way(Way way, uint c, ColliderRecord collider)
+{
+    vec3 from = way.x - collider.origin;
+    vec3 surface = vec3(0);
+    vec3 along = way.v;
+    vec3 relative = way.v;
+    float moved = 0;
+    if (is_moved(collider.flags))
+    {
+        const ColliderMotion motion = collider_motions[c];
+        const Pose pose = Pose(motion.rotation_from, motion.offset_from);
+        from = to_collider(pose, way.x - motion.origin);
+        surface = step_input.rate * displacement(pose, pose_change(c, 0, 1), from);
+        along = rotate_back(pose.rotation, along);
+        relative = rotate_back(pose.rotation, way.v - surface);
+        moved = motion_at(motion, vec3(length(from) + way.time * length(way.v)));
+    }
+    return RelativeWay(grown(box_around(from, from + VOILE_PAIR_SWEEP_TIME * along), way.margin + moved),
+                       grown(box_around(from, from + way.time * relative), way.near), from, surface);
+}
+
+bool is_clear(inout Restraints restraints, Way way, uint layers)
+{
+    bool clear = true;
     for (uint c = 0; c < push.colliders; ++c)
     {
         const ColliderRecord collider = colliders[c];
         if ((collider.layers & layers) == 0)
             continue;
-        vec3 from = x - collider.origin;
-        vec3 along = way;
-        float moved = 0;
-        if (is_moved(collider.flags))
-        {
-            const ColliderMotion motion = collider_motions[c];
-            const Pose pose = Pose(motion.rotation_from, motion.offset_from);
-            from = to_collider(pose, x - motion.origin);
-            along = rotate_back(pose.rotation, way);
-            moved = motion_at(motion, vec3(length(from) + length(way)));
-        }
-        if (!is_clear_of(collider, from, along, margin + moved))
-            return false;
+        const RelativeWay relative = relative_way(way, c, collider);
+        if (collider.kind == VOILE_COLLIDER_MESH)
+            clear = is_clear_of_mesh(restraints, c, collider, relative, way.v) && clear;
+        else
+            clear = is_clear_of(restraints, c, collider, relative, way.v) && clear;
     }
-    return true;
+    return clear;
 }
 
 #endif

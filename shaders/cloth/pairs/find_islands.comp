@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Finds the islands: cloths that may come near each other until the lists are made again, if those of an island move on
-// average as fast as they do now. One workgroup for all cloths; a thread takes every so many of them.
+// average, and its frame, as fast as they do now. Finds these frames, too. One workgroup for all cloths; a thread takes every so many of them.
 //
 // In each round, islands are joined by the names that they have at its beginning, so that the result does not depend on
 // timing.
@@ -17,6 +17,7 @@ layout(VOILE_BINDING(pair_islands)) coherent buffer PairIslands { PairIsland pai
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "contact/rounding.glsl"
+#include "pairs/moving_frame.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair_tree.glsl"
 #include "shared/box.glsl"
@@ -69,6 +70,12 @@ void clear_total(uint cloth)
     pair_islands[cloth].heaviest = 0;
     for (uint k = 0; k < 3; ++k)
         pair_islands[cloth].total_momentum[k] = 0;
+    pair_islands[cloth].total_frame_sums.restrained = 0;
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        pair_islands[cloth].total_frame_sums.low[k] = 0;
+        pair_islands[cloth].total_frame_sums.high[k] = 0;
+    }
 }
 
 void add_to_total(uint cloth)
@@ -81,6 +88,12 @@ void add_to_total(uint cloth)
     atomicAdd(pair_islands[island].total_mass, uint(round(part * float(pair_islands[cloth].mass))));
     for (uint k = 0; k < 3; ++k)
         atomicAdd(pair_islands[island].total_momentum[k], int(round(part * float(pair_islands[cloth].momentum[k]))));
+    atomicAdd(pair_islands[island].total_frame_sums.restrained, pair_islands[cloth].frame_sums.restrained);
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        atomicAdd(pair_islands[island].total_frame_sums.low[k], pair_islands[cloth].frame_sums.low[k]);
+        atomicAdd(pair_islands[island].total_frame_sums.high[k], pair_islands[cloth].frame_sums.high[k]);
+    }
 }
 
 ivec3 total_momentum(uint island)
@@ -89,18 +102,22 @@ ivec3 total_momentum(uint island)
                  pair_islands[island].total_momentum[2]);
 }
 
-// A vertex is carried by a part of the mean way, and from there it goes as far as its sweep and its reach.
+// A vertex is carried with its frame, as long as lists are used, and by a part of the mean way in it. From there it
+// goes as far as its sweep and its reach.
 void write_reach(uint cloth)
 {
     const uint island = island_of(cloth);
-    const vec3 carry = VOILE_PAIR_SWEEP_TIME * mean_of(total_momentum(island), pair_islands[island].total_mass);
+    const vec3 frame = velocity_of_frame(pair_islands[island].total_frame_sums, pair_islands[island].total_vertices);
+    const vec3 mean = mean_of(total_momentum(island), pair_islands[island].total_mass);
+    const vec3 carry = VOILE_PAIR_SWEEP_TIME * (mean - frame);
+    const vec3 moved = frame_horizon() * frame;
     const Box box = box_of(cloth);
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
                          k_packing * length(carry) + rounding(box.min) + rounding(box.max);
     for (uint k = 0; k < 3; ++k)
     {
-        pair_islands[cloth].reach_low[k] = box.min[k] + min(carry[k], 0) - margin;
-        pair_islands[cloth].reach_high[k] = box.max[k] + max(carry[k], 0) + margin;
+        pair_islands[cloth].reach_low[k] = box.min[k] + min(carry[k], 0) + min(moved[k], 0) - margin;
+        pair_islands[cloth].reach_high[k] = box.max[k] + max(carry[k], 0) + max(moved[k], 0) + margin;
     }
 }
 
@@ -170,9 +187,22 @@ void find_totals(uint thread)
     wait_for_all();
 }
 
+void write_frame(uint cloth, FrameSums sums, uint vertices)
+{
+    const vec3 frame = velocity_of_frame(sums, vertices);
+    for (uint k = 0; k < 3; ++k)
+        pair_islands[cloth].frame[k] = frame[k];
+}
+
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
+    if (push.cloths == 1)
+    {
+        if (thread == 0)
+            write_frame(0, pair_islands[0].frame_sums, pair_islands[0].vertices);
+        return;
+    }
     const uint threads = gl_WorkGroupSize.x;
     for (uint c = thread; c < push.cloths; c += threads)
         pair_islands[c].stopped = pair_islands[island_of(c)].stopped;
@@ -197,6 +227,8 @@ void main()
             rename(c);
     }
     // In the last round no name has changed.
+    for (uint c = thread; c < push.cloths; c += threads)
+        write_frame(c, pair_islands[island_of(c)].total_frame_sums, pair_islands[island_of(c)].total_vertices);
     for (uint c = thread; c < push.cloths; c += threads)
         if (exists(c) && pair_islands[c].before == 0)
         {

@@ -7,6 +7,7 @@
 #include "contact/contact_vertex.glsl"
 #include "pairs/fall.glsl"
 #include "pairs/guard.glsl"
+#include "pairs/island.glsl"
 #include "pairs/sweep.glsl"
 #include "shared/segments.glsl"
 #include "shared/step_input.glsl"
@@ -25,7 +26,7 @@ float pair_to()
     return end;
 }
 
-// A vertex within its guards, and where they end. The clock of the lists may carry both.
+// A vertex within its guards, and where they end. The clock of the lists and the frame of the island may carry both.
 struct Hold
 {
     PairBound bound;
@@ -56,13 +57,14 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
     const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
                           (sweep.fall > 0 ? rounded_off(cloth) : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
-    const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity;
+    const vec3 frame = frame_of(cloth);
+    const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity + frame;
     const float last_substep = seconds(push.pair_lasts) / float(push.kicks);
     const float now = clock + rate * (pair_to() - (1 - sweep.fall) * last_substep);
-    hold.carry = rate * (velocity + now * gravity);
+    hold.carry = rate * (velocity + now * gravity) + frame;
     hold.carried = (pair_to() - pair_from()) * mean;
     hold.at -= pair_from() * mean;
-    hold.swept -= clock * velocity + pair_islands[cloth].fall * gravity +
+    hold.swept -= clock * velocity + pair_islands[cloth].fall * gravity + pair_islands[cloth].time * frame +
                   pair_from() * mean;
     const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
     hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);

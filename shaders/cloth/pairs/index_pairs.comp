@@ -148,7 +148,7 @@ void bound(uint i, uint cloth, float reach, uint listed)
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
     const bool driven = positions[i].w == 0 || (uint(velocities[i].w) & VOILE_VERTEX_PUSHED) != 0;
-    if (driven && sweep.reach < pair_interval() * length(velocities[i].xyz))
+    if (driven && sweep.reach < pair_interval() * distance(velocities[i].xyz, frame_of(cloth)))
         pair_searches[VOILE_PAIR_CROWDED].entries = pair_pass() + 1;
 }
 
@@ -157,7 +157,7 @@ void begin_clock(uint cloth)
 {
     const uint parity = pair_pass() & 1u;
     pair_islands[cloth].rates[parity] = floatBitsToUint(1);
-    pair_islands[cloth].clocks[parity] = pair_islands[cloth].falls[parity] = 0;
+    pair_islands[cloth].clocks[parity] = pair_islands[cloth].falls[parity] = pair_islands[cloth].times[parity] = 0;
     const vec3 mean = mean_velocity(island_of(cloth));
     const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean);
     const vec3 packed = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word);

@@ -26,7 +26,7 @@ ivec3 momentum_of(uint island)
     return ivec3(pair_islands[island].momentum[0], pair_islands[island].momentum[1], pair_islands[island].momentum[2]);
 }
 
-// m/s
-vec3 mean_velocity(uint island) { return mean_of(momentum_of(island), pair_islands[island].mass); }
+// m/s, in the frame of the island.
+vec3 mean_velocity(uint island) { return mean_of(momentum_of(island), pair_islands[island].mass) - frame_of(island); }
 
 #endif

@@ -78,7 +78,7 @@ const float k_half_rounding = 1e-3;
 struct Vertices
 {
     vec3 x[4]; // m, from the first
-    vec3 v[4]; // m/s
+    vec3 v[4]; // m/s, in the frame of the island
     vec3 gain[4]; // m/s, until the middle of the coming interval, if what acted since the last pass goes on
     vec3 moved[4]; // m, since the last pass
     vec3 slip[4];
@@ -94,6 +94,7 @@ struct Frame
     FinePosition origin; // the first vertex, and how it is carried
     uint carry;
     vec3 fall; // of the island (free_fall_until_next)
+    vec3 velocity; // m/s
 };
 
 void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
@@ -104,7 +105,7 @@ void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
     const vec4 velocity = velocities[i];
     vertices.supported[k] = (uint(velocity.w) & VOILE_VERTEX_SUPPORTED) != 0;
     vertices.x[k] = displacement(frame.origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
-    vertices.v[k] = velocity.xyz;
+    vertices.v[k] = velocity.xyz - frame.velocity;
     vertices.gain[k] = known && position.w > 0 ? 0.5 * (velocity.xyz - memory.velocity) : vec3(0);
     const PairGuard guard = pair_bounds[i].guard;
     const FinePosition last = FinePosition(guard.from, unpack_residual(guard.residual));
@@ -306,7 +307,7 @@ void main()
     PairResponse response;
     const uint cloth = pair_lists[entry / VOILE_PAIRS].cloth;
     const Frame frame = Frame(FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x])),
-                              pair_carries[pair.vertices.x], free_fall_until_next(cloth));
+                              pair_carries[pair.vertices.x], free_fall_until_next(cloth), frame_of(cloth));
     Vertices vertices;
     vertices.island = island_of(cloth);
     [[unroll]] for (uint k = 0; k < 4; ++k)

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Whether vertices that collide with other cloth are clear of all colliders for some time, so that nothing but cloth can
-// stop them or their neighbors, how fast those that are move, and where each cloth is. One thread per vertex.
+// stop them or their neighbors, how fast those that are move, how anchors and colliders restrain the others, and where
+// each cloth is. One thread per vertex.
 #include "shared/bindings.h"
 #include "shared/bvh_layout.h"
 #include "shared/cloth_layout.h"
@@ -20,70 +21,115 @@ layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(colliders)) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(VOILE_BINDING(collider_motions)) readonly buffer ColliderMotions { ColliderMotion collider_motions[]; };
 layout(VOILE_BINDING(bvh_nodes)) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(VOILE_BINDING(bvh_triangles)) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
 layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
+layout(VOILE_BINDING(padded_leaves)) readonly buffer PaddedLeaves { PaddedLeaf padded_leaves[]; };
+layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(VOILE_BINDING(pair_flats)) writeonly buffer PairFlats { vec2 pair_flats[]; };
 layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
+const uint k_values = 13;
+
 #include "shared/patch.glsl"
+#include "shared/step_input.glsl"
 #include "pairs/clear.glsl"
+#include "pairs/fold.glsl"
 #include "pairs/mean_velocity.glsl"
+#include "pairs/moving_frame.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
 #include "shared/ordered.glsl"
 
-// Edges and corners of colliders push vertices that are an edge of the cloth away. What springs, tethers or bounds hold
-// does not move as its island does.
-bool is_clear_vertex(uint i, uint cloth)
+// What may move a vertex otherwise than its island.
+struct Surroundings
 {
-    const float margin = cloths[cloth].thickness + (k_neighborhood_radius + 1) * cloths[cloth].springs[0].rest_length;
-    const bool held = (uint(velocities[i].w) & (VOILE_VERTEX_HELD | VOILE_VERTEX_BOUND)) != 0;
-    const bool moves = positions[i].w > 0 && !held && (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) == 0;
-    return moves &&
-           is_clear(positions[i].xyz, VOILE_PAIR_SWEEP_TIME * velocities[i].xyz, margin, cloths[cloth].layers);
-}
-
-// Of some vertices of a cloth.
-struct Part
-{
-    vec3 momentum; // m/s, of its heaviest vertex, summed over those that are clear
-    float mass;    // of those, relative to the heaviest
-    float clear;
-    Box box;
-    float vertices;
+    bool clear;      // nothing
+    bool restrained; // a collider, or what holds the vertex
+    Restraints restraints;
 };
 
-shared Part shared_parts[gl_WorkGroupSize.x];
-
-Part joined(Part a, Part b)
+// Edges and corners of colliders push vertices that are an edge of the cloth away. What springs, tethers or bounds hold
+// does not move as its island does.
+Surroundings surroundings_of(uint i, uint cloth)
 {
-    return Part(a.momentum + b.momentum, a.mass + b.mass, a.clear + b.clear, joined(a.box, b.box), a.vertices + b.vertices);
+    Surroundings around = Surroundings(false, true, no_restraints(mean_of_sums(pair_islands[cloth].frame_sums, pair_islands[cloth].vertices)));
+    const uint flags = uint(velocities[i].w);
+    const vec3 v = velocities[i].xyz;
+    if (positions[i].w == 0 || (flags & VOILE_VERTEX_HELD) != 0 || (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
+    {
+        restrain(around.restraints, v);
+        return around;
+    }
+    const float thickness = cloths[cloth].thickness;
+    const float margin = thickness + (k_neighborhood_radius + 1) * cloths[cloth].springs[0].rest_length;
+    const Way way = Way(positions[i].xyz, v, frame_horizon(), margin, k_near * thickness);
+    const bool clear = is_clear(around.restraints, way, cloths[cloth].layers);
+    around.clear = clear && (flags & VOILE_VERTEX_BOUND) == 0;
+    around.restrained = !clear;
+    return around;
+}
+
+// Of a vertex: its momentum, mass, whether it is clear, and restrained, and its box, the lower corner negated.
+const uint k_part_sums = 6;
+
+void part_of(PatchVertex self, Surroundings around, out float part[k_values])
+{
+    for (uint k = 0; k < k_values; ++k)
+        part[k] = k < k_part_sums ? 0 : -k_unbounded;
+    if (!self.exists)
+        return;
+    const vec3 x = positions[self.index].xyz;
+    const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
+    const float mass = around.clear ? 1 / (positions[self.index].w * cloths[self.cloth].pair_mass) : 0;
+    for (uint k = 0; k < 3; ++k)
+    {
+        part[k] = mass * v[k];
+        part[k_part_sums + k] = -x[k];
+        part[k_part_sums + 3 + k] = x[k];
+    }
+    part[3] = mass;
+    part[4] = around.clear ? 1 : 0;
+    part[5] = around.restrained ? 1 : 0;
 }
 
 // The order does not depend on timing: groups add whole numbers.
-void add_to_cloth(uint cloth, Part part)
+void add_part(uint cloth, float part[k_values])
 {
-    const ivec3 sum = ivec3(round(part.momentum / (VOILE_PAIR_UNIT_SPEED * float(push.places))));
     for (uint k = 0; k < 3; ++k)
     {
-        atomicAdd(pair_islands[cloth].momentum[k], sum[k]);
-        atomicMax(pair_islands[cloth].low[k], ~ordered(part.box.min[k]));
-        atomicMax(pair_islands[cloth].high[k], ordered(part.box.max[k]));
+        atomicAdd(pair_islands[cloth].momentum[k], int(round(part[k] / (VOILE_PAIR_UNIT_SPEED * float(push.places)))));
+        atomicMax(pair_islands[cloth].low[k], ~ordered(-part[k_part_sums + k]));
+        atomicMax(pair_islands[cloth].high[k], ordered(part[k_part_sums + 3 + k]));
     }
-    atomicAdd(pair_islands[cloth].mass, uint(round(part.mass / (VOILE_PAIR_UNIT_MASS * float(push.places)))));
-    atomicAdd(pair_islands[cloth].clear, uint(part.clear));
-    atomicAdd(pair_islands[cloth].vertices, uint(part.vertices));
+    atomicAdd(pair_islands[cloth].mass, uint(round(part[3] / (VOILE_PAIR_UNIT_MASS * float(push.places)))));
+    atomicAdd(pair_islands[cloth].clear, uint(part[4]));
+    atomicAdd(pair_islands[cloth].frame_sums.restrained, uint(part[5]));
 }
 
-Part part_of(PatchVertex self, bool clear)
+void frame_part_of(Restraints restraints, out float part[k_values])
 {
-    if (!self.exists)
-        return Part(vec3(0), 0, 0, Box(vec3(k_unbounded), vec3(-k_unbounded)), 0);
-    const vec3 x = positions[self.index].xyz;
-    const float mass = clear ? 1 / (positions[self.index].w * cloths[self.cloth].pair_mass) : 0;
-    const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
-    return Part(mass * v, mass, clear ? 1 : 0, Box(x, x), 1);
+    for (uint k = 0; k < 3; ++k)
+    {
+        part[VOILE_FRAME_DIRECTIONS + k] = restraints.diagonal[k];
+        part[VOILE_FRAME_DIRECTIONS + 3 + k] = restraints.beside[k];
+        part[VOILE_FRAME_DRIVES + k] = restraints.drives[k];
+        part[VOILE_FRAME_ALL + k] = 0;
+    }
+    part[VOILE_FRAME_SQUARES] = restraints.squares;
+}
+
+void add_frame_part(uint cloth, float part[k_values])
+{
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        const int units = frame_units(part[k], k);
+        if (units == 0) // as the velocities, which pair_means.comp has added
+            continue;
+        atomicAdd(pair_islands[cloth].frame_sums.low[k], uint(units & 0xffff));
+        atomicAdd(pair_islands[cloth].frame_sums.high[k], units >> 16);
+    }
 }
 
 void main()
@@ -91,17 +137,20 @@ void main()
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!collides_with_itself(self.cloth)) // the cloth of all threads
         return;
-    const bool clear = self.exists && is_clear_vertex(self.index, self.cloth);
+    Surroundings around = Surroundings(false, false, no_restraints(vec3(0)));
     if (self.exists)
-        pair_flats[self.index] = vec2(clear ? 1 : 0, 0);
-    const uint thread = gl_LocalInvocationID.x;
-    shared_parts[thread] = part_of(self, clear);
-    for (uint width = gl_WorkGroupSize.x / 2; width > 0; width /= 2)
     {
-        barrier();
-        if (thread < width)
-            shared_parts[thread] = joined(shared_parts[thread], shared_parts[thread + width]);
+        around = surroundings_of(self.index, self.cloth);
+        pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
     }
+    const uint thread = gl_LocalInvocationID.x;
+    float values[k_values];
+    part_of(self, around, values);
+    fold(thread, k_part_sums, values);
     if (thread == 0)
-        add_to_cloth(self.cloth, shared_parts[0]);
+        add_part(self.cloth, values);
+    frame_part_of(around.restraints, values);
+    fold(thread, VOILE_FRAME_SUMS, values);
+    if (thread == 0)
+        add_frame_part(self.cloth, values);
 }

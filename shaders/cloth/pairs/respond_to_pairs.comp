@@ -36,6 +36,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/pair.glsl"
 #include "pairs/guard.glsl"
 #include "pairs/halvings.glsl"
+#include "pairs/moving_frame.glsl"
 #include "pairs/patience.glsl"
 
 // m: the longest drift that is undone, as a part of the thickness.
@@ -208,11 +209,15 @@ void keep_clock(uint cloth)
     const uint other = 1 - (pair_pass() & 1u);
     pair_islands[cloth].rate = rate;
     pair_islands[cloth].clock = clock;
+    pair_islands[cloth].time = pair_islands[cloth].times[1 - other];
     pair_islands[cloth].fall = fall;
     pair_islands[cloth].fall_rate = gained / pair_interval();
     pair_islands[cloth].clocks[other] = clock + rate * pair_interval();
     pair_islands[cloth].falls[other] = fall + gained;
+    pair_islands[cloth].times[other] = pair_islands[cloth].times[1 - other] + pair_interval();
     pair_islands[cloth].rates[other] = floatBitsToUint(1);
+    if (frame_of(cloth) != vec3(0) && pair_islands[cloth].times[other] + pair_interval() > frame_horizon())
+        want_lists();
 }
 
 // For the next search.
@@ -223,6 +228,12 @@ void forget_part(uint cloth)
     {
         pair_islands[cloth].momentum[k] = 0;
         pair_islands[cloth].low[k] = pair_islands[cloth].high[k] = 0;
+    }
+    pair_islands[cloth].frame_sums.restrained = 0;
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        pair_islands[cloth].frame_sums.low[k] = 0;
+        pair_islands[cloth].frame_sums.high[k] = 0;
     }
 }
 
@@ -265,5 +276,5 @@ void main()
     pair_bounds[i].guard.residual = residuals[i];
     pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
     const vec3 carried = self.rate * carry_until_next(self.carry, self.fall);
-    pair_bounds[i].speed = length(v - carried / pair_interval());
+    pair_bounds[i].speed = length(v - frame_of(entry.y) - carried / pair_interval());
 }

@@ -68,6 +68,18 @@
 // Momenta are summed up in this unit, m/s of the heaviest vertex, as a part of the mean, and masses in this one of it.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 #define VOILE_PAIR_UNIT_MASS 1e-9f
+// Sums over the vertices of an island (FrameSums). A restraint is a direction n, unit, in which an anchor or a collider
+// of velocity v restrains a vertex. The weighted sums are, in this order, of n n^T (its diagonal, and yz, zx, xy), of
+// n (n . v), and of (n . v)^2; then those of the velocities of all vertices. Workgroups add whole numbers of these units.
+#define VOILE_FRAME_SUMS 13
+#define VOILE_FRAME_DIRECTIONS 0
+#define VOILE_FRAME_DRIVES 6
+#define VOILE_FRAME_SQUARES 9
+#define VOILE_FRAME_ALL 10
+#define VOILE_FRAME_UNIT_DIRECTION 1e-4f
+#define VOILE_FRAME_UNIT_DRIVE 1e-2f  // m/s
+#define VOILE_FRAME_UNIT_SQUARE 1e-2f // m^2/s^2
+#define VOILE_FRAME_UNIT_SPEED 1e-5f  // m/s
 // s: the clock of the lists ends there.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
 // The largest fall, of the square of that. Half if the clock runs as fast as time.
@@ -102,9 +114,18 @@ struct PairList
     uint mask; // the places of pairs that both sides list, if there are any
 };
 
+// From which the frame of an island follows (moving_frame.glsl). The numbers are high * 2^16 + low.
+struct FrameSums
+{
+    uint restrained; // vertices
+    uint low[VOILE_FRAME_SUMS];
+    int high[VOILE_FRAME_SUMS];
+};
+
 // What a cloth shares with others. Cloths that may come near each other until the lists are made again are an island,
 // named by its first cloth. It has a clock that runs at most as fast as time, and more slowly where vertices that it
-// carries would meet (PairSweep).
+// carries would meet (PairSweep). All of that is relative to a frame that moves with the anchors and colliders that drive
+// the island until the lists are made again.
 struct PairIsland
 {
     uint before; // the first cloth of the island is so many before this one
@@ -114,6 +135,7 @@ struct PairIsland
     uint clear;      // of colliders
     uint mass;       // of those, in VOILE_PAIR_UNIT_MASS
     int momentum[3]; // in VOILE_PAIR_UNIT_SPEED
+    FrameSums frame_sums;
     // The box around the vertices of the cloth. Ordered numbers (ordered.glsl), the lower corner's inverted; 0: no
     // cloth.
     uint low[3];
@@ -125,6 +147,7 @@ struct PairIsland
     uint heaviest; // kg, the bits of a float: the vertex to which the totals are relative
     int total_momentum[3];
     uint total_mass;
+    FrameSums total_frame_sums;
     uint total_vertices;
     uint total_clear;
     uint total_stopped;
@@ -142,9 +165,13 @@ struct PairIsland
     float fall;
     float fall_rate;      // s, what `fall` gains per second
     float rounded_off[3]; // m/s, what packing the mean velocity has rounded off
+    float frame[3];       // m/s, the velocity of the frame
+    // s, since lists were made: at the beginning of even and odd passes; at that of the last one, until the next.
+    float times[2];
+    float time;
 };
 
-// Where a vertex may be until the lists are made again. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
+// Where a vertex may be until the lists are made again, in the frame of its island. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
 // what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from there to `sweep` beyond. Then no
 // two primitives that no list contains can meet.
 struct PairSweep
@@ -161,7 +188,7 @@ struct PairSweep
 };
 
 // Where a vertex may be until the next pass over the pairs. Let d be its displacement from `from`, less that by which
-// the clock has carried it since. dot(plane.xyz, d) + plane.w >= 0 for each plane, and length(d) <= reach. Then no two
+// the clock and the frame of its island have carried it since. dot(plane.xyz, d) + plane.w >= 0 for each plane, and length(d) <= reach. Then no two
 // primitives of a list can meet.
 struct PairGuard
 {

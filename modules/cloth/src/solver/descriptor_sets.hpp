@@ -55,7 +55,8 @@ struct DescriptorSets
     VkDescriptorSet deform{};
     VkDescriptorSet face_features{};
     VkDescriptorSet find_tangles{};
-    std::array<VkDescriptorSet, 2> pair_clear{}; // of the state, of stage B
+    std::array<VkDescriptorSet, 2> pair_means{}; // of the state, of stage B
+    std::array<VkDescriptorSet, 2> pair_clear{};
     VkDescriptorSet find_islands{};
     std::array<VkDescriptorSet, 2> pair_sweeps{}; // of the state, of stage B
     VkDescriptorSet pair_boxes{};

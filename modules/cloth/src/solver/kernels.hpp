@@ -34,6 +34,7 @@ struct Kernels
     gpu::Kernel contact_pairs_moving;
     gpu::Kernel contact_pairs_many;
     gpu::Kernel find_tangles;
+    gpu::Kernel pair_means;
     gpu::Kernel pair_clear;
     gpu::Kernel find_islands;
     gpu::Kernel pair_sweeps;

@@ -253,6 +253,7 @@ void Describer::add_pairs()
     for (size_t parity = 0; parity < 2; ++parity)
     {
         const StateBuffers& now = k_proposals[parity].earlier;
+        add(sets_.pair_means[parity], kernels_.pair_means, {{binding::stage_velocities, now.velocities}});
         for (const auto& [set, kernel] :
              {std::pair(&sets_.pair_clear, &kernels_.pair_clear), std::pair(&sets_.pair_sweeps, &kernels_.pair_sweeps)})
             add((*set)[parity], *kernel,

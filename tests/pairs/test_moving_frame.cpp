@@ -1,0 +1,176 @@
+// Cloth that collides with itself moves with what carries it as freely as at rest, whatever the speed
+// (moving_frame.glsl).
+#include "support/carried_cloth.hpp"
+
+#include "voile/engine/assets/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+
+namespace
+{
+
+using tests::airless_pair_sheet;
+using tests::at;
+using tests::Capes;
+using tests::k_budgets;
+using tests::k_frame;
+using tests::PairHarness;
+using tests::place_of;
+using tests::step_of;
+using voile::engine::take;
+
+// A floor that moves along x. Moves it to a place.
+using MoveFloor = std::function<void(PairHarness&, float)>;
+
+MoveFloor box_floor(PairHarness& harness)
+{
+    const auto id =
+        take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
+    return [id](PairHarness& moved, float along) { take(moved.solver.move_collider(id, at({along, 0, 0}))); };
+}
+
+MoveFloor deforming_floor(PairHarness& harness)
+{
+    const voile::engine::Mesh box = voile::engine::make_box({-0.5f, -0.1f, -0.5f}, {0.5f, 0, 0.5f});
+    const auto id = take(harness.solver.add_collider(tests::deforming(box)));
+    return [id, box](PairHarness& moved, float along) {
+        take(moved.solver.deform_collider(id, tests::transformed(box.positions, at({along, 0, 0}))));
+    };
+}
+
+MoveFloor floor_over_ground(PairHarness& harness)
+{
+    take(harness.solver.add_collider(voile::PlaneCollider{.normal = {0, 1, 0}, .offset = -0.02f}));
+    const auto id =
+        take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.02f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
+    return [id](PairHarness& moved, float along) { take(moved.solver.move_collider(id, at({along, 0, 0}))); };
+}
+
+uint64_t forced(PairHarness& harness)
+{
+    return harness.statistics().forced_pairs;
+}
+
+} // namespace
+
+TEST_CASE("layers on a floor that moves at 2 to 30 m/s do not slip, with all substeps and with 8")
+{
+    for (const auto& [name, add_floor] :
+         {std::pair("box", &box_floor), std::pair("mesh that deforms", &deforming_floor),
+          std::pair("box over ground at rest", &floor_over_ground)})
+        for (const float speed : {2.f, 30.f})
+            for (const uint32_t substeps : k_budgets)
+            {
+                CAPTURE(name);
+                CAPTURE(speed);
+                CAPTURE(substeps);
+                PairHarness harness;
+                const MoveFloor move = add_floor(harness);
+                tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {speed, 0, 0}), {0.013f, 0, 0.007f});
+                harness.upload();
+                constexpr int k_frames = 10;
+                for (int frame = 1; frame <= k_frames; ++frame)
+                {
+                    move(harness, speed * k_frame * static_cast<float>(frame));
+                    harness.step(step_of(substeps));
+                }
+                const double moved = static_cast<double>(speed * k_frame * k_frames);
+                for (const voile::ClothId cloth : harness.cloths)
+                    CHECK(std::abs(place_of(harness, cloth) - moved - 0.013) < 2e-4);
+                CHECK(harness.intersections() == 0);
+            }
+}
+
+TEST_CASE("capes on anchors that move at 8 to 40 m/s stay at rest relative to them")
+{
+    struct Case
+    {
+        float spacing; // m
+        float speed;   // m/s
+        uint32_t layers;
+        voile::Integrator integrator;
+    };
+    constexpr auto k_verlet = voile::Integrator::verlet;
+    for (const Case& test :
+         {Case{0.01f, 8, 1, k_verlet}, Case{0.01f, 15, 1, k_verlet}, Case{0.01f, 15, 1, voile::Integrator::rk4},
+          Case{0.025f, 40, 1, k_verlet}, Case{0.025f, 20, 2, k_verlet}})
+    {
+        CAPTURE(test.spacing);
+        CAPTURE(test.speed);
+        PairHarness harness;
+        voile::GridCloth grid = airless_pair_sheet(9, test.spacing, {test.speed, 0, 0});
+        grid.integrator = test.integrator;
+        Capes capes(harness, test.layers, grid, {0, 0, 0});
+        harness.upload();
+        for (int frame = 1; frame <= 8; ++frame)
+        {
+            capes.move(test.speed * k_frame * static_cast<float>(frame));
+            harness.step(step_of(tests::k_all));
+        }
+        for (const voile::ClothId cloth : harness.cloths)
+            CHECK(tests::fastest_beside(harness, cloth, test.speed) < 0.03f);
+        CHECK(harness.intersections() == 0);
+        CHECK(forced(harness) == 0);
+    }
+}
+
+// Without self-collision the same capes lag by as much, and stretch by up to 0.40.
+TEST_CASE("capes follow anchors that accelerate, in 8 and 16 substeps a frame")
+{
+    struct Case
+    {
+        float spacing; // m
+        float speed;   // m/s, reached in half a second
+        uint32_t substeps;
+        uint32_t layers;
+    };
+    for (const Case& test :
+         {Case{0.01f, 2, 8, 1}, Case{0.01f, 6, 16, 1}, Case{0.025f, 6, 8, 1}, Case{0.025f, 3, 16, 2}})
+    {
+        CAPTURE(test.spacing);
+        CAPTURE(test.speed);
+        PairHarness harness;
+        Capes capes(harness, test.layers, airless_pair_sheet(9, test.spacing, {0, 0, 0}), {0, 0, 0});
+        harness.upload();
+        float along = 0;
+        float stretch = 0;
+        for (int frame = 1; frame <= 60; ++frame)
+        {
+            along += std::min(1.f, static_cast<float>(frame) / 30) * test.speed * k_frame;
+            capes.move(along);
+            harness.step(step_of(test.substeps));
+            stretch = std::max(stretch, harness.statistics().max_stretch);
+        }
+        for (const voile::ClothId cloth : harness.cloths)
+            CHECK(std::abs(place_of(harness, cloth) - static_cast<double>(along)) < 0.01);
+        CHECK(stretch < 0.5f);
+        CHECK(harness.intersections() == 0);
+        CHECK(forced(harness) == 0);
+    }
+}
+
+TEST_CASE("two capes that are carried past each other at 10 m/s have frames of their own")
+{
+    constexpr float k_speed = 10;
+    PairHarness harness;
+    Capes right(harness, 1, airless_pair_sheet(9, 0.02f, {k_speed, 0, 0}), {-1, 0, 0});
+    Capes left(harness, 1, airless_pair_sheet(9, 0.02f, {-k_speed, 0, 0}), {1, 0, 0.05f});
+    harness.upload();
+    for (int frame = 1; frame <= 13; ++frame)
+    {
+        const float along = k_speed * k_frame * static_cast<float>(frame);
+        right.move(along);
+        left.move(-along);
+        harness.step(step_of(8));
+    }
+    for (size_t side = 0; side < 2; ++side)
+    {
+        const float direction = side == 0 ? 1.f : -1.f;
+        const double place = direction * (k_speed * k_frame * 13 - 1);
+        CHECK(std::abs(place_of(harness, harness.cloths[side]) - place) < 1e-3);
+    }
+    CHECK(harness.intersections() == 0);
+    CHECK(forced(harness) == 0);
+}
