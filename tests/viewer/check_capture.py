@@ -19,7 +19,7 @@ except ImportError:
 SUBSTEP = ["cloth rk4 stage"] * 4 + ["cloth feature tests", "cloth feature contact", "cloth contact"]
 # Before the first substep, and between substeps, with cloth that collides with itself.
 TANGLES = ["cloth refit leaves", "cloth refit levels", "cloth find tangles"]
-SEARCH = ["cloth pair clear", "cloth pair sweeps", "cloth pair boxes", "cloth refit levels", "cloth refit levels",
+SEARCH = ["cloth pair means", "cloth pair clear", "cloth pair sweeps", "cloth pair boxes", "cloth refit levels", "cloth refit levels",
           "cloth find candidates", "cloth find pairs", "cloth match pairs", "cloth index pairs"]
 PAIRS = ["cloth meet pairs", "cloth respond to pairs"]
 BUFFERS = pathlib.Path(__file__).parents[2] / "shaders/cloth/shared/buffers.h"

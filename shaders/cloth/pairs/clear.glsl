@@ -9,47 +9,8 @@
 #include "colliders/collider_pose.glsl"
 #include "colliders/deforming.glsl"
 #include "contact/convex.glsl"
+#include "pairs/restraints.glsl"
 #include "shared/box.glsl"
-
-// Directions in which vertices are restrained, and how fast (VOILE_FRAME_SUMS).
-struct Restraints
-{
-    vec3 mean; // m/s, of the cloth
-    vec3 diagonal;
-    vec3 beside;
-    vec3 drives;
-    float squares;
-};
-
-// m/s: a restraint counts more if the mean motion of the cloth leads against it by more. Few vertices that are stopped would be
-// led into what stops them.
-const float k_slow = 0.25;
-const float k_most_weight = 1000;
-
-Restraints no_restraints(vec3 mean) { return Restraints(mean, vec3(0), vec3(0), vec3(0), 0); }
-
-// `against`: m/s.
-float weight_of(float against) { return min(1 + against * against / (k_slow * k_slow), k_most_weight); }
-
-// By a surface of velocity `surface`, m/s. `n`: unit, away from it. `v`: m/s, of the vertex, which may leave the surface.
-void restrain(inout Restraints restraints, vec3 n, vec3 surface, vec3 v, float part)
-{
-    const float drive = max(dot(n, surface), dot(n, v));
-    const float weight = part * weight_of(max(drive - dot(n, restraints.mean), 0));
-    restraints.diagonal += weight * n * n;
-    restraints.beside += weight * n.yzx * n.zxy;
-    restraints.drives += weight * drive * n;
-    restraints.squares += weight * drive * drive;
-}
-
-// In all directions.
-void restrain(inout Restraints restraints, vec3 v)
-{
-    const float weight = weight_of(distance(v, restraints.mean));
-    restraints.diagonal += weight;
-    restraints.drives += weight * v;
-    restraints.squares += weight * dot(v, v);
-}
 
 // More triangles of a mesh in the way of a vertex restrain it in all directions.
 const uint k_most_triangles = 32;
@@ -136,7 +97,7 @@ void visit_leaf(inout WayQuery query, uint first, uint count)
         const vec3 deformation = step_input.rate * into_world(query.collider, query.flags, middle_of(moving.end) - middle_of(moving.start));
         if (query.count == 0)
             query.deformation = deformation;
-        restrain(query.restraints, n, query.way.surface + deformation, query.v, 1);
+        restrain(query.restraints, n, query.way.surface + deformation, query.v);
         ++query.count;
     }
 }
@@ -156,22 +117,21 @@ float motion_at(ColliderMotion motion, vec3 point)
 // What one collider does to a vertex has the same weight, however many triangles it has.
 void add_mesh(inout Restraints restraints, WayQuery query)
 {
+    if (!restraints.wanted)
+        return;
     if (query.count > k_most_triangles)
         restrain(restraints, query.way.surface + query.deformation);
-    if (query.count == 0 || query.count > k_most_triangles)
-        return;
-    const float each = 1 / float(query.count);
-    restraints.diagonal += each * query.restraints.diagonal;
-    restraints.beside += each * query.restraints.beside;
-    restraints.drives += each * query.restraints.drives;
-    restraints.squares += each * query.restraints.squares;
+    else if (query.count > 0)
+        add(restraints, query.restraints, 1 / float(query.count));
 }
 
 bool is_clear_of_mesh(inout Restraints restraints, uint c, ColliderRecord collider, RelativeWay relative, vec3 v)
 {
     if (!is_deforming(collider.flags) && !overlap(relative.wide, Box(collider.box_min, collider.box_max)))
         return true;
-    WayQuery query = WayQuery(relative, v, c, collider.flags, true, 0, vec3(0), no_restraints(restraints.mean));
+    WayQuery query = WayQuery(relative, v, c, collider.flags, true, 0, vec3(0), no_restraints(restraints.mean, true));
+    if (!restraints.wanted)
+        query.count = k_most_triangles + 1; // the first leaf suffices
     traverse(query, collider);
     add_mesh(restraints, query);
     return query.clear;
@@ -193,8 +153,8 @@ bool is_clear_of(inout Restraints restraints, uint c, ColliderRecord collider, R
     if (surface_of(collider, relative.wide).distance > 0)
         return true;
     const ConvexSurface near = surface_of(collider, relative.near);
-    if (near.distance <= 0)
-        restrain(restraints, into_world(c, collider.flags, near.direction), relative.surface, v, 1);
+    if (restraints.wanted && near.distance <= 0)
+        restrain(restraints, into_world(c, collider.flags, near.direction), relative.surface, v);
     return false;
 }
 
@@ -222,7 +182,7 @@ RelativeWay relative_way(Way way, uint c, ColliderRecord collider)
 bool is_clear(inout Restraints restraints, Way way, uint layers)
 {
     bool clear = true;
-    for (uint c = 0; c < push.colliders; ++c)
+    for (uint c = 0; c < push.colliders && (clear || restraints.wanted); ++c)
     {
         const ColliderRecord collider = colliders[c];
         if ((collider.layers & layers) == 0)

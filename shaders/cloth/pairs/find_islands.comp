@@ -187,22 +187,9 @@ void find_totals(uint thread)
     wait_for_all();
 }
 
-void write_frame(uint cloth, FrameSums sums, uint vertices)
-{
-    const vec3 frame = velocity_of_frame(sums, vertices);
-    for (uint k = 0; k < 3; ++k)
-        pair_islands[cloth].frame[k] = frame[k];
-}
-
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
-    if (push.cloths == 1)
-    {
-        if (thread == 0)
-            write_frame(0, pair_islands[0].frame_sums, pair_islands[0].vertices);
-        return;
-    }
     const uint threads = gl_WorkGroupSize.x;
     for (uint c = thread; c < push.cloths; c += threads)
         pair_islands[c].stopped = pair_islands[island_of(c)].stopped;

@@ -2,7 +2,7 @@
 // directions in which none does, so that cloth has the same room between its primitives on a vehicle as at rest, and where it
 // slides along a wall.
 //
-// The including kernel declares push (PairPush).
+// The including kernel declares pair_islands[] and push (PairPush).
 #ifndef VOILE_MOVING_FRAME_GLSL
 #define VOILE_MOVING_FRAME_GLSL
 
@@ -40,6 +40,8 @@ vec3 mean_of_sums(FrameSums sums, uint vertices) { return frame_sums_from(sums, 
 // m: frames that carry cloth by less until the next pass are not worth new lists.
 const float k_least_motion = 1e-4;
 
+bool is_worth_lists(vec3 velocity) { return length(velocity) * pair_interval() >= k_least_motion; }
+
 // s: how long lists with a frame are used, unless a pass takes longer. Restraints that a vertex may reach later do not count.
 float frame_horizon() { return max(VOILE_PAIR_SWEEP_TIME, pair_interval()); }
 
@@ -62,8 +64,14 @@ vec3 velocity_of_frame(FrameSums sums, uint vertices)
     const float deviation = squares - 2 * dot(drives, frame) + dot(frame, directions * frame);
     const float part = clamp(dot(mean, frame) / max(square, 1e-30), 0, 1);
     const bool fits = deviation <= k_most_deviation * square;
-    const bool counts = part * sqrt(square) * pair_interval() >= k_least_motion;
-    return fits && counts ? part * frame : vec3(0);
+    return fits && is_worth_lists(part * frame) ? part * frame : vec3(0);
+}
+
+void write_frame(uint cloth, FrameSums sums, uint vertices)
+{
+    const vec3 frame = velocity_of_frame(sums, vertices);
+    for (uint k = 0; k < 3; ++k)
+        pair_islands[cloth].frame[k] = frame[k];
 }
 
 #endif

@@ -54,7 +54,9 @@ struct Surroundings
 // does not move as its island does.
 Surroundings surroundings_of(uint i, uint cloth)
 {
-    Surroundings around = Surroundings(false, true, no_restraints(mean_of_sums(pair_islands[cloth].frame_sums, pair_islands[cloth].vertices)));
+    const vec3 mean = mean_of_sums(pair_islands[cloth].frame_sums, pair_islands[cloth].vertices);
+    const bool wanted = push.cloths > 1 || is_worth_lists(mean); // the frame of one cloth is not faster than its mean
+    Surroundings around = Surroundings(false, true, no_restraints(mean, wanted));
     const uint flags = uint(velocities[i].w);
     const vec3 v = velocities[i].xyz;
     if (positions[i].w == 0 || (flags & VOILE_VERTEX_HELD) != 0 || (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
@@ -71,8 +73,9 @@ Surroundings surroundings_of(uint i, uint cloth)
     return around;
 }
 
-// Of a vertex: its momentum, mass, whether it is clear, and restrained, and its box, the lower corner negated.
-const uint k_part_sums = 6;
+// Of a vertex: its momentum, mass, whether it is clear, and restrained, and in any direction, and its box, the lower corner
+// negated.
+const uint k_part_sums = 7;
 
 void part_of(PatchVertex self, Surroundings around, out float part[k_values])
 {
@@ -92,6 +95,7 @@ void part_of(PatchVertex self, Surroundings around, out float part[k_values])
     part[3] = mass;
     part[4] = around.clear ? 1 : 0;
     part[5] = around.restrained ? 1 : 0;
+    part[6] = around.restraints.diagonal != vec3(0) ? 1 : 0;
 }
 
 // The order does not depend on timing: groups add whole numbers.
@@ -132,25 +136,56 @@ void add_frame_part(uint cloth, float part[k_values])
     }
 }
 
-void main()
+shared bool shared_restrained;
+
+// By all threads.
+void add_to_cloth(PatchVertex self, uint thread)
 {
-    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
-    if (!collides_with_itself(self.cloth)) // the cloth of all threads
-        return;
-    Surroundings around = Surroundings(false, false, no_restraints(vec3(0)));
+    Surroundings around = Surroundings(false, false, no_restraints(vec3(0), false));
     if (self.exists)
     {
         around = surroundings_of(self.index, self.cloth);
         pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
     }
-    const uint thread = gl_LocalInvocationID.x;
     float values[k_values];
     part_of(self, around, values);
     fold(thread, k_part_sums, values);
     if (thread == 0)
+    {
         add_part(self.cloth, values);
+        shared_restrained = values[6] > 0;
+    }
+    barrier();
+    if (!shared_restrained)
+        return;
     frame_part_of(around.restraints, values);
     fold(thread, VOILE_FRAME_SUMS, values);
     if (thread == 0)
         add_frame_part(self.cloth, values);
+}
+
+// find_islands.comp finds the frame of islands. Where there is only one cloth, the last workgroup does.
+void find_frame()
+{
+    memoryBarrierBuffer();
+    if (atomicAdd(pair_islands[0].arrived, 1) + 1 < gl_NumWorkGroups.x)
+        return;
+    FrameSums sums; // atomically: other workgroups have added to them
+    sums.restrained = atomicAdd(pair_islands[0].frame_sums.restrained, 0);
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        sums.low[k] = atomicAdd(pair_islands[0].frame_sums.low[k], 0);
+        sums.high[k] = atomicAdd(pair_islands[0].frame_sums.high[k], 0);
+    }
+    write_frame(0, sums, pair_islands[0].vertices);
+    pair_islands[0].arrived = 0;
+}
+
+void main()
+{
+    const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
+    if (collides_with_itself(self.cloth)) // the cloth of all threads
+        add_to_cloth(self, gl_LocalInvocationID.x);
+    if (push.cloths == 1 && gl_LocalInvocationID.x == 0)
+        find_frame();
 }

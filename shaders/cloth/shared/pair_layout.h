@@ -70,7 +70,8 @@
 #define VOILE_PAIR_UNIT_MASS 1e-9f
 // Sums over the vertices of an island (FrameSums). A restraint is a direction n, unit, in which an anchor or a collider
 // of velocity v restrains a vertex. The weighted sums are, in this order, of n n^T (its diagonal, and yz, zx, xy), of
-// n (n . v), and of (n . v)^2; then those of the velocities of all vertices. Workgroups add whole numbers of these units.
+// n (n . v), and of (n . v)^2; then those of the velocities of all vertices. Workgroups add whole numbers of these
+// units.
 #define VOILE_FRAME_SUMS 13
 #define VOILE_FRAME_DIRECTIONS 0
 #define VOILE_FRAME_DRIVES 6
@@ -124,12 +125,13 @@ struct FrameSums
 
 // What a cloth shares with others. Cloths that may come near each other until the lists are made again are an island,
 // named by its first cloth. It has a clock that runs at most as fast as time, and more slowly where vertices that it
-// carries would meet (PairSweep). All of that is relative to a frame that moves with the anchors and colliders that drive
-// the island until the lists are made again.
+// carries would meet (PairSweep). All of that is relative to a frame that moves with the anchors and colliders that
+// drive the island until the lists are made again.
 struct PairIsland
 {
-    uint before; // the first cloth of the island is so many before this one
-    uint joined; // while islands are found: another one that it becomes a part of is so many before it
+    uint before;  // the first cloth of the island is so many before this one
+    uint arrived; // workgroups of pair_clear.comp, if there is one cloth
+    uint joined;  // while islands are found: another one that it becomes a part of is so many before it
     // Since the last lists, of the cloth; when islands are known, in the record of the first cloth, of the island.
     uint vertices;
     uint clear;      // of colliders
@@ -171,9 +173,9 @@ struct PairIsland
     float time;
 };
 
-// Where a vertex may be until the lists are made again, in the frame of its island. The clock carries `from`, in VOILE_PAIR_SWEEP_TIME by twice
-// what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from there to `sweep` beyond. Then no
-// two primitives that no list contains can meet.
+// Where a vertex may be until the lists are made again, in the frame of its island. The clock carries `from`, in
+// VOILE_PAIR_SWEEP_TIME by twice what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from
+// there to `sweep` beyond. Then no two primitives that no list contains can meet.
 struct PairSweep
 {
     vec3 from;      // m
@@ -188,8 +190,8 @@ struct PairSweep
 };
 
 // Where a vertex may be until the next pass over the pairs. Let d be its displacement from `from`, less that by which
-// the clock and the frame of its island have carried it since. dot(plane.xyz, d) + plane.w >= 0 for each plane, and length(d) <= reach. Then no two
-// primitives of a list can meet.
+// the clock and the frame of its island have carried it since. dot(plane.xyz, d) + plane.w >= 0 for each plane, and
+// length(d) <= reach. Then no two primitives of a list can meet.
 struct PairGuard
 {
     vec4 planes[2];

@@ -83,8 +83,9 @@ struct GridCloth
     // pass through each other many times keep moving and never come free.
     //
     // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
-    // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders it is
-    // relative to the world. A vertex that this stops keeps its velocity, and hands it on to what it has met. While
+    // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders and
+    // anchors it is relative to them, and to the mean velocity of the cloth in directions in which they do not hold it.
+    // A vertex that this stops keeps its velocity, and hands it on to what it has met. While
     // colliders or anchors move, where lists of pairs are full, and beside pins, that velocity is lost with its
     // momentum. The mean is that of an island: the cloths whose boxes may meet within 3 ms. Cloths outside the island
     // affect only when near pairs are searched. Cloth in free flight falls freely, in any shape and at any speed, as
@@ -95,10 +96,11 @@ struct GridCloth
     // collide with each other there. Neither does cloth that pins hold at one point, nor cloth that is within 1e-7 m of
     // other cloth, or within 1e-7 of its coordinates: these count as forced.
     //
-    // Cloth that anchors or colliders carry along moves by no more than these gaps from one search to the next, too.
-    // Two layers on a floor that moves at 10 m/s do not slip, three at 6 m/s, six at 3 m/s; faster ones are left
-    // behind, and on a budget of 8 substeps two at 1 m/s are. A cape of 25 mm spacing follows anchors that accelerate
-    // to 14 m/s. With a spacing of 10 mm it gained energy at 8 m/s and tore at 15 m/s.
+    // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
+    // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at 12
+    // m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, and capes of 10 and 25 mm spacing
+    // follow anchors at 15 and 40 m/s. Where anchors and colliders that hold one island move very differently, or cloth
+    // wraps around a collider that it slides past, it is relative to the world.
     //
     // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
     // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
@@ -109,8 +111,7 @@ struct GridCloth
     //
     // Cloth sticks on cloth up to nine tenths of static friction and creeps there at less than 0.1 mm/s; a second sheet
     // on top of it creeps at up to 0.6 mm/s. Where vertices lie above vertices, as in equal grids that are not rotated
-    // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Sliding cloth is slowed
-    // as Coulomb's law says, within 1 % at up to 1.5 m/s and 5 % at 2 m/s; at 3 m/s by up to 1.6 times as much. Layers
+    // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Layers
     // that lie on each other on a plane or a sphere come to rest: two to six sheets kept less than 1e-4 J/kg, and the
     // uppermost of six moved at 0.1 to 0.4 mm/s. Pins that gather a grid to a twentieth of its width, in their order,
     // keep single vertices beside them in motion. Three meshes with edges of 20 mm that pins gathered to a fifth or
@@ -123,8 +124,7 @@ struct GridCloth
     // lost 2 % at 2 m/s and 28 to 33 % at 4 m/s. A sheet of four times the mass that hits another one flat at 30 and
     // 50 m/s adds neither momentum nor energy. Cloths of different kinds that hit each other at 24 m/s, or in 8
     // substeps a frame, may: four random scenes gained 9 to 16 % of their energy. Sheets that start nearer than the
-    // thickness part at up to 0.25 m/s. Very fine cloth that slides fast along a collider is slowed: with a spacing of
-    // 3 mm, from 3 m/s on.
+    // thickness part at up to 0.25 m/s.
     bool self_collision = false;
 
     // m/s, 0..10. The cloth falls asleep when none of its vertices has been faster than this for 0.5 s of simulated

@@ -170,8 +170,9 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_clear, sets.pair_clear[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
-    recorder_.dispatch_indirect(solver_.kernels.find_islands, sets.find_islands, sizes, offset_of(VOILE_PAIR_OF_CLOTHS),
-                                push);
+    if (push.cloths > 1)
+        recorder_.dispatch_indirect(solver_.kernels.find_islands, sets.find_islands, sizes,
+                                    offset_of(VOILE_PAIR_OF_CLOTHS), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PLACES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_boxes, sets.pair_boxes, sizes, offset_of(VOILE_PAIR_OF_LEAVES),
