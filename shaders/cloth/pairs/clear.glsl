@@ -67,8 +67,10 @@ vec3 into_world(uint c, uint flags, vec3 direction)
 MovingTriangle triangle_of(WayQuery query, uint triangle)
 {
     if (is_deforming(query.flags))
-        return moving_triangle(triangle, uvec2(collider_motions[query.collider].first_from, collider_motions[query.collider].first_to),
-                               vec2(0, 1));
+    {
+        const ColliderMotion motion = collider_motions[query.collider];
+        return moving_triangle(triangle, uvec2(motion.first_from, motion.first_to), vec2(0, 1));
+    }
     const BvhTriangle t = bvh_triangles[triangle];
     return MovingTriangle(Triangle(t.a, t.b, t.c), Triangle(t.a, t.b, t.c));
 }
@@ -94,7 +96,8 @@ void visit_leaf(inout WayQuery query, uint first, uint count)
         if (!overlap(query.way.near, joined(box_of(moving.start), box_of(moving.end))))
             continue;
         const vec3 n = into_world(query.collider, query.flags, side_of(moving.start, query.way.from));
-        const vec3 deformation = step_input.rate * into_world(query.collider, query.flags, middle_of(moving.end) - middle_of(moving.start));
+        const vec3 moved = middle_of(moving.end) - middle_of(moving.start);
+        const vec3 deformation = step_input.rate * into_world(query.collider, query.flags, moved);
         if (query.count == 0)
             query.deformation = deformation;
         restrain(query.restraints, n, query.way.surface + deformation, query.v);
