@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <limits>
 
 namespace
 {
@@ -173,4 +174,30 @@ TEST_CASE("two capes that are carried past each other at 10 m/s have frames of t
     }
     CHECK(harness.intersections() == 0);
     CHECK(forced(harness) == 0);
+}
+
+// Both slide on a floor, 0.14 m apart.
+TEST_CASE("a velocity that is not a number does not move the frame of cloth near it")
+{
+    const auto slide = [](bool finite)
+    {
+        PairHarness harness;
+        take(harness.solver.add_collider(voile::PlaneCollider{.normal = {0, 1, 0}, .offset = 0}));
+        for (const float along : {0.f, 0.3f})
+        {
+            voile::GridCloth grid = airless_pair_sheet(9, 0.02f, {1, 0, 0});
+            grid.transform = at({along, 1.05f * tests::fabric_of(grid).thickness, 0});
+            harness.add(grid);
+        }
+        harness.upload();
+        harness.step(step_of(tests::k_all), 3);
+        std::vector<glm::vec4> velocities = harness.velocities(harness.cloths[1]);
+        if (!finite)
+            velocities[40].x = std::numeric_limits<float>::quiet_NaN();
+        const voile::VertexStreams streams = harness.solver.vertices(harness.cloths[1]);
+        harness.write(streams.velocities, streams.offset, velocities);
+        harness.step(step_of(tests::k_all), 5);
+        return place_of(harness, harness.cloths[0]);
+    };
+    CHECK(std::abs(slide(false) - slide(true)) < 1e-4);
 }

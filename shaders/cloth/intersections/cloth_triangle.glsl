@@ -5,6 +5,7 @@
 #define VOILE_CLOTH_TRIANGLE_GLSL
 
 #include "intersections/edge_triangle.glsl"
+#include "shared/finite.glsl"
 
 // A triangle of a cloth, in the world.
 struct ClothTriangle
@@ -14,7 +15,6 @@ struct ClothTriangle
     vec3 corners[3];
 };
 
-bool is_finite(vec3 p) { return !any(isnan(p)) && !any(isinf(p)); }
 bool is_finite(ClothTriangle t)
 {
     return is_finite(t.corners[0]) && is_finite(t.corners[1]) && is_finite(t.corners[2]);

@@ -32,6 +32,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 const uint k_values = 13;
 
+#include "shared/finite.glsl"
 #include "shared/patch.glsl"
 #include "shared/step_input.glsl"
 #include "pairs/clear.glsl"
@@ -79,10 +80,6 @@ const uint k_part_sums = 7;
 
 void part_of(PatchVertex self, Surroundings around, out float part[k_values])
 {
-    for (uint k = 0; k < k_values; ++k)
-        part[k] = k < k_part_sums ? 0 : -k_unbounded;
-    if (!self.exists)
-        return;
     const vec3 x = positions[self.index].xyz;
     const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
     const float mass = around.clear ? 1 / (positions[self.index].w * cloths[self.cloth].pair_mass) : 0;
@@ -142,13 +139,17 @@ shared bool shared_restrained;
 void add_to_cloth(PatchVertex self, uint thread)
 {
     Surroundings around = Surroundings(false, false, no_restraints(vec3(0), false));
-    if (self.exists)
+    float values[k_values];
+    for (uint k = 0; k < k_values; ++k)
+        values[k] = k < k_part_sums ? 0 : -k_unbounded;
+    // What is not finite would move the frame of all cloth near it.
+    if (self.exists && is_finite(positions[self.index].xyz) && is_finite(velocities[self.index].xyz))
     {
         around = surroundings_of(self.index, self.cloth);
-        pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
+        part_of(self, around, values);
     }
-    float values[k_values];
-    part_of(self, around, values);
+    if (self.exists)
+        pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
     fold(thread, k_part_sums, values);
     if (thread == 0)
     {

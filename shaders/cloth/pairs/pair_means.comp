@@ -16,6 +16,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 const uint k_values = 4;
 
+#include "shared/finite.glsl"
 #include "shared/patch.glsl"
 #include "pairs/fold.glsl"
 #include "pairs/mean_velocity.glsl"
@@ -27,8 +28,11 @@ void main()
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (!collides_with_itself(self.cloth)) // the cloth of all threads
         return;
-    const vec3 v = self.exists ? velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags) : vec3(0);
-    float sums[k_values] = float[k_values](v.x, v.y, v.z, self.exists ? 1 : 0);
+    vec3 v = self.exists ? velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags) : vec3(0);
+    const bool counts = self.exists && is_finite(v);
+    if (!counts)
+        v = vec3(0);
+    float sums[k_values] = float[k_values](v.x, v.y, v.z, counts ? 1 : 0);
     fold(gl_LocalInvocationID.x, k_values, sums);
     if (gl_LocalInvocationID.x != 0)
         return;
