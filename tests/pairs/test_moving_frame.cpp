@@ -18,18 +18,23 @@ using tests::Capes;
 using tests::k_budgets;
 using tests::k_frame;
 using tests::PairHarness;
-using tests::place_of;
+using tests::position_of;
 using tests::step_of;
 using voile::engine::take;
 
-// A floor that moves along x. Moves it to a place.
+// Moves a floor to a position along x.
 using MoveFloor = std::function<void(PairHarness&, float)>;
+
+MoveFloor move_rigidly(voile::ColliderId id)
+{
+    return [id](PairHarness& moved, float along) { take(moved.solver.move_collider(id, at({along, 0, 0}))); };
+}
 
 MoveFloor box_floor(PairHarness& harness)
 {
     const auto id =
         take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
-    return [id](PairHarness& moved, float along) { take(moved.solver.move_collider(id, at({along, 0, 0}))); };
+    return move_rigidly(id);
 }
 
 MoveFloor deforming_floor(PairHarness& harness)
@@ -46,7 +51,7 @@ MoveFloor floor_over_ground(PairHarness& harness)
     take(harness.solver.add_collider(voile::PlaneCollider{.normal = {0, 1, 0}, .offset = -0.02f}));
     const auto id =
         take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.02f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
-    return [id](PairHarness& moved, float along) { take(moved.solver.move_collider(id, at({along, 0, 0}))); };
+    return move_rigidly(id);
 }
 
 uint64_t forced(PairHarness& harness)
@@ -79,7 +84,7 @@ TEST_CASE("layers on a floor that moves at 2 to 30 m/s do not slip, with all sub
                 }
                 const double moved = static_cast<double>(speed * k_frame * k_frames);
                 for (const voile::ClothId cloth : harness.cloths)
-                    CHECK(std::abs(place_of(harness, cloth) - moved - 0.013) < 2e-4);
+                    CHECK(std::abs(position_of(harness, cloth) - moved - 0.013) < 2e-4);
                 CHECK(harness.intersections() == 0);
             }
 }
@@ -145,7 +150,7 @@ TEST_CASE("capes follow anchors that accelerate, in 8 and 16 substeps a frame")
             stretch = std::max(stretch, harness.statistics().max_stretch);
         }
         for (const voile::ClothId cloth : harness.cloths)
-            CHECK(std::abs(place_of(harness, cloth) - static_cast<double>(along)) < 0.01);
+            CHECK(std::abs(position_of(harness, cloth) - static_cast<double>(along)) < 0.01);
         CHECK(stretch < 0.5f);
         CHECK(harness.intersections() == 0);
         CHECK(forced(harness) == 0);
@@ -169,8 +174,8 @@ TEST_CASE("two capes that are carried past each other at 10 m/s have frames of t
     for (size_t side = 0; side < 2; ++side)
     {
         const float direction = side == 0 ? 1.f : -1.f;
-        const double place = direction * (k_speed * k_frame * 13 - 1);
-        CHECK(std::abs(place_of(harness, harness.cloths[side]) - place) < 1e-3);
+        const double position = direction * (k_speed * k_frame * 13 - 1);
+        CHECK(std::abs(position_of(harness, harness.cloths[side]) - position) < 1e-3);
     }
     CHECK(harness.intersections() == 0);
     CHECK(forced(harness) == 0);
@@ -197,7 +202,7 @@ TEST_CASE("a velocity that is not a number does not move the frame of cloth near
         const voile::VertexStreams streams = harness.solver.vertices(harness.cloths[1]);
         harness.write(streams.velocities, streams.offset, velocities);
         harness.step(step_of(tests::k_all), 5);
-        return place_of(harness, harness.cloths[0]);
+        return position_of(harness, harness.cloths[0]);
     };
     CHECK(std::abs(slide(false) - slide(true)) < 1e-4);
 }

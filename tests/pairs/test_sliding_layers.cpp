@@ -17,7 +17,7 @@ using tests::k_frame;
 using tests::k_pi;
 using tests::mean_of;
 using tests::PairHarness;
-using tests::place_of;
+using tests::position_of;
 using tests::step_of;
 using tests::turned;
 using voile::engine::take;
@@ -84,7 +84,7 @@ TEST_CASE("layers slide over boxes and meshes at 3 and 12 m/s as Coulomb's law s
                 const double slowed = static_cast<double>(tests::fabric_of(lower).kinetic_friction) * 9.81;
                 const double moved = static_cast<double>(speed) * k_time - 0.5 * slowed * k_time * k_time;
                 for (const voile::ClothId cloth : harness.cloths)
-                    CHECK(std::abs(place_of(harness, cloth) / moved - 1) < test.tolerance);
+                    CHECK(std::abs(position_of(harness, cloth) / moved - 1) < test.tolerance);
                 CHECK(harness.intersections() == 0);
                 CHECK(harness.statistics().penetrating_vertices == 0);
             }

@@ -28,7 +28,7 @@ inline glm::dvec3 mean_of(const std::vector<glm::vec4>& values)
 }
 
 // m, along x.
-inline double place_of(PairHarness& harness, voile::ClothId cloth)
+inline double position_of(PairHarness& harness, voile::ClothId cloth)
 {
     return mean_of(harness.positions(cloth)).x;
 }
@@ -53,13 +53,13 @@ inline voile::Step step_of(uint32_t substeps)
 inline constexpr uint32_t k_budgets[] = {k_all, 8};
 
 // Two layers, the upper one turned a little.
-inline void add_layers(PairHarness& harness, const voile::GridCloth& lower, const glm::vec3& place)
+inline void add_layers(PairHarness& harness, const voile::GridCloth& lower, const glm::vec3& position)
 {
     for (const float layer : {0.f, 1.f})
     {
         voile::GridCloth grid = lower;
         const float height = 1.02f * fabric_of(grid).thickness * (1 + layer);
-        grid.transform = at(place + glm::vec3(0, height, 0)) * turned(0.2f * layer, {0, 1, 0});
+        grid.transform = at(position + glm::vec3(0, height, 0)) * turned(0.2f * layer, {0, 1, 0});
         harness.add(grid);
     }
 }
@@ -68,16 +68,16 @@ inline void add_layers(PairHarness& harness, const voile::GridCloth& lower, cons
 class Capes
 {
 public:
-    Capes(PairHarness& harness, uint32_t layers, const voile::GridCloth& cape, const glm::vec3& place,
+    Capes(PairHarness& harness, uint32_t layers, const voile::GridCloth& cape, const glm::vec3& position,
           const glm::vec3& direction = {1, 0, 0})
-        : harness_(harness), anchor_(voile::engine::take(harness.solver.add_anchor(at(place)))), start_(place),
+        : harness_(harness), anchor_(voile::engine::take(harness.solver.add_anchor(at(position)))), start_(position),
           direction_(direction)
     {
         for (uint32_t layer = 0; layer < layers; ++layer)
         {
             voile::GridCloth grid = cape;
             const float apart = 2 * fabric_of(grid).thickness * static_cast<float>(layer);
-            const glm::vec3 middle = place + glm::vec3(0, -0.5f * grid.depth, apart);
+            const glm::vec3 middle = position + glm::vec3(0, -0.5f * grid.depth, apart);
             grid.transform = at(middle) * turned(k_pi / 2, {1, 0, 0});
             const voile::ClothId id = harness.add(grid);
             std::vector<voile::Attachment> pins;

@@ -14,7 +14,7 @@
 
 // More triangles of a mesh in the way of a vertex restrain it in all directions.
 const uint k_most_triangles = 32;
-// Vertices that are farther from a collider than this part of their thickness, after their way, are not restrained.
+// Vertices that stay farther from a collider than this multiple of their thickness are not restrained.
 const float k_near = 2;
 
 // The way of a vertex.

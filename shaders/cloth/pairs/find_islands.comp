@@ -70,12 +70,7 @@ void clear_total(uint cloth)
     pair_islands[cloth].heaviest = 0;
     for (uint k = 0; k < 3; ++k)
         pair_islands[cloth].total_momentum[k] = 0;
-    pair_islands[cloth].total_frame_sums.restrained = 0;
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
-    {
-        pair_islands[cloth].total_frame_sums.low[k] = 0;
-        pair_islands[cloth].total_frame_sums.high[k] = 0;
-    }
+    pair_islands[cloth].total_frame_sums = no_frame_sums();
 }
 
 void add_to_total(uint cloth)

@@ -14,6 +14,18 @@ const float k_mean_weight = 0.02;
 // fast collider beside one at rest, no frame moves with all of them.
 const float k_most_deviation = 0.25;
 
+FrameSums no_frame_sums()
+{
+    FrameSums sums;
+    sums.restrained = 0;
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        sums.low[k] = 0;
+        sums.high[k] = 0;
+    }
+    return sums;
+}
+
 float frame_unit(uint sum)
 {
     if (sum < VOILE_FRAME_DRIVES)

@@ -229,12 +229,7 @@ void forget_part(uint cloth)
         pair_islands[cloth].momentum[k] = 0;
         pair_islands[cloth].low[k] = pair_islands[cloth].high[k] = 0;
     }
-    pair_islands[cloth].frame_sums.restrained = 0;
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
-    {
-        pair_islands[cloth].frame_sums.low[k] = 0;
-        pair_islands[cloth].frame_sums.high[k] = 0;
-    }
+    pair_islands[cloth].frame_sums = no_frame_sums();
 }
 
 void main()

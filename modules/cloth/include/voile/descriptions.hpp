@@ -85,26 +85,27 @@ struct GridCloth
     // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
     // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders and
     // anchors it is relative to them, and to the mean velocity of the cloth in directions in which they do not hold it.
-    // A vertex that this stops keeps its velocity, and hands it on to what it has met. While
-    // colliders or anchors move, where lists of pairs are full, and beside pins, that velocity is lost with its
-    // momentum. The mean is that of an island: the cloths whose boxes may meet within 3 ms. Cloths outside the island
-    // affect only when near pairs are searched. Cloth in free flight falls freely, in any shape and at any speed, as
-    // long as its island flies together. That holds even if layers start very near each other, or touch. A closed
-    // sphere of 38 vertices along a seam that is not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a
-    // tenth of the thickness lost 0.06 m/s or a little more while they parted. Layers that start nearer than a fiftieth
-    // of the thickness do not part. Parts of a mesh that touch at the start, as along a seam that is not merged, do not
-    // collide with each other there. Neither does cloth that pins hold at one point, nor cloth that is within 1e-7 m of
-    // other cloth, or within 1e-7 of its coordinates: these count as forced.
+    // A vertex that this stops keeps its velocity, and hands it on to what it has met. While colliders or anchors move,
+    // where lists of pairs are full, and beside pins, that velocity is lost with its momentum. The mean is that of an
+    // island: the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are
+    // searched. Cloth in free flight falls freely, in any shape and at any speed, as long as its island flies together.
+    // That holds even if layers start very near each other, or touch. A closed sphere of 38 vertices along a seam that
+    // is not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness lost 0.06 m/s or a
+    // little more while they parted. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a
+    // mesh that touch at the start, as along a seam that is not merged, do not collide with each other there. Neither
+    // does cloth that pins hold at one point, nor cloth that is within 1e-7 m of other cloth, or within 1e-7 of its
+    // coordinates: these count as forced.
     //
     // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
     // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at
     // 12 m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, and capes of 10 and 25 mm
     // spacing follow anchors at 15 and 40 m/s. All of an island has one such velocity. What moves very differently
     // from it is held back as if it were fast beside cloth at rest: a cape that passes a curtain within 20 mm at 8 m/s
-    // in 8 substeps, or at 30 m/s with all, is left behind or torn (at 25 m/s with all it is not); capes on anchors
+    // in 8 substeps, or at 40 m/s with all, is left behind or torn (at 25 m/s with all it is not); capes on anchors
     // that turn at 5 rad/s, or swing by 0.1 m at 2 Hz, stretch by 0.7 to 8 in 8 substeps, and may enter the body that
     // turns with them (with all substeps they follow, two layers up to 15 rad/s); layers that slide through a channel
-    // of 1 m radius at 6 m/s lose up to two thirds of their speed, and in 8 substeps their edges enter it; layers on a
+    // of 1 m radius at 6 m/s lose a third of their speed, two thirds in 8 substeps, when their edges enter it, too,
+    // and in narrower or coarser ones at 8 m/s nearly all; layers on a
     // moving floor are braked by a ceiling nearer than 20 mm in 8 substeps, nearer than 12 mm at 12 m/s with all.
     //
     // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
@@ -118,11 +119,10 @@ struct GridCloth
     // on top of it creeps at up to 0.6 mm/s. Where vertices lie above vertices, as in equal grids that are not rotated
     // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Cloth that slides on
     // cloth is slowed as Coulomb's law says, within 1 % at up to 1.5 m/s and 5 % at 2 m/s; at 3 m/s by up to 1.6 times
-    // as much. Layers
-    // that lie on each other on a plane or a sphere come to rest: two to six sheets kept less than 1e-4 J/kg, and the
-    // uppermost of six moved at 0.1 to 0.4 mm/s. Pins that gather a grid to a twentieth of its width, in their order,
-    // keep single vertices beside them in motion. Three meshes with edges of 20 mm that pins gathered to a fifth or
-    // less within 0.5 s intersected (Statistics::forced_pairs), and stayed tangled.
+    // as much. Layers that lie on each other on a plane or a sphere come to rest: two to six sheets kept less than 1e-4
+    // J/kg, and the uppermost of six moved at 0.1 to 0.4 mm/s. Pins that gather a grid to a twentieth of its width, in
+    // their order, keep single vertices beside them in motion. Three meshes with edges of 20 mm that pins gathered to a
+    // fifth or less within 0.5 s intersected (Statistics::forced_pairs), and stayed tangled.
     //
     // Of 40 random pairs of sheets of equal spacing that approached each other at 0.5 to 4 m/s, none lost more than
     // 0.1 % of its momentum; of 24 at 5 to 11 m/s none lost more than 2.2 %. Cloth of 8 to 12 mm spacing on coarser
