@@ -11,6 +11,9 @@
 
 float clock_at_pass(uint cloth) { return pair_islands[cloth].clocks[pair_pass() & 1u]; }
 
+// s, since lists were made.
+float time_at_pass(uint cloth) { return pair_islands[cloth].times[pair_pass() & 1u]; }
+
 // Whether nothing is carried.
 bool is_clock_stopped(uint cloth)
 {
@@ -43,7 +46,8 @@ vec3 free_fall_until_next(uint cloth)
     return fall_until_next(cloth) * step_input.gravity + pair_interval() * rounded_off(cloth);
 }
 
-// m: how far a vertex is carried in that time. `fall`: free_fall_until_next of its cloth.
+// m: how far a vertex is carried in that time, as its frame was when lists were made. `fall`: free_fall_until_next of its
+// cloth.
 vec3 carry_until_next(uint word, vec3 fall)
 {
     return 2 * pair_interval() / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word) + falls(word) * fall;

@@ -17,8 +17,9 @@ layout(VOILE_BINDING(pair_islands)) coherent buffer PairIslands { PairIsland pai
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "contact/rounding.glsl"
-#include "pairs/moving_frame.glsl"
+#include "pairs/frame_shift.glsl"
 #include "pairs/mean_velocity.glsl"
+#include "pairs/moving_frame.glsl"
 #include "pairs/pair_tree.glsl"
 #include "shared/box.glsl"
 #include "shared/ordered.glsl"
@@ -69,8 +70,27 @@ void clear_total(uint cloth)
     pair_islands[cloth].total_mass = 0;
     pair_islands[cloth].heaviest = 0;
     for (uint k = 0; k < 3; ++k)
-        pair_islands[cloth].total_momentum[k] = 0;
+        pair_islands[cloth].total_momentum[k] = pair_islands[cloth].total_moment[k] = 0;
     pair_islands[cloth].total_frame_sums = no_frame_sums();
+}
+
+// m, from the origin of the island to that of a cloth of it.
+vec3 origin_in_island(uint cloth) { return frame_of(cloth).origin - frame_of(island_of(cloth)).origin; }
+
+void add_frame_sums(uint cloth)
+{
+    const uint island = island_of(cloth);
+    float sums[VOILE_FRAME_SUMS];
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+        sums[k] = frame_sum(pair_islands[cloth].frame_sums.low[k], pair_islands[cloth].frame_sums.high[k], k);
+    shift(sums, origin_in_island(cloth), pair_islands[cloth].vertices);
+    atomicAdd(pair_islands[island].total_frame_sums.restrained, pair_islands[cloth].frame_sums.restrained);
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    {
+        const ivec2 words = frame_words(sums[k], k, push.cloths);
+        atomicAdd(pair_islands[island].total_frame_sums.low[k], uint(words.x));
+        atomicAdd(pair_islands[island].total_frame_sums.high[k], words.y);
+    }
 }
 
 void add_to_total(uint cloth)
@@ -80,35 +100,46 @@ void add_to_total(uint cloth)
     atomicAdd(pair_islands[island].total_clear, pair_islands[cloth].clear);
     atomicMax(pair_islands[island].total_stopped, pair_islands[cloth].stopped);
     const float part = cloths[cloth].pair_mass / max(uintBitsToFloat(pair_islands[island].heaviest), 1e-30);
-    atomicAdd(pair_islands[island].total_mass, uint(round(part * float(pair_islands[cloth].mass))));
+    const float mass = float(pair_islands[cloth].mass);
+    const vec3 shift = origin_in_island(cloth);
+    atomicAdd(pair_islands[island].total_mass, uint(round(part * mass)));
     for (uint k = 0; k < 3; ++k)
-        atomicAdd(pair_islands[island].total_momentum[k], int(round(part * float(pair_islands[cloth].momentum[k]))));
-    atomicAdd(pair_islands[island].total_frame_sums.restrained, pair_islands[cloth].frame_sums.restrained);
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
     {
-        atomicAdd(pair_islands[island].total_frame_sums.low[k], pair_islands[cloth].frame_sums.low[k]);
-        atomicAdd(pair_islands[island].total_frame_sums.high[k], pair_islands[cloth].frame_sums.high[k]);
+        const float moved = mass * (VOILE_PAIR_UNIT_MASS / VOILE_PAIR_UNIT_SPEED) * shift[k];
+        atomicAdd(pair_islands[island].total_momentum[k], int(round(part * float(pair_islands[cloth].momentum[k]))));
+        atomicAdd(pair_islands[island].total_moment[k], int(round(part * (float(pair_islands[cloth].moment[k]) + moved))));
     }
+    add_frame_sums(cloth);
 }
 
-ivec3 total_momentum(uint island)
+// In the first cloth of an island.
+void find_frame(uint island)
 {
-    return ivec3(pair_islands[island].total_momentum[0], pair_islands[island].total_momentum[1],
-                 pair_islands[island].total_momentum[2]);
+    float sums[VOILE_FRAME_SUMS];
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+        sums[k] = frame_sum(pair_islands[island].total_frame_sums.low[k], pair_islands[island].total_frame_sums.high[k], k);
+    write_frame(island,
+                frame_from(pair_islands[island].total_frame_sums.restrained, sums, pair_islands[island].total_vertices));
 }
+
+vec3 total_mean(int total[3], uint mass) { return mean_of(ivec3(total[0], total[1], total[2]), mass); }
 
 // A vertex is carried with its frame, as long as lists are used, and by a part of the mean way in it. From there it
 // goes as far as its sweep and its reach.
 void write_reach(uint cloth)
 {
     const uint island = island_of(cloth);
-    const vec3 frame = velocity_of_frame(pair_islands[island].total_frame_sums, pair_islands[island].total_vertices);
-    const vec3 mean = mean_of(total_momentum(island), pair_islands[island].total_mass);
-    const vec3 carry = VOILE_PAIR_SWEEP_TIME * (mean - frame);
-    const vec3 moved = frame_horizon() * frame;
+    const MovingFrame frame = frame_of(island);
+    const uint mass = pair_islands[island].total_mass;
+    const vec3 mean = total_mean(pair_islands[island].total_momentum, mass);
+    const vec3 mean_from = velocity_at(frame, total_mean(pair_islands[island].total_moment, mass));
+    const vec3 carry = VOILE_PAIR_SWEEP_TIME * (mean - mean_from);
+    const vec3 moved = frame_horizon() * frame.velocity;
     const Box box = box_of(cloth);
+    const float farthest = length(max(abs(box.min - frame.origin), abs(box.max - frame.origin)));
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
-                         k_packing * length(carry) + rounding(box.min) + rounding(box.max);
+                         k_packing * length(carry) + rounding(box.min) + rounding(box.max) +
+                         frame_horizon() * length(frame.angular_velocity) * farthest;
     for (uint k = 0; k < 3; ++k)
     {
         pair_islands[cloth].reach_low[k] = box.min[k] + min(carry[k], 0) + min(moved[k], 0) - margin;
@@ -166,7 +197,14 @@ void rename(uint cloth)
     pair_islands[cloth].before = cloth - first;
 }
 
-// Sums over islands as they are called now.
+void copy_frame(uint cloth, MovingFrame frame)
+{
+    write_frame(cloth, RigidMotion(frame.velocity, frame.angular_velocity));
+    for (uint k = 0; k < 3; ++k)
+        pair_islands[cloth].frame_origin[k] = frame.origin[k];
+}
+
+// Sums over islands as they are called now, and their frames.
 void find_totals(uint thread)
 {
     for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
@@ -179,6 +217,10 @@ void find_totals(uint thread)
     for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
         if (exists(c))
             add_to_total(c);
+    wait_for_all();
+    for (uint c = thread; c < push.cloths; c += gl_WorkGroupSize.x)
+        if (pair_islands[c].before == 0)
+            find_frame(c);
     wait_for_all();
 }
 
@@ -210,7 +252,8 @@ void main()
     }
     // In the last round no name has changed.
     for (uint c = thread; c < push.cloths; c += threads)
-        write_frame(c, pair_islands[island_of(c)].total_frame_sums, pair_islands[island_of(c)].total_vertices);
+        if (pair_islands[c].before > 0)
+            copy_frame(c, frame_of(island_of(c)));
     for (uint c = thread; c < push.cloths; c += threads)
         if (exists(c) && pair_islands[c].before == 0)
         {
@@ -218,7 +261,10 @@ void main()
             pair_islands[c].clear = pair_islands[c].total_clear;
             pair_islands[c].mass = pair_islands[c].total_mass;
             for (uint k = 0; k < 3; ++k)
+            {
                 pair_islands[c].momentum[k] = pair_islands[c].total_momentum[k];
+                pair_islands[c].moment[k] = pair_islands[c].total_moment[k];
+            }
             pair_islands[c].stopped = pair_islands[c].total_stopped;
         }
 }

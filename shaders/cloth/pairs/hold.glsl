@@ -26,7 +26,8 @@ float pair_to()
     return end;
 }
 
-// A vertex within its guards, and where they end. The clock of the lists and the frame of the island may carry both.
+// A vertex within its guards, and where they end, at the end of the motion. The clock of the lists and the frame of the island
+// may carry both, and the frame may turn them.
 struct Hold
 {
     PairBound bound;
@@ -36,6 +37,37 @@ struct Hold
     vec3 carried;    // m, in the time of the motion
     vec3 left;       // m, for which the clock ends too early, until the pass after the next
 };
+
+// The clock, m/s, where lists were made: during the motion on average, and when the integrator has its velocity.
+struct ClockMotion
+{
+    vec3 mean;
+    vec3 last;
+    vec3 carried; // m, until the motion starts
+};
+
+// Rotates all that does not turn yet, from how it was at the last pass, or when lists were made, to the end of the motion.
+// `from`: of the motion. `integrated`: s, from the last pass, when the integrator has its velocity.
+void turn_with(MovingFrame frame, ClockMotion clock, FinePosition from, float integrated, float made, inout Hold hold)
+{
+    const vec3 before = turn_in(frame, made);
+    const vec3 turn = turn_in(frame, pair_to());
+    const vec3 r = from_origin(frame, from, made + pair_from());
+    const vec3 back = added_by(-turn_in(frame, pair_from()), r); // to where it was at the last pass
+    const vec3 added = added_by(before, clock.mean);
+    const float time = pair_to() - pair_from();
+    const PairSweep sweep = hold.bound.sweep;
+    const vec3 sweep_from = from_origin(frame, FinePosition(sweep.from, unpack_residual(sweep.residual)), 0);
+    hold.at = turned(turn, hold.at + back - pair_from() * added);
+    hold.swept = turned(turn, hold.swept + back - added_by(before, sweep_from + clock.carried));
+    hold.carried += back + added_by(turn, r + back) + time * (added + added_by(turn, clock.mean + added));
+    hold.carry += added_by(turn, turned(before, clock.last)) + added_by(before, clock.last) +
+                  cross(frame.angular_velocity, turned(turn_in(frame, integrated), r + back));
+    hold.left = turned(turn, turned(before, hold.left));
+    hold.bound.sweep.sweep = turned(turn, turned(before, sweep.sweep));
+    for (uint k = 0; k < 2; ++k)
+        hold.bound.guard.planes[k].xyz = turned(turn, hold.bound.guard.planes[k].xyz);
+}
 
 Hold hold_of(uint i, uint cloth, FinePosition from)
 {
@@ -57,17 +89,25 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
     const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
                           (sweep.fall > 0 ? rounded_off(cloth) : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
-    const vec3 frame = frame_of(cloth);
-    const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity + frame;
+    const MovingFrame frame = frame_of(cloth);
+    const vec3 mean = rate * velocity + pair_islands[cloth].fall_rate * gravity;
     const float last_substep = seconds(push.pair_lasts) / float(push.kicks);
     const float now = clock + rate * (pair_to() - (1 - sweep.fall) * last_substep);
-    hold.carry = rate * (velocity + now * gravity) + frame;
-    hold.carried = (pair_to() - pair_from()) * mean;
-    hold.at -= pair_from() * mean;
-    hold.swept -= clock * velocity + pair_islands[cloth].fall * gravity + pair_islands[cloth].time * frame +
-                  pair_from() * mean;
+    const vec3 last = rate * (velocity + now * gravity);
+    const vec3 carried = clock * velocity + pair_islands[cloth].fall * gravity;
+    const float made = pair_islands[cloth].time; // s, from then on to the last pass
+    hold.carry = last + frame.velocity;
+    hold.carried = (pair_to() - pair_from()) * (mean + frame.velocity);
+    hold.at -= pair_from() * (mean + frame.velocity);
+    hold.swept -= carried + made * frame.velocity + pair_from() * (mean + frame.velocity);
     const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
     hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);
+    if (is_turning(frame))
+    {
+        const bool verlet = (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0;
+        const ClockMotion clock_motion = ClockMotion(mean, last, carried + pair_from() * mean);
+        turn_with(frame, clock_motion, from, pair_to() - (verlet ? 0.5 * last_substep : 0), made, hold);
+    }
     return hold;
 }
 

@@ -148,7 +148,8 @@ void bound(uint i, uint cloth, float reach, uint listed)
     pair_bounds[i].sweep = sweep;
     pair_bounds[i].impulse = vec3(0);
     const bool driven = positions[i].w == 0 || (uint(velocities[i].w) & VOILE_VERTEX_PUSHED) != 0;
-    if (driven && sweep.reach < pair_interval() * distance(velocities[i].xyz, frame_of(cloth)))
+    const vec3 frame = velocity_at(frame_of(cloth), sweep.from, 0);
+    if (driven && sweep.reach < pair_interval() * distance(velocities[i].xyz, frame))
         pair_searches[VOILE_PAIR_CROWDED].entries = pair_pass() + 1;
 }
 

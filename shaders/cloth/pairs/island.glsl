@@ -1,16 +1,57 @@
-// Islands (PairIsland): cloths that may come near each other.
+// Islands (PairIsland): cloths that may come near each other, and the frames in which they move.
 //
 // The including kernel declares pair_islands[].
 #ifndef VOILE_ISLAND_GLSL
 #define VOILE_ISLAND_GLSL
 
+#include "shared/fine_position.glsl"
+#include "shared/turn.glsl"
+
+// The frame of an island, while lists are made and used.
+struct MovingFrame
+{
+    vec3 velocity;         // m/s, of its origin
+    vec3 angular_velocity; // rad/s
+    vec3 origin;           // m, when lists were made
+};
+
 // The island of a cloth: its first cloth.
 uint island_of(uint cloth) { return cloth - pair_islands[cloth].before; }
 
-// m/s: of its island, while lists are made and used.
-vec3 frame_of(uint cloth)
+// Of its island.
+MovingFrame frame_of(uint cloth)
 {
-    return vec3(pair_islands[cloth].frame[0], pair_islands[cloth].frame[1], pair_islands[cloth].frame[2]);
+    MovingFrame frame;
+    for (uint k = 0; k < 3; ++k)
+    {
+        frame.velocity[k] = pair_islands[cloth].frame[k];
+        frame.angular_velocity[k] = pair_islands[cloth].frame_turn[k];
+        frame.origin[k] = pair_islands[cloth].frame_origin[k];
+    }
+    return frame;
 }
+
+bool is_turning(MovingFrame frame) { return frame.angular_velocity != vec3(0); }
+
+bool is_moving(MovingFrame frame) { return frame.velocity != vec3(0) || is_turning(frame); }
+
+// m, from the origin, `time` s after lists were made.
+vec3 from_origin(MovingFrame frame, FinePosition x, float time)
+{
+    return displacement(FinePosition(frame.origin, vec3(0)), x) - time * frame.velocity;
+}
+
+// m/s: of the frame, `r` from its origin.
+vec3 velocity_at(MovingFrame frame, vec3 r) { return frame.velocity + cross(frame.angular_velocity, r); }
+
+vec3 velocity_at(MovingFrame frame, vec3 x, float time)
+{
+    if (!is_turning(frame))
+        return frame.velocity;
+    return velocity_at(frame, from_origin(frame, FinePosition(x, vec3(0)), time));
+}
+
+// Its rotation in `time` s.
+vec3 turn_in(MovingFrame frame, float time) { return turn_of(time * frame.angular_velocity); }
 
 #endif

@@ -15,7 +15,7 @@ vec3 velocity_at_pass(vec3 velocity, uint cloth_flags)
     return velocity + ((cloth_flags & VOILE_CLOTH_VERLET) != 0 ? lag : vec3(0));
 }
 
-// m/s: of sums over vertices.
+// m/s or m: of sums over vertices.
 vec3 mean_of(ivec3 momentum, uint mass)
 {
     return vec3(momentum) * (VOILE_PAIR_UNIT_SPEED / VOILE_PAIR_UNIT_MASS / float(max(mass, 1)));
@@ -26,7 +26,18 @@ ivec3 momentum_of(uint island)
     return ivec3(pair_islands[island].momentum[0], pair_islands[island].momentum[1], pair_islands[island].momentum[2]);
 }
 
+// m, of those vertices, from the origin of the frame.
+vec3 mean_position(uint island)
+{
+    const ivec3 moment =
+        ivec3(pair_islands[island].moment[0], pair_islands[island].moment[1], pair_islands[island].moment[2]);
+    return mean_of(moment, pair_islands[island].mass);
+}
+
 // m/s, in the frame of the island.
-vec3 mean_velocity(uint island) { return mean_of(momentum_of(island), pair_islands[island].mass) - frame_of(island); }
+vec3 mean_velocity(uint island)
+{
+    return mean_of(momentum_of(island), pair_islands[island].mass) - velocity_at(frame_of(island), mean_position(island));
+}
 
 #endif

@@ -80,7 +80,7 @@ struct Vertices
     vec3 x[4]; // m, from the first
     vec3 v[4]; // m/s, in the frame of the island
     vec3 gain[4]; // m/s, until the middle of the coming interval, if what acted since the last pass goes on
-    vec3 moved[4]; // m, since the last pass
+    vec3 moved[4]; // m, since the last pass, but for how the frame turns
     vec3 slip[4];
     vec3 carry[4]; // m, until the next pass if the clock runs as fast as time, relative to the first
     vec4 inverse_masses;
@@ -95,7 +95,19 @@ struct Frame
     uint carry;
     vec3 fall; // of the island (free_fall_until_next)
     vec3 velocity; // m/s
+    vec3 angular_velocity; // rad/s
+    vec3 turn; // since lists were made
 };
+
+// `first`: vertex of the pair.
+Frame frame_at(uint first, uint cloth)
+{
+    const MovingFrame frame = frame_of(cloth);
+    const float time = time_at_pass(cloth);
+    const FinePosition origin = FinePosition(positions[first].xyz, unpack_residual(residuals[first]));
+    return Frame(origin, pair_carries[first], free_fall_until_next(cloth), velocity_at(frame, origin.x, time),
+                 frame.angular_velocity, turn_in(frame, time));
+}
 
 void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
 {
@@ -105,13 +117,15 @@ void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)
     const vec4 velocity = velocities[i];
     vertices.supported[k] = (uint(velocity.w) & VOILE_VERTEX_SUPPORTED) != 0;
     vertices.x[k] = displacement(frame.origin, FinePosition(position.xyz, unpack_residual(residuals[i])));
-    vertices.v[k] = velocity.xyz - frame.velocity;
+    const vec3 turning = cross(frame.angular_velocity, vertices.x[k]);
+    vertices.v[k] = velocity.xyz - frame.velocity - turning;
     vertices.gain[k] = known && position.w > 0 ? 0.5 * (velocity.xyz - memory.velocity) : vec3(0);
     const PairGuard guard = pair_bounds[i].guard;
     const FinePosition last = FinePosition(guard.from, unpack_residual(guard.residual));
-    vertices.moved[k] = known ? displacement(last, FinePosition(position.xyz, unpack_residual(residuals[i]))) : vec3(0);
+    const vec3 moved = displacement(last, FinePosition(position.xyz, unpack_residual(residuals[i])));
+    vertices.moved[k] = known ? moved - pair_interval() * turning : vec3(0);
     vertices.slip[k] = known ? memory.slip : vec3(0);
-    vertices.carry[k] = carry_until_next(pair_carries[i], frame.carry, frame.fall);
+    vertices.carry[k] = turned(frame.turn, carry_until_next(pair_carries[i], frame.carry, frame.fall));
     vertices.inverse_masses[k] = position.w;
 }
 
@@ -306,8 +320,7 @@ void main()
     const float thickness = pair_thicknesses[entry];
     PairResponse response;
     const uint cloth = pair_lists[entry / VOILE_PAIRS].cloth;
-    const Frame frame = Frame(FinePosition(positions[pair.vertices.x].xyz, unpack_residual(residuals[pair.vertices.x])),
-                              pair_carries[pair.vertices.x], free_fall_until_next(cloth), frame_of(cloth));
+    const Frame frame = frame_at(pair.vertices.x, cloth);
     Vertices vertices;
     vertices.island = island_of(cloth);
     [[unroll]] for (uint k = 0; k < 4; ++k)
@@ -342,7 +355,8 @@ void main()
         atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
     const float slack = sideless ? k_sideless_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
-    const float carry = carry_of_planes(sides, vertices, separation, carry_until_next(frame.carry, frame.fall));
+    const float carry = carry_of_planes(sides, vertices, separation,
+                                        turned(frame.turn, carry_until_next(frame.carry, frame.fall)));
     response.heights = heights_of(own, vertices, separation, slack, carry);
     pair_responses[entry] = response;
     for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)

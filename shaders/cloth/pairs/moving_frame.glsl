@@ -1,89 +1,119 @@
-// The frame of an island: it moves with the anchors and colliders that restrain the island, and with the island in the
-// directions in which none does, so that cloth has the same room between its primitives on a vehicle as at rest, and where it
-// slides along a wall.
+// The frame of an island: it moves and turns with the anchors and colliders that restrain the island, and with the island in the
+// directions in which none does, so that cloth has the same room between its primitives on a vehicle or on a dancer as at rest,
+// and where it slides along a wall or in a pipe.
 //
 // The including kernel declares pair_islands[] and push (PairPush).
 #ifndef VOILE_MOVING_FRAME_GLSL
 #define VOILE_MOVING_FRAME_GLSL
 
+#include "pairs/frame_sums.glsl"
 #include "pairs/pair_pass.glsl"
+#include "shared/finite.glsl"
 
-// The weight of the island's mean velocity beside that of all restraints.
+// The weight of the island's mean motion beside that of all restraints.
 const float k_mean_weight = 0.02;
-// The largest mean square of the speeds of restraints in the frame, as a part of its own. Where they differ by more, as of a
+// The largest mean square of the speeds of restraints in the frame, as a part of the frame's own. Where they differ by more, as of a
 // fast collider beside one at rest, no frame moves with all of them.
 const float k_most_deviation = 0.25;
-
-FrameSums no_frame_sums()
-{
-    FrameSums sums;
-    sums.restrained = 0;
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
-    {
-        sums.low[k] = 0;
-        sums.high[k] = 0;
-    }
-    return sums;
-}
-
-float frame_unit(uint sum)
-{
-    if (sum < VOILE_FRAME_DRIVES)
-        return VOILE_FRAME_UNIT_DIRECTION;
-    if (sum < VOILE_FRAME_SQUARES)
-        return VOILE_FRAME_UNIT_DRIVE;
-    return sum == VOILE_FRAME_SQUARES ? VOILE_FRAME_UNIT_SQUARE : VOILE_FRAME_UNIT_SPEED;
-}
-
-// Of a workgroup.
-int frame_units(float sum, uint k) { return int(clamp(round(sum / frame_unit(k)), -2e9, 2e9)); }
-
-vec3 frame_sums_from(FrameSums sums, uint first)
-{
-    vec3 result;
-    for (uint k = 0; k < 3; ++k)
-        result[k] = (65536.0 * float(sums.high[first + k]) + float(sums.low[first + k])) * frame_unit(first + k);
-    return result;
-}
-
-// m/s, from sums over `vertices`.
-vec3 mean_of_sums(FrameSums sums, uint vertices) { return frame_sums_from(sums, VOILE_FRAME_ALL) / float(max(vertices, 1)); }
-
 // m: frames that carry cloth by less until the next pass are not worth new lists.
 const float k_least_motion = 1e-4;
 
-bool is_worth_lists(vec3 velocity) { return length(velocity) * pair_interval() >= k_least_motion; }
+bool is_worth_lists(float mean_square) { return sqrt(max(mean_square, 0)) * pair_interval() >= k_least_motion; }
 
 // s: how long lists with a frame are used, unless a pass takes longer. Restraints that a vertex may reach later do not count.
 float frame_horizon() { return max(VOILE_PAIR_SWEEP_TIME, pair_interval()); }
 
-// m/s: least squares of the differences from the restraints, n . (frame - v), and slower if the vertices are, on average.
-// `vertices`: of the island.
-vec3 velocity_of_frame(FrameSums sums, uint vertices)
+// Means over restraints (pair_layout.h).
+struct RestraintMeans
 {
-    if (sums.restrained == 0)
-        return vec3(0);
-    const vec3 total = frame_sums_from(sums, VOILE_FRAME_DIRECTIONS);
-    const float each = 1 / max(total.x + total.y + total.z, VOILE_FRAME_UNIT_DIRECTION);
-    const vec3 diagonal = each * total;
-    const vec3 beside = each * frame_sums_from(sums, VOILE_FRAME_DIRECTIONS + 3);
-    const vec3 drives = each * frame_sums_from(sums, VOILE_FRAME_DRIVES);
-    const float squares = each * frame_sums_from(sums, VOILE_FRAME_SQUARES).x;
-    const vec3 mean = mean_of_sums(sums, vertices);
-    const mat3 directions = mat3(diagonal.x, beside.z, beside.y, beside.z, diagonal.y, beside.x, beside.y, beside.x, diagonal.z);
-    const vec3 frame = inverse(directions + k_mean_weight * mat3(1)) * (drives + k_mean_weight * mean);
-    const float square = dot(frame, frame);
-    const float deviation = squares - 2 * dot(drives, frame) + dot(frame, directions * frame);
-    const float part = clamp(dot(mean, frame) / max(square, 1e-30), 0, 1);
-    const bool fits = deviation <= k_most_deviation * square;
-    return fits && is_worth_lists(part * frame) ? part * frame : vec3(0);
+    mat3 directions;
+    mat3 mixed;
+    mat3 turns;
+    vec3 drives;
+    vec3 moments;
+    float squares;
+};
+
+RestraintMeans restraints_of(float sums[VOILE_FRAME_SUMS])
+{
+    const float total = sums[VOILE_FRAME_DIRECTIONS] + sums[VOILE_FRAME_DIRECTIONS + 1] + sums[VOILE_FRAME_DIRECTIONS + 2];
+    const float each = 1 / max(total, VOILE_FRAME_UNIT_DIRECTION);
+    return RestraintMeans(
+        each * symmetric_from(sums, VOILE_FRAME_DIRECTIONS), each * matrix_from(sums, VOILE_FRAME_MIXED),
+        each * symmetric_from(sums, VOILE_FRAME_TURNS), each * sums_from(sums, VOILE_FRAME_DRIVES),
+        each * sums_from(sums, VOILE_FRAME_MOMENTS), each * sums[VOILE_FRAME_SQUARES]);
 }
 
-void write_frame(uint cloth, FrameSums sums, uint vertices)
+MeanMotion mean_motion(float sums[VOILE_FRAME_SUMS], uint vertices)
 {
-    const vec3 frame = velocity_of_frame(sums, vertices);
+    const float each = 1 / float(max(vertices, 1));
+    return MeanMotion(each * sums_from(sums, VOILE_FRAME_VELOCITIES), each * sums_from(sums, VOILE_FRAME_POSITIONS),
+                      each * sums_from(sums, VOILE_FRAME_SPINS), each * symmetric_from(sums, VOILE_FRAME_SPREADS));
+}
+
+// m^2/s^2: the mean square of the restraints' speeds in a frame.
+float deviation(RestraintMeans of, RigidMotion frame)
+{
+    const vec3 v = frame.velocity;
+    const vec3 w = frame.angular_velocity;
+    return of.squares - 2 * (dot(of.drives, v) + dot(of.moments, w)) + dot(v, of.directions * v) +
+           2 * dot(v, of.mixed * w) + dot(w, of.turns * w);
+}
+
+// Whether the restraints move with a frame.
+bool is_common(RestraintMeans restraints, MeanMotion mean, RigidMotion frame)
+{
+    return deviation(restraints, frame) <= k_most_deviation * mean_square(mean, frame);
+}
+
+const RigidMotion k_at_rest = RigidMotion(vec3(0), vec3(0));
+
+// Slower if the vertices are, on average. At rest if it is not worth lists.
+RigidMotion slowed(RigidMotion frame, MeanMotion mean)
+{
+    const float square = mean_square(mean, frame);
+    const float along = dot(mean.velocity, frame.velocity) + dot(mean.spin, frame.angular_velocity);
+    const float part = clamp(along / max(square, 1e-30), 0, 1);
+    if (!is_worth_lists(part * part * square))
+        return k_at_rest;
+    return RigidMotion(part * frame.velocity, part * frame.angular_velocity);
+}
+
+// Least squares of the differences from the restraints, n . (v + w x r) - d, and a little of those from the vertices'
+// motion. A frame that does not turn, unless that is better by a speed which is worth lists.
+RigidMotion motion_of_frame(RestraintMeans restraints, MeanMotion mean)
+{
+    const mat3 directions = inverse(restraints.directions + k_mean_weight * mat3(1));
+    const mat3 mixed = restraints.mixed - k_mean_weight * cross_matrix(mean.position);
+    const mat3 turns = restraints.turns + k_mean_weight * inertia_of(mean.spread);
+    const vec3 drives = restraints.drives + k_mean_weight * mean.velocity;
+    const vec3 moments = restraints.moments + k_mean_weight * mean.spin;
+    const RigidMotion straight = RigidMotion(directions * drives, vec3(0));
+    const mat3 reduced = turns - transpose(mixed) * directions * mixed + k_least_inertia * trace(turns) * mat3(1);
+    const vec3 w = inverse(reduced) * (moments - transpose(mixed) * straight.velocity);
+    const RigidMotion turning = RigidMotion(directions * (drives - mixed * w), w);
+    const float gain = dot(drives, turning.velocity - straight.velocity) + dot(moments, w);
+    if (is_worth_lists(gain) && is_common(restraints, mean, turning))
+        return slowed(turning, mean);
+    return is_common(restraints, mean, straight) ? slowed(straight, mean) : k_at_rest;
+}
+
+void write_frame(uint cloth, RigidMotion frame)
+{
     for (uint k = 0; k < 3; ++k)
-        pair_islands[cloth].frame[k] = frame[k];
+    {
+        pair_islands[cloth].frame[k] = frame.velocity[k];
+        pair_islands[cloth].frame_turn[k] = frame.angular_velocity[k];
+    }
+}
+
+// `restrained`: vertices, and `vertices`: of the island.
+RigidMotion frame_from(uint restrained, float sums[VOILE_FRAME_SUMS], uint vertices)
+{
+    if (restrained == 0)
+        return k_at_rest;
+    const RigidMotion frame = motion_of_frame(restraints_of(sums), mean_motion(sums, vertices));
+    return is_finite(frame.velocity) && is_finite(frame.angular_velocity) ? frame : k_at_rest;
 }
 
 #endif

@@ -30,12 +30,13 @@ layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands
 
 layout(push_constant, std430) uniform Push { PairPush push; };
 
-const uint k_values = 13;
+const uint k_values = 16;
 
 #include "shared/finite.glsl"
 #include "shared/patch.glsl"
 #include "shared/step_input.glsl"
 #include "pairs/clear.glsl"
+#include "pairs/cloth_origin.glsl"
 #include "pairs/fold.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/moving_frame.glsl"
@@ -51,13 +52,31 @@ struct Surroundings
     Restraints restraints;
 };
 
+// How a cloth moves on average.
+struct ClothMotion
+{
+    RigidMotion motion;
+    vec3 origin;      // m
+    bool wants_frame; // that of one cloth is not faster
+};
+
+ClothMotion motion_of(uint cloth)
+{
+    float sums[VOILE_FRAME_SUMS];
+    for (uint k = VOILE_FRAME_RESTRAINTS; k < VOILE_FRAME_SUMS; ++k)
+        sums[k] = frame_sum(pair_islands[cloth].frame_sums.low[k], pair_islands[cloth].frame_sums.high[k], k);
+    const MeanMotion mean = mean_motion(sums, pair_islands[cloth].vertices);
+    const RigidMotion motion = rigid_motion(mean);
+    return ClothMotion(motion, origin_of(cloth), push.cloths > 1 || is_worth_lists(mean_square(mean, motion)));
+}
+
 // Edges and corners of colliders push vertices that are an edge of the cloth away. What springs, tethers or bounds hold
 // does not move as its island does.
-Surroundings surroundings_of(uint i, uint cloth)
+// `mean`: motion of the cloth.
+Surroundings surroundings_of(uint i, uint cloth, ClothMotion mean)
 {
-    const vec3 mean = mean_of_sums(pair_islands[cloth].frame_sums, pair_islands[cloth].vertices);
-    const bool wanted = push.cloths > 1 || is_worth_lists(mean); // the frame of one cloth is not faster than its mean
-    Surroundings around = Surroundings(false, true, no_restraints(mean, wanted));
+    const vec3 along = velocity_at(mean.motion, positions[i].xyz - mean.origin);
+    Surroundings around = Surroundings(false, true, no_restraints(along, mean.wants_frame));
     const uint flags = uint(velocities[i].w);
     const vec3 v = velocities[i].xyz;
     if (positions[i].w == 0 || (flags & VOILE_VERTEX_HELD) != 0 || (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
@@ -74,11 +93,11 @@ Surroundings surroundings_of(uint i, uint cloth)
     return around;
 }
 
-// Of a vertex: its momentum, mass, whether it is clear, and restrained, and in any direction, and its box, the lower corner
-// negated.
-const uint k_part_sums = 7;
+// Of a vertex: its momentum and moment, its mass, whether it is clear, and restrained, and in any direction, and its box, the
+// lower corner negated.
+const uint k_part_sums = 10;
 
-void part_of(PatchVertex self, Surroundings around, out float part[k_values])
+void part_of(PatchVertex self, Surroundings around, vec3 origin, out float part[k_values])
 {
     const vec3 x = positions[self.index].xyz;
     const vec3 v = velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags);
@@ -86,58 +105,101 @@ void part_of(PatchVertex self, Surroundings around, out float part[k_values])
     for (uint k = 0; k < 3; ++k)
     {
         part[k] = mass * v[k];
+        part[3 + k] = mass * (x[k] - origin[k]);
         part[k_part_sums + k] = -x[k];
         part[k_part_sums + 3 + k] = x[k];
     }
-    part[3] = mass;
-    part[4] = around.clear ? 1 : 0;
-    part[5] = around.restrained ? 1 : 0;
-    part[6] = around.restraints.diagonal != vec3(0) ? 1 : 0;
+    part[6] = mass;
+    part[7] = around.clear ? 1 : 0;
+    part[8] = around.restrained ? 1 : 0;
+    part[9] = around.restraints.diagonal != vec3(0) ? 1 : 0;
 }
 
 // The order does not depend on timing: groups add whole numbers.
 void add_part(uint cloth, float part[k_values])
 {
+    const float unit = VOILE_PAIR_UNIT_SPEED * float(push.places);
     for (uint k = 0; k < 3; ++k)
     {
-        atomicAdd(pair_islands[cloth].momentum[k], int(round(part[k] / (VOILE_PAIR_UNIT_SPEED * float(push.places)))));
+        atomicAdd(pair_islands[cloth].momentum[k], int(round(part[k] / unit)));
+        atomicAdd(pair_islands[cloth].moment[k], int(round(part[3 + k] / unit)));
         atomicMax(pair_islands[cloth].low[k], ~ordered(-part[k_part_sums + k]));
         atomicMax(pair_islands[cloth].high[k], ordered(part[k_part_sums + 3 + k]));
     }
-    atomicAdd(pair_islands[cloth].mass, uint(round(part[3] / (VOILE_PAIR_UNIT_MASS * float(push.places)))));
-    atomicAdd(pair_islands[cloth].clear, uint(part[4]));
-    atomicAdd(pair_islands[cloth].frame_sums.restrained, uint(part[5]));
+    atomicAdd(pair_islands[cloth].mass, uint(round(part[6] / (VOILE_PAIR_UNIT_MASS * float(push.places)))));
+    atomicAdd(pair_islands[cloth].clear, uint(part[7]));
+    atomicAdd(pair_islands[cloth].frame_sums.restrained, uint(part[8]));
 }
 
-void frame_part_of(Restraints restraints, out float part[k_values])
+// The restraints of a vertex. Along n they act at r, so m = r x n is a linear map of n. `lever`: that map.
+void directions_part(Restraints restraints, mat3 lever, out float part[k_values])
 {
+    const mat3 mixed = symmetric(restraints.diagonal, restraints.beside) * transpose(lever);
     for (uint k = 0; k < 3; ++k)
     {
         part[VOILE_FRAME_DIRECTIONS + k] = restraints.diagonal[k];
         part[VOILE_FRAME_DIRECTIONS + 3 + k] = restraints.beside[k];
-        part[VOILE_FRAME_DRIVES + k] = restraints.drives[k];
-        part[VOILE_FRAME_ALL + k] = 0;
+        for (uint l = 0; l < 3; ++l)
+            part[VOILE_FRAME_MIXED + 3 * k + l] = mixed[k][l];
     }
-    part[VOILE_FRAME_SQUARES] = restraints.squares;
+    part[VOILE_FRAME_TURNS] = 0;
 }
 
-void add_frame_part(uint cloth, float part[k_values])
+void drives_part(Restraints restraints, mat3 lever, out float part[k_values])
 {
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    const mat3 turns = lever * symmetric(restraints.diagonal, restraints.beside) * transpose(lever);
+    const vec3 moments = lever * restraints.drives;
+    for (uint k = 0; k < 3; ++k)
     {
-        const int units = frame_units(part[k], k);
-        if (units == 0) // as the velocities, which pair_means.comp has added
+        part[k] = diagonal_of(turns)[k];
+        part[3 + k] = beside_of(turns)[k];
+        part[VOILE_FRAME_DRIVES - VOILE_FRAME_TURNS + k] = restraints.drives[k];
+        part[VOILE_FRAME_MOMENTS - VOILE_FRAME_TURNS + k] = moments[k];
+    }
+    part[VOILE_FRAME_SQUARES - VOILE_FRAME_TURNS] = restraints.squares;
+    for (uint k = VOILE_FRAME_RESTRAINTS - VOILE_FRAME_TURNS; k < k_values; ++k)
+        part[k] = 0;
+}
+
+// `first`: of the `count` sums of which this is a part.
+void add_frame_part(uint cloth, float part[k_values], uint first, uint count)
+{
+    for (uint k = 0; k < count; ++k)
+    {
+        const ivec2 words = frame_words(part[k], first + k, gl_NumWorkGroups.x);
+        if (words == ivec2(0))
             continue;
-        atomicAdd(pair_islands[cloth].frame_sums.low[k], uint(units & 0xffff));
-        atomicAdd(pair_islands[cloth].frame_sums.high[k], units >> 16);
+        atomicAdd(pair_islands[cloth].frame_sums.low[first + k], uint(words.x));
+        atomicAdd(pair_islands[cloth].frame_sums.high[first + k], words.y);
     }
 }
 
+// By all threads.
+void add_restraints(PatchVertex self, Restraints restraints, vec3 origin)
+{
+    const uint thread = gl_LocalInvocationID.x;
+    const mat3 lever = cross_matrix(restraints.diagonal == vec3(0) ? vec3(0) : positions[self.index].xyz - origin);
+    float part[k_values];
+    directions_part(restraints, lever, part);
+    fold(thread, k_values, part);
+    if (thread == 0)
+        add_frame_part(self.cloth, part, VOILE_FRAME_DIRECTIONS, VOILE_FRAME_TURNS);
+    drives_part(restraints, lever, part);
+    fold(thread, k_values, part);
+    if (thread == 0)
+        add_frame_part(self.cloth, part, VOILE_FRAME_TURNS, VOILE_FRAME_RESTRAINTS - VOILE_FRAME_TURNS);
+}
+
+shared ClothMotion shared_motion;
 shared bool shared_restrained;
 
 // By all threads.
 void add_to_cloth(PatchVertex self, uint thread)
 {
+    if (thread == 0)
+        shared_motion = motion_of(self.cloth);
+    barrier();
+    const ClothMotion mean = shared_motion;
     Surroundings around = Surroundings(false, false, no_restraints(vec3(0), false));
     float values[k_values];
     for (uint k = 0; k < k_values; ++k)
@@ -145,40 +207,47 @@ void add_to_cloth(PatchVertex self, uint thread)
     // What is not finite would move the frame of all cloth near it.
     if (self.exists && is_finite(positions[self.index].xyz) && is_finite(velocities[self.index].xyz))
     {
-        around = surroundings_of(self.index, self.cloth);
-        part_of(self, around, values);
+        around = surroundings_of(self.index, self.cloth, mean);
+        part_of(self, around, mean.origin, values);
     }
     if (self.exists)
         pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
+    if (self.exists && self.index == cloths[self.cloth].first_vertex)
+        for (uint k = 0; k < 3; ++k)
+            pair_islands[self.cloth].frame_origin[k] = mean.origin[k];
     fold(thread, k_part_sums, values);
     if (thread == 0)
     {
         add_part(self.cloth, values);
-        shared_restrained = values[6] > 0;
+        shared_restrained = values[9] > 0;
     }
     barrier();
-    if (!shared_restrained)
-        return;
-    frame_part_of(around.restraints, values);
-    fold(thread, VOILE_FRAME_SUMS, values);
-    if (thread == 0)
-        add_frame_part(self.cloth, values);
+    if (shared_restrained)
+        add_restraints(self, around.restraints, mean.origin);
 }
 
-// find_islands.comp finds the frame of islands. Where there is only one cloth, the last workgroup does.
-void find_frame()
+shared bool shared_last;
+shared float shared_sums[VOILE_FRAME_SUMS];
+
+// find_islands.comp finds the frame of islands. Where there is only one cloth, the last workgroup does. By all threads.
+void find_frame(uint thread)
 {
-    memoryBarrierBuffer();
-    if (atomicAdd(pair_islands[0].arrived, 1) + 1 < gl_NumWorkGroups.x)
-        return;
-    FrameSums sums; // atomically: other workgroups have added to them
-    sums.restrained = atomicAdd(pair_islands[0].frame_sums.restrained, 0);
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+    if (thread == 0)
     {
-        sums.low[k] = atomicAdd(pair_islands[0].frame_sums.low[k], 0);
-        sums.high[k] = atomicAdd(pair_islands[0].frame_sums.high[k], 0);
+        memoryBarrierBuffer();
+        shared_last = atomicAdd(pair_islands[0].arrived, 1) + 1 == gl_NumWorkGroups.x;
     }
-    write_frame(0, sums, pair_islands[0].vertices);
+    barrier();
+    if (!shared_last)
+        return;
+    for (uint k = thread; k < VOILE_FRAME_SUMS; k += gl_WorkGroupSize.x) // atomically: other workgroups have added to them
+        shared_sums[k] = frame_sum(atomicAdd(pair_islands[0].frame_sums.low[k], 0),
+                                   atomicAdd(pair_islands[0].frame_sums.high[k], 0), k);
+    barrier();
+    if (thread != 0)
+        return;
+    const uint restrained = atomicAdd(pair_islands[0].frame_sums.restrained, 0);
+    write_frame(0, frame_from(restrained, shared_sums, pair_islands[0].vertices));
     pair_islands[0].arrived = 0;
 }
 
@@ -187,6 +256,6 @@ void main()
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (collides_with_itself(self.cloth)) // the cloth of all threads
         add_to_cloth(self, gl_LocalInvocationID.x);
-    if (push.cloths == 1 && gl_LocalInvocationID.x == 0)
-        find_frame();
+    if (push.cloths == 1)
+        find_frame(gl_LocalInvocationID.x);
 }

@@ -125,7 +125,7 @@ void main()
     const vec3 half_carry = unpack_half_sweep(carry_word);
     const vec3 own = velocities[i].xyz;
     const vec3 v = positions[i].w > 0 ? velocity_at_pass(own, cloths[cloth].flags) : own;
-    const vec3 relative = v - frame_of(cloth) - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
+    const vec3 relative = v - velocity_at(frame_of(cloth), positions[i].xyz, 0) - 2 / VOILE_PAIR_SWEEP_TIME * half_carry;
     const uint memory = pair_memories[i].pass;
     const uint halvings =
         next_halvings(halvings_of(memory), pair_bounds[i].sweep, pair_interval() * length(relative));

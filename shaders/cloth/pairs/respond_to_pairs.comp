@@ -62,6 +62,7 @@ struct Self
     uint carry;
     float rate; // of the clock
     vec3 fall;  // of the island (free_fall_until_next)
+    vec3 turn;  // of the frame, since lists were made
 };
 
 shared vec4 shared_parts[3 * gl_WorkGroupSize.x];
@@ -151,7 +152,7 @@ void add_entry(uint entry, Self self, inout Gather sum)
     const vec3 n = unpack_direction(response.normal);
     const vec4 heights = vec4(unpackHalf2x16(response.heights.x), unpackHalf2x16(response.heights.y));
     const float height = entry_of(heights, first ? place : place - sides);
-    const vec3 carry = carry_until_next(self.carry, pair_carries[pair.vertices.x], self.fall);
+    const vec3 carry = turned(self.turn, carry_until_next(self.carry, pair_carries[pair.vertices.x], self.fall));
     vec4 plane = carried_plane(self.rate, carry, first ? n : -n, height, first ? heights.w : -heights.w);
     plane.w /= looseness();
     add_plane(sum.guard, plane, looseness());
@@ -173,7 +174,7 @@ void add_entry(uint entry, Self self, inout Gather sum)
 Self self_of(uvec4 entry)
 {
     return Self(entry.x, entry.z, entry.w, positions[entry.x].w, pair_carries[entry.x], clock_rate(entry.y),
-                free_fall_until_next(entry.y));
+                free_fall_until_next(entry.y), turn_in(frame_of(entry.y), time_at_pass(entry.y)));
 }
 
 Gather gather(Self self, uint lane)
@@ -216,7 +217,7 @@ void keep_clock(uint cloth)
     pair_islands[cloth].falls[other] = fall + gained;
     pair_islands[cloth].times[other] = pair_islands[cloth].times[1 - other] + pair_interval();
     pair_islands[cloth].rates[other] = floatBitsToUint(1);
-    if (frame_of(cloth) != vec3(0) && pair_islands[cloth].times[other] + pair_interval() > frame_horizon())
+    if (is_moving(frame_of(cloth)) && pair_islands[cloth].times[other] + pair_interval() > frame_horizon())
         want_lists();
 }
 
@@ -226,7 +227,7 @@ void forget_part(uint cloth)
     pair_islands[cloth].vertices = pair_islands[cloth].clear = pair_islands[cloth].mass = 0;
     for (uint k = 0; k < 3; ++k)
     {
-        pair_islands[cloth].momentum[k] = 0;
+        pair_islands[cloth].momentum[k] = pair_islands[cloth].moment[k] = 0;
         pair_islands[cloth].low[k] = pair_islands[cloth].high[k] = 0;
     }
     pair_islands[cloth].frame_sums = no_frame_sums();
@@ -270,6 +271,7 @@ void main()
     pair_bounds[i].guard.from = positions[i].xyz;
     pair_bounds[i].guard.residual = residuals[i];
     pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
-    const vec3 carried = self.rate * carry_until_next(self.carry, self.fall);
-    pair_bounds[i].speed = length(v - frame_of(entry.y) - carried / pair_interval());
+    const vec3 carried = self.rate * turned(self.turn, carry_until_next(self.carry, self.fall));
+    const vec3 frame = velocity_at(frame_of(entry.y), positions[i].xyz, time_at_pass(entry.y));
+    pair_bounds[i].speed = length(v - frame - carried / pair_interval());
 }

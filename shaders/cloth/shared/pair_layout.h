@@ -68,19 +68,28 @@
 // Momenta are summed up in this unit, m/s of the heaviest vertex, as a part of the mean, and masses in this one of it.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 #define VOILE_PAIR_UNIT_MASS 1e-9f
-// Sums over the vertices of an island (FrameSums). A restraint is a direction n, unit, in which an anchor or a collider
-// of velocity v restrains a vertex. The weighted sums are, in this order, of n n^T (its diagonal, and yz, zx, xy), of
-// n (n . v), and of (n . v)^2; then those of the velocities of all vertices. Workgroups add whole numbers of these
-// units.
-#define VOILE_FRAME_SUMS 13
+// Sums over the vertices of a cloth, or of an island (FrameSums). r: m, from the origin of the cloth, or of the island. A
+// restraint is a direction n, unit, in which an anchor or a collider restrains a vertex, and how fast it moves there, d.
+// With m = r x n, the weighted sums are, in this order, of n n^T, n m^T (columns), m m^T, d n, d m and d^2; then, over
+// all vertices of velocity v, of v, r, r x v and r r^T. Symmetric matrices: the diagonal, and yz, zx, xy.
+#define VOILE_FRAME_SUMS 43
 #define VOILE_FRAME_DIRECTIONS 0
-#define VOILE_FRAME_DRIVES 6
-#define VOILE_FRAME_SQUARES 9
-#define VOILE_FRAME_ALL 10
+#define VOILE_FRAME_MIXED 6
+#define VOILE_FRAME_TURNS 15
+#define VOILE_FRAME_DRIVES 21
+#define VOILE_FRAME_MOMENTS 24
+#define VOILE_FRAME_SQUARES 27
+#define VOILE_FRAME_RESTRAINTS 28 // so many of them are of restraints
+#define VOILE_FRAME_VELOCITIES 28
+#define VOILE_FRAME_POSITIONS 31
+#define VOILE_FRAME_SPINS 34
+#define VOILE_FRAME_SPREADS 37
+// Workgroups add whole numbers of these units: of sums of n n^T, of those with m, of those with d, of d^2, of all others.
 #define VOILE_FRAME_UNIT_DIRECTION 1e-4f
-#define VOILE_FRAME_UNIT_DRIVE 1e-2f  // m/s
-#define VOILE_FRAME_UNIT_SQUARE 1e-2f // m^2/s^2
-#define VOILE_FRAME_UNIT_SPEED 1e-5f  // m/s
+#define VOILE_FRAME_UNIT_LEVER 1e-5f
+#define VOILE_FRAME_UNIT_DRIVE 1e-3f
+#define VOILE_FRAME_UNIT_SQUARE 1e-2f
+#define VOILE_FRAME_UNIT_MOTION 1e-5f
 // s: the clock of the lists ends there.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
 // The largest fall, of the square of that. Half if the clock runs as fast as time.
@@ -137,6 +146,7 @@ struct PairIsland
     uint clear;      // of colliders
     uint mass;       // of those, in VOILE_PAIR_UNIT_MASS
     int momentum[3]; // in VOILE_PAIR_UNIT_SPEED
+    int moment[3];   // mass times r, in that unit, m instead of m/s
     FrameSums frame_sums;
     // The box around the vertices of the cloth. Ordered numbers (ordered.glsl), the lower corner's inverted; 0: no
     // cloth.
@@ -148,6 +158,7 @@ struct PairIsland
     float reach_high[3];
     uint heaviest; // kg, the bits of a float: the vertex to which the totals are relative
     int total_momentum[3];
+    int total_moment[3];
     uint total_mass;
     FrameSums total_frame_sums;
     uint total_vertices;
@@ -167,7 +178,10 @@ struct PairIsland
     float fall;
     float fall_rate;      // s, what `fall` gains per second
     float rounded_off[3]; // m/s, what packing the mean velocity has rounded off
-    float frame[3];       // m/s, the velocity of the frame
+    // The frame: its velocity at its origin, m/s, its angular velocity, rad/s, and the origin when lists were made, m.
+    float frame[3];
+    float frame_turn[3];
+    float frame_origin[3];
     // s, since lists were made: at the beginning of even and odd passes; at that of the last one, until the next.
     float times[2];
     float time;

@@ -253,9 +253,9 @@ void Describer::add_pairs()
     for (size_t parity = 0; parity < 2; ++parity)
     {
         const StateBuffers& now = k_proposals[parity].earlier;
-        add(sets_.pair_means[parity], kernels_.pair_means, {{binding::stage_velocities, now.velocities}});
         for (const auto& [set, kernel] :
-             {std::pair(&sets_.pair_clear, &kernels_.pair_clear), std::pair(&sets_.pair_sweeps, &kernels_.pair_sweeps)})
+             {std::pair(&sets_.pair_means, &kernels_.pair_means), std::pair(&sets_.pair_clear, &kernels_.pair_clear),
+              std::pair(&sets_.pair_sweeps, &kernels_.pair_sweeps)})
             add((*set)[parity], *kernel,
                 {{binding::stage_positions, now.positions}, {binding::stage_velocities, now.velocities}});
         for (const auto& [set, kernel] :
