@@ -28,23 +28,13 @@ voile::engine::Mesh dense_floor(float length, float width, float waves)
     constexpr float k_side = 0.02f;
     const auto columns = static_cast<uint32_t>(length / k_side);
     const auto rows = static_cast<uint32_t>(width / k_side);
-    voile::engine::Mesh mesh;
-    for (uint32_t row = 0; row <= rows; ++row)
-        for (uint32_t column = 0; column <= columns; ++column)
-        {
-            const glm::vec2 p = k_side * glm::vec2(column, row);
-            mesh.positions.emplace_back(p.x, waves * std::sin(14 * p.x) * std::cos(18 * p.y), p.y);
-        }
-    for (uint32_t row = 0; row < rows; ++row)
-        for (uint32_t column = 0; column < columns; ++column)
-        {
-            const uint32_t first = row * (columns + 1) + column;
-            const uint32_t below = first + columns + 1;
-            mesh.triangles.insert(mesh.triangles.end(), {{first, below, first + 1}, {first + 1, below, below + 1}});
-        }
-    for (glm::vec3& p : mesh.positions)
-        p -= glm::vec3(0.5f, 0, 0.5f * width);
-    return mesh;
+    return tests::quads(columns, rows,
+                        [&](float column, float row)
+                        {
+                            const glm::vec2 p = k_side * glm::vec2(column, row);
+                            const float y = waves * std::sin(14 * p.x) * std::cos(18 * p.y);
+                            return glm::vec3(p.x - 0.5f, y, p.y - 0.5f * width);
+                        });
 }
 
 } // namespace

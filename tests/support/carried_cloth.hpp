@@ -5,6 +5,8 @@
 #include "support/fastest.hpp"
 #include "support/pair_harness.hpp"
 
+#include "voile/engine/assets/shapes.hpp"
+
 namespace tests
 {
 
@@ -43,6 +45,24 @@ inline float fastest_beside(PairHarness& harness, voile::ClothId cloth, float sp
 }
 
 inline constexpr uint32_t k_all = voile::Step{}.max_substeps;
+
+// A mesh of quads whose vertices are the points of columns and rows.
+template <typename Point>
+voile::engine::Mesh quads(uint32_t columns, uint32_t rows, const Point& point)
+{
+    voile::engine::Mesh mesh;
+    for (uint32_t row = 0; row <= rows; ++row)
+        for (uint32_t column = 0; column <= columns; ++column)
+            mesh.positions.push_back(point(static_cast<float>(column), static_cast<float>(row)));
+    for (uint32_t row = 0; row < rows; ++row)
+        for (uint32_t column = 0; column < columns; ++column)
+        {
+            const uint32_t first = row * (columns + 1) + column;
+            const uint32_t below = first + columns + 1;
+            mesh.triangles.insert(mesh.triangles.end(), {{first, below, first + 1}, {first + 1, below, below + 1}});
+        }
+    return mesh;
+}
 
 // In at most so many substeps.
 inline voile::Step step_of(uint32_t substeps)

@@ -68,10 +68,10 @@
 // Momenta are summed up in this unit, m/s of the heaviest vertex, as a part of the mean, and masses in this one of it.
 #define VOILE_PAIR_UNIT_SPEED 1e-6f
 #define VOILE_PAIR_UNIT_MASS 1e-9f
-// Sums over the vertices of a cloth, or of an island (FrameSums). r: m, from the origin of the cloth, or of the island. A
-// restraint is a direction n, unit, in which an anchor or a collider restrains a vertex, and how fast it moves there, d.
-// With m = r x n, the weighted sums are, in this order, of n n^T, n m^T (columns), m m^T, d n, d m and d^2; then, over
-// all vertices of velocity v, of v, r, r x v and r r^T. Symmetric matrices: the diagonal, and yz, zx, xy.
+// Sums over the vertices of a cloth, or of an island (FrameSums). r: m, from the origin of the cloth, or of the island.
+// A restraint is a direction n, unit, in which an anchor or a collider restrains a vertex, and how fast it moves there,
+// d. With m = r x n, the weighted sums are, in this order, of n n^T, n m^T (columns), m m^T, d n, d m and d^2; then,
+// over all vertices of velocity v, of v, r, r x v and r r^T. Symmetric matrices: the diagonal, and yz, zx, xy.
 #define VOILE_FRAME_SUMS 43
 #define VOILE_FRAME_DIRECTIONS 0
 #define VOILE_FRAME_MIXED 6
@@ -84,7 +84,8 @@
 #define VOILE_FRAME_POSITIONS 31
 #define VOILE_FRAME_SPINS 34
 #define VOILE_FRAME_SPREADS 37
-// Workgroups add whole numbers of these units: of sums of n n^T, of those with m, of those with d, of d^2, of all others.
+// Workgroups add whole numbers of these units: of sums of n n^T, of those with m, of those with d, of d^2, of all
+// others.
 #define VOILE_FRAME_UNIT_DIRECTION 1e-4f
 #define VOILE_FRAME_UNIT_LEVER 1e-5f
 #define VOILE_FRAME_UNIT_DRIVE 1e-3f
