@@ -84,7 +84,8 @@ struct GridCloth
     //
     // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
     // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders and
-    // anchors it is relative to them, and to the mean velocity of the cloth in directions in which they do not hold it.
+    // anchors it is relative to the rigid motion that fits theirs best, and the cloth's in directions in which they do
+    // not hold it.
     // A vertex that this stops keeps its velocity, and hands it on to what it has met. While colliders or anchors move,
     // where lists of pairs are full, and beside pins, that velocity is lost with its momentum. The mean is that of an
     // island: the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are
@@ -98,15 +99,15 @@ struct GridCloth
     //
     // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
     // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at
-    // 12 m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, and capes of 10 and 25 mm
-    // spacing follow anchors at 15 and 40 m/s. All of an island has one such velocity. What moves very differently
-    // from it is held back as if it were fast beside cloth at rest: a cape that passes a curtain within 20 mm at 8 m/s
-    // in 8 substeps, or at 40 m/s with all, is left behind or torn (at 25 m/s with all it is not); capes on anchors
-    // that turn at 5 rad/s, or swing by 0.1 m at 2 Hz, stretch by 0.7 to 8 in 8 substeps, and may enter the body that
-    // turns with them (with all substeps they follow, two layers up to 15 rad/s); layers that slide through a channel
-    // of 1 m radius at 6 m/s lose a third of their speed, two thirds in 8 substeps, when their edges enter it, too,
-    // and in narrower or coarser ones at 8 m/s nearly all; layers on a
-    // moving floor are braked by a ceiling nearer than 20 mm in 8 substeps, nearer than 12 mm at 12 m/s with all.
+    // 12 m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, capes of 10 and 25 mm spacing
+    // follow anchors at 15 and 40 m/s, and capes 0.4 m from the axis follow anchors that turn at 5 rad/s in 8 substeps,
+    // at 7 in 16, and at 15 with all, with less than 1.5 times their stretch without self-collision. All of an island
+    // has one such rigid motion. What moves very differently from it is held back as if it were fast beside cloth at
+    // rest: a cape that passes a curtain within 20 mm at 8 m/s in 8 substeps, or at 40 m/s with all, is left behind or
+    // torn (at 25 m/s with all it is not); capes on anchors that turn at 10 rad/s, or swing by 0.2 m at 3 Hz, stretch
+    // by 0.7 to 6 in 8 substeps; layers that slide through a narrow channel of few flat sides (0.5 m radius, 24 sides,
+    // 8 m/s) lose most of their speed, and in 8 substeps their edges enter it; layers on a moving floor are braked by a
+    // ceiling nearer than 20 mm in 8 substeps, nearer than 12 mm at 12 m/s with all.
     //
     // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
     // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
