@@ -59,7 +59,10 @@ void main()
     const uint thread = gl_LocalInvocationID.x;
     const uint lane = thread % push.lanes;
     const uint place = gl_GlobalInvocationID.x / push.lanes;
-    const bool searches = place < pair_passes[VOILE_PAIR_FIND].entries;
+    const uint entries = pair_passes[VOILE_PAIR_FIND].entries;
+    if (place - thread / push.lanes >= entries) // of the first thread of the workgroup
+        return;
+    const bool searches = place < entries;
     const uint owner = searches ? searching_vertices[place] : 0;
     Matched matched = Matched(0, 0);
     if (searches)

@@ -13,7 +13,7 @@
 
 // The sizes of the dispatches that make the lists: one thread per place in the order of vertices, one per vertex of a
 // patch, folds of levels, one per vertex of a slot of a leaf, push.candidate_lanes per place, one workgroup for all
-// cloths.
+// cloths, push.lanes per place.
 #define VOILE_PAIR_SEARCHES 16
 #define VOILE_PAIR_OF_PLACES 0
 #define VOILE_PAIR_OF_PATCHES 1
@@ -21,6 +21,7 @@
 #define VOILE_PAIR_OF_LEAVES 7
 #define VOILE_PAIR_OF_CANDIDATES 8
 #define VOILE_PAIR_OF_CLOTHS 9
+#define VOILE_PAIR_OF_LANES 10
 // The dispatch whose `entries` count the events in a step in which vertices without mass took more room than a pair
 // had.
 #define VOILE_PAIR_FORCED 0
@@ -34,7 +35,7 @@
 #define VOILE_PAIR_SEARCHED 4
 // The pass, + 1, that made the last lists that left little room to a pin, or to a vertex that is pushed. For some
 // passes, sweeps are halved where they leave little room. It is kept from step to step.
-#define VOILE_PAIR_CROWDED 10
+#define VOILE_PAIR_CROWDED 11
 #define VOILE_PAIR_CROWDED_PASSES 64
 #define VOILE_PAIR_CROWDED_LIST 2
 // Directions out of tangles are summed up in this unit.

@@ -145,6 +145,8 @@ void PairRecorder::write_sizes()
     const uint32_t candidate_threads = places * candidate_lanes(solver_.options.tuning, places);
     sizes[VOILE_PAIR_OF_CANDIDATES] = {(candidate_threads + group - 1) / group, 1, 1, 0};
     sizes[VOILE_PAIR_OF_CLOTHS] = {1, 1, 1, 0};
+    const uint32_t search_threads = places * lanes_per_search(solver_.options.tuning, places);
+    sizes[VOILE_PAIR_OF_LANES] = {(search_threads + group - 1) / group, 1, 1, 0};
     sizes[VOILE_PAIR_OF_PATCHES] = {threads_ / group, 1, 1, 0};
     for (uint32_t i = VOILE_PAIR_FOLDS; fold.bottom > 0; ++i)
         sizes[i] = {next_fold(refit, fold).groups, 1, 1, 0};
@@ -184,17 +186,20 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
                                     next_fold(solver_.kernels.refit, fold).push);
     recorder_.dispatch_indirect(solver_.kernels.find_candidates, sets.find_candidates, sizes,
                                 offset_of(VOILE_PAIR_OF_CANDIDATES), push);
-    publish_dispatch(recorder_);
+    // A small cloth has fewer workgroups than it takes to publish how many vertices search.
+    const bool sifts = push.sifted > 0;
     const VkBuffer passes = (*solver_.device)[buffer::pair_passes].handle();
-    if (push.sifted > 0)
+    if (sifts)
     {
+        publish_dispatch(recorder_);
         recorder_.dispatch_indirect(solver_.kernels.sift_candidates, sets.sift_candidates, passes,
                                     offset_of(VOILE_PAIR_SIFT), push);
         publish_dispatch(recorder_);
     }
-    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, passes, offset_of(VOILE_PAIR_FIND), push);
-    recorder_.dispatch_indirect(solver_.kernels.match_pairs, sets.match_pairs, passes, offset_of(VOILE_PAIR_FIND),
-                                push);
+    const VkBuffer searching = sifts ? passes : sizes;
+    const VkDeviceSize searches = offset_of(sifts ? VOILE_PAIR_FIND : VOILE_PAIR_OF_LANES);
+    recorder_.dispatch_indirect(solver_.kernels.find_pairs, sets.find_pairs, searching, searches, push);
+    recorder_.dispatch_indirect(solver_.kernels.match_pairs, sets.match_pairs, searching, searches, push);
     recorder_.dispatch_indirect(solver_.kernels.index_pairs, sets.index_pairs[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
 }
