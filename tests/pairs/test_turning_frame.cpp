@@ -194,7 +194,7 @@ TEST_CASE("layers on a turntable turn with it, with all substeps and with 8")
                 }
             }
             // Without self-collision, one layer slips by 0.6 and 2.4 mm with all substeps, and by twice as much with 8.
-            CHECK(slip < (rate < 5 ? 0.0006f : 0.0025f) * (substeps == 8 ? 2 : 1));
+            CHECK(slip < (rate < 5 ? 0.0007f : 0.0028f) * (substeps == 8 ? 2 : 1));
             CHECK(harness.intersections() == 0);
         }
 }

@@ -309,11 +309,8 @@ uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slac
     return uvec2(packHalf2x16(heights.xy), packHalf2x16(vec2(heights.z, carry)));
 }
 
-void main()
+void meet(uint entry)
 {
-    if (gl_GlobalInvocationID.x >= pair_passes[VOILE_PAIR_MEET].entries)
-        return;
-    const uint entry = pair_entries[gl_GlobalInvocationID.x];
     const Pair pair = unpacked(pairs[entry]);
     const uvec2 owners = owners_of(pair);
     const bool first = owners.x == entry / VOILE_PAIRS;
@@ -361,4 +358,11 @@ void main()
     pair_responses[entry] = response;
     for (uint k = own.x; k < own.y && response.impulse != vec3(0); ++k)
         add_load(pair.vertices[k], nearest.weights[k]);
+}
+
+void main()
+{
+    const uint threads = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    for (uint k = gl_GlobalInvocationID.x; k < pair_passes[VOILE_PAIR_MEET].entries; k += threads)
+        meet(pair_entries[k]);
 }

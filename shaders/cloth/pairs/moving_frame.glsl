@@ -15,6 +15,8 @@ const float k_mean_weight = 0.02;
 // The largest mean square of the speeds of restraints in the frame, as a part of the frame's own. Where they differ by more, as of a
 // fast collider beside one at rest, no frame moves with all of them.
 const float k_most_deviation = 0.25;
+// A frame turns if that leaves less than this part of the mean square that restraints have in one that does not.
+const float k_most_left = 0.5;
 // m: frames that carry cloth by less until the next pass are not worth new lists.
 const float k_least_motion = 1e-4;
 
@@ -80,7 +82,8 @@ RigidMotion slowed(RigidMotion frame, MeanMotion mean)
 }
 
 // Least squares of the differences from the restraints, n . (v + w x r) - d, and a little of those from the vertices'
-// motion. A frame that does not turn, unless that is better by a speed which is worth lists.
+// motion. A frame that does not turn, unless that is better by a speed which is worth lists: on uneven ground, or under cloth
+// that tumbles, it would follow what is no rotation.
 RigidMotion motion_of_frame(RestraintMeans restraints, MeanMotion mean)
 {
     const mat3 directions = inverse(restraints.directions + k_mean_weight * mat3(1));
@@ -93,7 +96,8 @@ RigidMotion motion_of_frame(RestraintMeans restraints, MeanMotion mean)
     const vec3 w = inverse(reduced) * (moments - transpose(mixed) * straight.velocity);
     const RigidMotion turning = RigidMotion(directions * (drives - mixed * w), w);
     const float gain = dot(drives, turning.velocity - straight.velocity) + dot(moments, w);
-    if (is_worth_lists(gain) && is_common(restraints, mean, turning))
+    const bool explains = deviation(restraints, turning) <= k_most_left * deviation(restraints, straight);
+    if (explains && is_worth_lists(gain) && is_common(restraints, mean, turning))
         return slowed(turning, mean);
     return is_common(restraints, mean, straight) ? slowed(straight, mean) : k_at_rest;
 }

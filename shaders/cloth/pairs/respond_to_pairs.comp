@@ -18,6 +18,7 @@ layout(VOILE_BINDING(pair_responses)) readonly buffer PairResponses { PairRespon
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };
 layout(VOILE_BINDING(paired_vertices)) readonly buffer PairedVertices { uvec4 paired_vertices[]; };
 layout(VOILE_BINDING(pair_passes)) readonly buffer PairPasses { PairDispatch pair_passes[]; };
+layout(VOILE_BINDING(next_pair_pass)) writeonly buffer NextPairPass { PairDispatch next_pair_pass[]; };
 layout(VOILE_BINDING(pair_islands)) buffer PairIslands { PairIsland pair_islands[]; };
 layout(VOILE_BINDING(pair_loads)) buffer PairLoads { uint pair_loads[]; };
 layout(VOILE_BINDING(pair_memories)) buffer PairMemories { PairMemory pair_memories[]; };
@@ -233,31 +234,16 @@ void forget_part(uint cloth)
     pair_islands[cloth].frame_sums = no_frame_sums();
 }
 
-void main()
+void size_next_pass()
 {
-    const uint thread = gl_LocalInvocationID.x;
-    if (gl_GlobalInvocationID.x == 0)
-        age_lists();
-    for (uint c = thread; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
-    {
-        keep_clock(c);
-        forget_part(c);
-    }
-    const uint lane = thread % push.threads;
-    const uint place = gl_GlobalInvocationID.x / push.threads;
-    const bool exists = place < pair_passes[VOILE_PAIR_RESPOND].entries;
-    const uvec4 entry = exists ? paired_vertices[place] : uvec4(0);
+    for (uint k = VOILE_PAIR_MEET; k <= VOILE_PAIR_RESPOND; ++k)
+        next_pair_pass[k] = PairDispatch(max(pair_passes[k].groups, push.least_groups), 1, 1, 0);
+}
+
+// `entry`: of self_of.
+void respond(uvec4 entry, Self self, Gather sum)
+{
     const uint i = entry.x;
-    Self self;
-    Gather sum = nothing();
-    if (exists)
-    {
-        self = self_of(entry);
-        sum = gather(self, lane);
-    }
-    merge(thread, lane, sum);
-    if (!exists || lane != 0)
-        return;
     pair_loads[(1 - (pair_pass() & 1u)) * push.vertices + i] = 0;
     // Integration begins with the impulses, so that springs respond to what they leave.
     const vec4 before = velocities[i];
@@ -274,4 +260,38 @@ void main()
     const vec3 carried = self.rate * turned(self.turn, carry_until_next(self.carry, self.fall));
     const vec3 frame = velocity_at(frame_of(entry.y), positions[i].xyz, time_at_pass(entry.y));
     pair_bounds[i].speed = length(v - frame - carried / pair_interval());
+}
+
+void main()
+{
+    const uint thread = gl_LocalInvocationID.x;
+    if (gl_GlobalInvocationID.x == 0)
+    {
+        age_lists();
+        size_next_pass();
+    }
+    for (uint c = thread; gl_WorkGroupID.x == 0 && c < push.cloths; c += gl_WorkGroupSize.x)
+    {
+        keep_clock(c);
+        forget_part(c);
+    }
+    const uint lane = thread % push.threads;
+    const uint each = gl_WorkGroupSize.x / push.threads; // vertices of a workgroup at a time
+    const uint entries = pair_passes[VOILE_PAIR_RESPOND].entries;
+    for (uint first = gl_WorkGroupID.x * each; first < entries; first += gl_NumWorkGroups.x * each)
+    {
+        const uint place = first + thread / push.threads;
+        const bool exists = place < entries;
+        const uvec4 entry = exists ? paired_vertices[place] : uvec4(0);
+        Self self;
+        Gather sum = nothing();
+        if (exists)
+        {
+            self = self_of(entry);
+            sum = gather(self, lane);
+        }
+        merge(thread, lane, sum);
+        if (exists && lane == 0)
+            respond(entry, self, sum);
+    }
 }

@@ -146,6 +146,7 @@ VOILE_SCRATCH_BUFFER(84, pair_carries, uint, pair_vertices, "half of the way tha
 VOILE_SCRATCH_BUFFER(94, pair_islands, PairIsland, pair_vertices == 0 ? 0 : cloths, "how near cloths are to others that may meet them, and the clock of the lists that these share")
 VOILE_SCRATCH_BUFFER(83, pair_flats, vec2, pair_vertices, "how far apart primitives around a vertex are unless they share a vertex, in two neighborhoods; not above 0 where that is unknown; before that, whether it is clear of colliders")
 VOILE_SCRATCH_BUFFER(65, pair_passes, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_PASSES, "the sizes of the dispatches of a pass")
+VOILE_SCRATCH_BUFFER(97, next_pair_pass, PairDispatch, pair_vertices == 0 ? 0 : VOILE_PAIR_RESPOND + 1, "the sizes of the dispatches of the next pass, before it searches")
 VOILE_SCRATCH_BUFFER(66, pair_entries, uint, pair_vertices * VOILE_PAIRS, "the places of the pairs that both sides list, in no order; during a search the places of the candidates that are sifted")
 VOILE_SCRATCH_BUFFER(67, pair_responses, PairResponse, pair_vertices * VOILE_PAIRS, "what each listed pair does in a pass")
 VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the weights of a vertex in the pairs that are pushed, of even and of odd passes")

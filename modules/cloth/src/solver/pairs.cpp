@@ -60,6 +60,13 @@ uint32_t enough_vertices(const Tuning& tuning, uint32_t vertices)
     return tuning.waiting_vertices > 0 ? tuning.waiting_vertices : std::max(vertices / k_vertices_of_one, 1u);
 }
 
+// Of a pass over pairs whose search may find the first ones.
+uint32_t least_groups(const Tuning& tuning)
+{
+    constexpr uint32_t k_groups = 64; // take as long as one
+    return tuning.feature_threads == 1 ? 1 : k_groups;
+}
+
 // Even, unless it is 1, so that two substeps can share contact.
 uint32_t usual_period(float substeps)
 {
@@ -121,9 +128,13 @@ void PairRecorder::record(uint32_t substep, bool in_stage_b)
     push.colliders = solver_.passes.colliders;
     push.sifted = most_sifted(solver_.options.tuning, push.places);
     push.lag = substep > 0 ? 0.5f : 0;
+    push.least_groups = least_groups(solver_.options.tuning);
     find(push, from);
-    publish_dispatch(recorder_);
-    const VkBuffer sizes = (*solver_.device)[buffer::pair_passes].handle();
+    const bool first = push.pass == 0;
+    if (first)
+        publish_dispatch(recorder_);
+    const DeviceState& device = *solver_.device;
+    const VkBuffer sizes = device[first ? buffer::pair_passes : buffer::next_pair_pass].handle();
     recorder_.dispatch_indirect(solver_.kernels.meet_pairs, sets.meet_pairs[from], sizes, offset_of(VOILE_PAIR_MEET),
                                 push);
     recorder_.dispatch_indirect(solver_.kernels.respond_to_pairs, sets.respond_to_pairs[from], sizes,
