@@ -172,3 +172,63 @@ TEST_CASE("capes that are carried into a wall at 2 to 12 m/s neither stretch nor
                 CHECK(harness.intersections() == 0);
             }
 }
+
+// A box around one of the ramp's triangles has the sheets in it all the time.
+TEST_CASE("layers fall freely beside a slope of large triangles that they are far from, in 8 and 16 substeps")
+{
+    for (const uint32_t substeps : {8u, 16u})
+        for (const uint32_t layers : {2u, 4u})
+        {
+            CAPTURE(substeps);
+            CAPTURE(layers);
+            PairHarness harness;
+            const voile::engine::Mesh ramp = tests::quads(
+                1, 1,
+                [](float column, float row) { return glm::vec3(5 - 10 * column, 5 - 10 * column, 10 * row - 5); });
+            take(harness.solver.add_collider(tests::collider(ramp)));
+            const voile::GridCloth sheet = airless_pair_sheet(9, 0.025f, {0, 0, 0});
+            for (uint32_t layer = 0; layer < layers; ++layer)
+            {
+                voile::GridCloth grid = sheet;
+                grid.transform = at({0, 3.5f + 1.5f * tests::fabric_of(grid).thickness * static_cast<float>(layer), 0});
+                harness.add(grid);
+            }
+            harness.upload();
+            const std::vector<glm::vec4> before = harness.positions(harness.cloths[0]);
+            harness.step(step_of(substeps), 36);
+            const glm::dvec3 moved = mean_of(harness.positions(harness.cloths[0])) - mean_of(before);
+            CHECK(std::abs(moved.x) < 1e-4);
+            CHECK(moved.y == doctest::Approx(-0.5 * 9.81 * 0.36).epsilon(1e-3));
+        }
+}
+
+TEST_CASE("layers slide without friction over finely tessellated and slanted meshes, with all substeps and with 8")
+{
+    struct Case
+    {
+        const char* name;
+        voile::engine::Mesh mesh;
+        float speed; // m/s
+    };
+    const voile::engine::Mesh fine = tests::quads(
+        600, 80, [](float column, float row) { return glm::vec3(0.005f * column - 0.3f, 0, 0.005f * row - 0.2f); });
+    voile::engine::Mesh slanted = voile::engine::make_box({-2, -0.5f, -2}, {2, 0, 2});
+    for (glm::vec3& p : slanted.positions)
+        p = glm::vec3(turned(k_pi / 4, {0, 1, 0}) * glm::vec4(p, 1));
+    for (const Case& test : {Case{"5 mm", fine, 8}, Case{"slanted", slanted, 4}})
+        for (const uint32_t substeps : k_budgets)
+        {
+            CAPTURE(std::string(test.name));
+            CAPTURE(substeps);
+            PairHarness harness;
+            take(harness.solver.add_collider(voile::MeshCollider{.positions = test.mesh.positions,
+                                                                 .triangles = test.mesh.triangles,
+                                                                 .friction = voile::Friction{0, 0}}));
+            tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {test.speed, 0, 0}), {0, 0, 0});
+            harness.upload();
+            harness.step(step_of(substeps), 18);
+            for (const voile::ClothId cloth : harness.cloths)
+                CHECK(position_of(harness, cloth) ==
+                      doctest::Approx(0.3 * static_cast<double>(test.speed)).epsilon(1e-3));
+        }
+}

@@ -11,9 +11,10 @@
 #include "contact/convex.glsl"
 #include "pairs/restraints.glsl"
 #include "shared/box.glsl"
+#include "shared/separation.glsl"
 
-// More triangles of a mesh in the way of a vertex restrain it in all directions.
-const uint k_most_triangles = 32;
+// Of a mesh, so many triangles in the way of a vertex restrain it at most: those that are found first.
+const uint k_most_triangles = 64;
 // Vertices that stay farther from a collider than this multiple of their thickness are not restrained.
 const float k_near = 2;
 
@@ -45,7 +46,6 @@ struct WayQuery
     uint flags;
     bool clear;
     uint count; // of triangles that restrain it
-    vec3 deformation; // m/s, of the first of them
     Restraints restraints;
 };
 
@@ -55,7 +55,7 @@ bool enters_node(WayQuery query, Box node)
 {
     if (query.clear)
         return overlap(query.way.wide, node);
-    return query.count <= k_most_triangles && overlap(query.way.near, node);
+    return query.count < k_most_triangles && overlap(query.way.near, node);
 }
 
 vec3 into_world(uint c, uint flags, vec3 direction)
@@ -75,9 +75,31 @@ MovingTriangle triangle_of(WayQuery query, uint triangle)
     return MovingTriangle(Triangle(t.a, t.b, t.c), Triangle(t.a, t.b, t.c));
 }
 
-vec3 middle_of(Triangle t) { return (t.a + t.b + t.c) / 3; }
-
 Box box_of(Triangle t) { return Box(min(min(t.a, t.b), t.c), max(max(t.a, t.b), t.c)); }
+
+// -1, 0 or 1: on which side of the triangle's plane the box is; 0: on both.
+float side_of_plane(Triangle t, Box box)
+{
+    const vec3 n = cross(t.b - t.a, t.c - t.a);
+    const float at = dot(n, 0.5 * (box.min + box.max) - t.a);
+    return abs(at) > dot(abs(n), 0.5 * (box.max - box.min)) ? sign(at) : 0;
+}
+
+// Whether the triangle may enter the box. The box around a slanted one is much of the space beside it.
+bool enters(MovingTriangle t, Box box)
+{
+    if (!overlap(box, joined(box_of(t.start), box_of(t.end))))
+        return false;
+    const float side = side_of_plane(t.start, box);
+    return side == 0 || side != side_of_plane(t.end, box);
+}
+
+// m: how far the triangle moves at its nearest point.
+vec3 displacement_at(MovingTriangle t, vec3 point)
+{
+    const vec3 weights = nearest_weights(t.start.a - point, t.start.b - point, t.start.c - point);
+    return weights.x * (t.end.a - t.start.a) + weights.y * (t.end.b - t.start.b) + weights.z * (t.end.c - t.start.c);
+}
 
 // Unit, towards a point.
 vec3 side_of(Triangle t, vec3 point)
@@ -89,17 +111,15 @@ vec3 side_of(Triangle t, vec3 point)
 
 void visit_leaf(inout WayQuery query, uint first, uint count)
 {
-    query.clear = false;
-    for (uint k = 0; k < count && query.count <= k_most_triangles; ++k)
+    for (uint k = 0; k < count && (query.clear || query.count < k_most_triangles); ++k)
     {
         const MovingTriangle moving = triangle_of(query, first + k);
-        if (!overlap(query.way.near, joined(box_of(moving.start), box_of(moving.end))))
+        query.clear = query.clear && !enters(moving, query.way.wide);
+        if (query.count == k_most_triangles || !enters(moving, query.way.near))
             continue;
         const vec3 n = into_world(query.collider, query.flags, side_of(moving.start, query.way.from));
-        const vec3 moved = middle_of(moving.end) - middle_of(moving.start);
+        const vec3 moved = displacement_at(moving, query.way.from);
         const vec3 deformation = step_input.rate * into_world(query.collider, query.flags, moved);
-        if (query.count == 0)
-            query.deformation = deformation;
         restrain(query.restraints, n, query.way.surface + deformation, query.v);
         ++query.count;
     }
@@ -120,11 +140,7 @@ float motion_at(ColliderMotion motion, vec3 point)
 // What one collider does to a vertex has the same weight, however many triangles it has.
 void add_mesh(inout Restraints restraints, WayQuery query)
 {
-    if (!restraints.wanted)
-        return;
-    if (query.count > k_most_triangles)
-        restrain(restraints, query.way.surface + query.deformation);
-    else if (query.count > 0)
+    if (restraints.wanted && query.count > 0)
         add(restraints, query.restraints, 1 / float(query.count));
 }
 
@@ -132,9 +148,9 @@ bool is_clear_of_mesh(inout Restraints restraints, uint c, ColliderRecord collid
 {
     if (!is_deforming(collider.flags) && !overlap(relative.wide, Box(collider.box_min, collider.box_max)))
         return true;
-    WayQuery query = WayQuery(relative, v, c, collider.flags, true, 0, vec3(0), no_restraints(restraints.mean, true));
+    WayQuery query = WayQuery(relative, v, c, collider.flags, true, 0, no_restraints(restraints.mean, true));
     if (!restraints.wanted)
-        query.count = k_most_triangles + 1; // the first leaf suffices
+        query.count = k_most_triangles; // the first triangle suffices
     traverse(query, collider);
     add_mesh(restraints, query);
     return query.clear;

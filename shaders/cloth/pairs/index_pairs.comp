@@ -52,6 +52,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 const float k_unlisted_floor = 0.02;
 // A list is crowded from this part of its capacity on.
 const float k_crowded_part = 0.75;
+const float k_unbounded = 1e18; // m; its square is a number
 
 // Of the pairs of an owner, those that a vertex is in on the owner's side.
 uint pairs_around(uint vertex, uint owner, uint mask)
@@ -206,6 +207,8 @@ void main()
             pair_masks[mask_place(fan, k, push.vertices)] = mask;
             references += bitCount(mask);
         }
+        if (fan.columns == 0 && fan.wedges == 0)
+            reach = k_unbounded; // nothing hangs on a vertex without triangles
         const uint listed = references == 0 ? 0 : crowded ? VOILE_PAIR_CROWDED_LIST : 1;
         bound(i, self.cloth, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, listed);
     }

@@ -15,6 +15,7 @@ const uint COLLIDERS_MOVE = 1;
 const float k_unbounded = 1e30;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
@@ -38,6 +39,7 @@ const uint k_values = 16;
 #include "pairs/clear.glsl"
 #include "pairs/cloth_origin.glsl"
 #include "pairs/fold.glsl"
+#include "pairs/isolated.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/moving_frame.glsl"
 #include "pairs/neighborhood.glsl"
@@ -205,7 +207,9 @@ void add_to_cloth(PatchVertex self, uint thread)
     for (uint k = 0; k < k_values; ++k)
         values[k] = k < k_part_sums ? 0 : -k_unbounded;
     // What is not finite would move the frame of all cloth near it.
-    if (self.exists && is_finite(positions[self.index].xyz) && is_finite(velocities[self.index].xyz))
+    const bool counts = self.exists && !is_isolated(self) && is_finite(positions[self.index].xyz) &&
+                        is_finite(velocities[self.index].xyz);
+    if (counts)
     {
         around = surroundings_of(self.index, self.cloth, mean);
         part_of(self, around, mean.origin, values);

@@ -9,6 +9,7 @@
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
+layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
@@ -25,6 +26,7 @@ const uint k_values = k_means + 1;
 #include "pairs/cloth_origin.glsl"
 #include "pairs/fold.glsl"
 #include "pairs/frame_sums.glsl"
+#include "pairs/isolated.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair_tree.glsl"
 
@@ -54,7 +56,7 @@ void main()
         part[k] = 0;
     const vec3 x = self.exists ? positions[self.index].xyz : vec3(0);
     const vec3 v = self.exists ? velocity_at_pass(velocities[self.index].xyz, cloths[self.cloth].flags) : vec3(0);
-    if (self.exists && is_finite(x) && is_finite(v))
+    if (self.exists && is_finite(x) && is_finite(v) && !is_isolated(self))
         write_part(x - origin_of(self.cloth), v, part);
     fold(gl_LocalInvocationID.x, k_values, part);
     if (gl_LocalInvocationID.x != 0)
