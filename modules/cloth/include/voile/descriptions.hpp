@@ -100,14 +100,23 @@ struct GridCloth
     // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
     // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at
     // 12 m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, capes of 10 and 25 mm spacing
-    // follow anchors at 15 and 40 m/s, and capes 0.4 m from the axis follow anchors that turn at 5 rad/s in 8 substeps,
-    // at 7 in 16, and at 15 with all, with less than 1.5 times their stretch without self-collision. All of an island
-    // has one such rigid motion. What moves very differently from it is held back as if it were fast beside cloth at
-    // rest: a cape that passes a curtain within 20 mm at 8 m/s in 8 substeps, or at 40 m/s with all, is left behind or
-    // torn (at 25 m/s with all it is not); capes on anchors that turn at 10 rad/s, or swing by 0.2 m at 3 Hz, stretch
-    // by 0.7 to 6 in 8 substeps; layers that slide through a narrow channel of few flat sides (0.5 m radius, 24 sides,
-    // 8 m/s) lose most of their speed, and in 8 substeps their edges enter it; layers on a moving floor are braked by a
-    // ceiling nearer than 20 mm in 8 substeps, nearer than 12 mm at 12 m/s with all.
+    // follow anchors at 15 and 40 m/s, and capes 0.4 m from a vertical axis follow anchors that turn at 5 rad/s in 8
+    // substeps, at 7 in 16, and at 15 with all, with less than 1.5 times their stretch without self-collision (leather,
+    // ribbons and other axes: up to 2.3 times, about an axis through the hem up to 4.9 times, 0.27 instead of 0.055).
+    //
+    // All of an island has one such rigid motion. What moves very differently from it is held back as if it were fast
+    // beside cloth at rest, and left behind or torn: a cape that passes a curtain within 20 mm at 8 m/s in 8 substeps,
+    // or at 40 m/s with all (at 25 m/s with all it is not); as islands are found by boxes along the axes, also one that
+    // passes within the box of a large diagonal curtain at 4 m/s in 8 substeps, or at 6 m/s in 16. Capes on anchors
+    // that turn at 10 rad/s, or swing by 0.2 m at 3 Hz, stretch by 0.7 to 6 in 8 substeps, flags that crumple on an
+    // anchor at 10 m/s by 0.9 to 6 in 8 and 1.2 in 16, and intersect there (Statistics::forced_pairs). A sphere of 30
+    // mm that a hem passes 10 mm above at 6 m/s stretches a cape by 0.15 instead of 0.03 in 8 substeps. Layers that
+    // slide through a narrow channel of few flat sides (0.5 m radius, 24 sides, 8 m/s) lose most of their speed, and in
+    // 8 substeps their edges enter it; layers on a moving floor are braked by a ceiling nearer than 20 mm in 8
+    // substeps, nearer than 12 mm at 12 m/s with all. Three layers and more slip in 8 substeps where friction is
+    // needed, by 40 to 100 mm in a second, also at rest. At 4 km from the origin layers lose a tenth of their friction,
+    // at 8 km all; beyond 9 km floats leave cloth of 3 mm too little room: it freezes or, with anchors that turn, is
+    // torn.
     //
     // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
     // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
