@@ -16,7 +16,7 @@ const float k_mean_weight = 0.02;
 // fast collider beside one at rest, no frame moves with all of them.
 const float k_most_deviation = 0.25;
 // A frame turns if that leaves less than this part of the mean square that restraints have in one that does not.
-const float k_most_left = 0.5;
+const float k_most_left = 0.7;
 // m: frames that carry cloth by less until the next pass are not worth new lists.
 const float k_least_motion = 1e-4;
 
