@@ -55,8 +55,8 @@
 #define VOILE_PAIR_LENGTH_BITS 7
 #define VOILE_PAIR_LENGTH_MASK 0x7fu
 #define VOILE_PAIR_NEAR_BIT (1u << 31)
-// The dispatches of a pass: over the listed pairs, over the vertices in any. After the first one of a step a pass has as
-// many workgroups as the lists of the pass before needed; they take entries in turn.
+// The dispatches of a pass: over the listed pairs, over the vertices in any. After the first one of a step a pass has
+// as many workgroups as the lists of the pass before needed; they take entries in turn.
 #define VOILE_PAIR_MEET 0
 #define VOILE_PAIR_RESPOND 1
 // No dispatch: counts the references to pairs.
@@ -274,7 +274,7 @@ struct PairPush
     uint sifted; // the most candidates of a vertex that are sifted, at most VOILE_PAIRS
     uint cloths;
     uint least_groups; // of the dispatches of the next pass
-    float lag; // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
+    float lag;         // substeps: gravity has not yet acted for so long on velocities of Verlet, half a substep behind
 };
 
 #ifdef __cplusplus
