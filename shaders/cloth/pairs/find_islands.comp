@@ -80,9 +80,7 @@ vec3 origin_in_island(uint cloth) { return frame_of(cloth).origin - frame_of(isl
 void add_frame_sums(uint cloth)
 {
     const uint island = island_of(cloth);
-    float sums[VOILE_FRAME_SUMS];
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
-        sums[k] = frame_sum(pair_islands[cloth].frame_sums.low[k], pair_islands[cloth].frame_sums.high[k], k);
+    float sums[VOILE_FRAME_SUMS] = sums_of(pair_islands[cloth].frame_sums);
     shift(sums, origin_in_island(cloth), pair_islands[cloth].vertices);
     atomicAdd(pair_islands[island].total_frame_sums.restrained, pair_islands[cloth].frame_sums.restrained);
     for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
@@ -115,14 +113,9 @@ void add_to_total(uint cloth)
 // In the first cloth of an island.
 void find_frame(uint island)
 {
-    float sums[VOILE_FRAME_SUMS];
-    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
-        sums[k] = frame_sum(pair_islands[island].total_frame_sums.low[k], pair_islands[island].total_frame_sums.high[k], k);
-    write_frame(island,
-                frame_from(pair_islands[island].total_frame_sums.restrained, sums, pair_islands[island].total_vertices));
+    const FrameSums sums = pair_islands[island].total_frame_sums;
+    write_frame(island, frame_from(sums.restrained, sums_of(sums), pair_islands[island].total_vertices));
 }
-
-vec3 total_mean(int total[3], uint mass) { return mean_of(ivec3(total[0], total[1], total[2]), mass); }
 
 // A vertex is carried with its frame, as long as lists are used, and by a part of the mean way in it. From there it
 // goes as far as its sweep and its reach.
@@ -131,15 +124,15 @@ void write_reach(uint cloth)
     const uint island = island_of(cloth);
     const MovingFrame frame = frame_of(island);
     const uint mass = pair_islands[island].total_mass;
-    const vec3 mean = total_mean(pair_islands[island].total_momentum, mass);
-    const vec3 mean_from = velocity_at(frame, total_mean(pair_islands[island].total_moment, mass));
+    const vec3 mean = mean_of(pair_islands[island].total_momentum, mass);
+    const vec3 mean_from = velocity_at(frame.motion, mean_of(pair_islands[island].total_moment, mass));
     const vec3 carry = VOILE_PAIR_SWEEP_TIME * (mean - mean_from);
-    const vec3 moved = frame_horizon() * frame.velocity;
+    const vec3 moved = frame_horizon() * frame.motion.velocity;
     const Box box = box_of(cloth);
     const float farthest = length(max(abs(box.min - frame.origin), abs(box.max - frame.origin)));
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
                          k_packing * length(carry) + rounding(box.min) + rounding(box.max) +
-                         frame_horizon() * length(frame.angular_velocity) * farthest;
+                         frame_horizon() * length(frame.motion.angular_velocity) * farthest;
     for (uint k = 0; k < 3; ++k)
     {
         pair_islands[cloth].reach_low[k] = box.min[k] + min(carry[k], 0) + min(moved[k], 0) - margin;
@@ -199,7 +192,7 @@ void rename(uint cloth)
 
 void copy_frame(uint cloth, MovingFrame frame)
 {
-    write_frame(cloth, RigidMotion(frame.velocity, frame.angular_velocity));
+    write_frame(cloth, frame.motion);
     for (uint k = 0; k < 3; ++k)
         pair_islands[cloth].frame_origin[k] = frame.origin[k];
 }

@@ -2,7 +2,7 @@
 #ifndef VOILE_FRAME_SUMS_GLSL
 #define VOILE_FRAME_SUMS_GLSL
 
-#include "shared/turn.glsl"
+#include "pairs/rigid_motion.glsl"
 
 // The largest high word of a workgroup's sum, as a multiple of their number: all sums are numbers.
 const float k_most_high = 2e9;
@@ -44,6 +44,14 @@ ivec2 frame_words(float sum, uint k, uint groups)
 
 float frame_sum(uint low, int high, uint k) { return (65536.0 * float(high) + float(low)) * frame_unit(k); }
 
+float[VOILE_FRAME_SUMS] sums_of(FrameSums words)
+{
+    float sums[VOILE_FRAME_SUMS];
+    for (uint k = 0; k < VOILE_FRAME_SUMS; ++k)
+        sums[k] = frame_sum(words.low[k], words.high[k], k);
+    return sums;
+}
+
 mat3 symmetric(vec3 diagonal, vec3 beside)
 {
     return mat3(diagonal.x, beside.z, beside.y, beside.z, diagonal.y, beside.x, beside.y, beside.x, diagonal.z);
@@ -81,15 +89,6 @@ struct MeanMotion
     vec3 spin;     // m^2/s: r x v
     mat3 spread;   // m^2: r r^T
 };
-
-// A velocity at the origin, m/s, and an angular velocity, rad/s.
-struct RigidMotion
-{
-    vec3 velocity;
-    vec3 angular_velocity;
-};
-
-vec3 velocity_at(RigidMotion motion, vec3 r) { return motion.velocity + cross(motion.angular_velocity, r); }
 
 // The motion of a rigid body with the same momentum and angular momentum.
 RigidMotion rigid_motion(MeanMotion of)

@@ -62,7 +62,7 @@ void turn_with(MovingFrame frame, ClockMotion clock, FinePosition from, float in
     hold.swept = turned(turn, hold.swept + back - added_by(before, sweep_from + clock.carried));
     hold.carried += back + added_by(turn, r + back) + time * (added + added_by(turn, clock.mean + added));
     hold.carry += added_by(turn, turned(before, clock.last)) + added_by(before, clock.last) +
-                  cross(frame.angular_velocity, turned(turn_in(frame, integrated), r + back));
+                  cross(frame.motion.angular_velocity, turned(turn_in(frame, integrated), r + back));
     hold.left = turned(turn, turned(before, hold.left));
     hold.bound.sweep.sweep = turned(turn, turned(before, sweep.sweep));
     for (uint k = 0; k < 2; ++k)
@@ -96,10 +96,10 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
     const vec3 last = rate * (velocity + now * gravity);
     const vec3 carried = clock * velocity + pair_islands[cloth].fall * gravity;
     const float made = pair_islands[cloth].time; // s, from then on to the last pass
-    hold.carry = last + frame.velocity;
-    hold.carried = (pair_to() - pair_from()) * (mean + frame.velocity);
-    hold.at -= pair_from() * (mean + frame.velocity);
-    hold.swept -= carried + made * frame.velocity + pair_from() * (mean + frame.velocity);
+    hold.carry = last + frame.motion.velocity;
+    hold.carried = (pair_to() - pair_from()) * (mean + frame.motion.velocity);
+    hold.at -= pair_from() * (mean + frame.motion.velocity);
+    hold.swept -= carried + made * frame.motion.velocity + pair_from() * (mean + frame.motion.velocity);
     const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
     hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);
     if (is_turning(frame))

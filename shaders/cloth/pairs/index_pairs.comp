@@ -40,6 +40,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
 #include "pairs/fan.glsl"
+#include "pairs/isolated.glsl"
 #include "pairs/mean_velocity.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
@@ -207,7 +208,7 @@ void main()
             pair_masks[mask_place(fan, k, push.vertices)] = mask;
             references += bitCount(mask);
         }
-        if (fan.columns == 0 && fan.wedges == 0)
+        if (is_isolated(self))
             reach = k_unbounded; // nothing hangs on a vertex without triangles
         const uint listed = references == 0 ? 0 : crowded ? VOILE_PAIR_CROWDED_LIST : 1;
         bound(i, self.cloth, reach - k_unlisted_floor * cloths[self.cloth].pair_thickness, listed);

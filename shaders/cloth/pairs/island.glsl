@@ -4,15 +4,15 @@
 #ifndef VOILE_ISLAND_GLSL
 #define VOILE_ISLAND_GLSL
 
+#include "pairs/rigid_motion.glsl"
 #include "shared/fine_position.glsl"
 #include "shared/turn.glsl"
 
 // The frame of an island, while lists are made and used.
 struct MovingFrame
 {
-    vec3 velocity;         // m/s, of its origin
-    vec3 angular_velocity; // rad/s
-    vec3 origin;           // m, when lists were made
+    RigidMotion motion;
+    vec3 origin; // m, when lists were made
 };
 
 // The island of a cloth: its first cloth.
@@ -24,34 +24,32 @@ MovingFrame frame_of(uint cloth)
     MovingFrame frame;
     for (uint k = 0; k < 3; ++k)
     {
-        frame.velocity[k] = pair_islands[cloth].frame[k];
-        frame.angular_velocity[k] = pair_islands[cloth].frame_turn[k];
+        frame.motion.velocity[k] = pair_islands[cloth].frame[k];
+        frame.motion.angular_velocity[k] = pair_islands[cloth].frame_turn[k];
         frame.origin[k] = pair_islands[cloth].frame_origin[k];
     }
     return frame;
 }
 
-bool is_turning(MovingFrame frame) { return frame.angular_velocity != vec3(0); }
+bool is_turning(MovingFrame frame) { return frame.motion.angular_velocity != vec3(0); }
 
-bool is_moving(MovingFrame frame) { return frame.velocity != vec3(0) || is_turning(frame); }
+bool is_moving(MovingFrame frame) { return frame.motion.velocity != vec3(0) || is_turning(frame); }
 
 // m, from the origin, `time` s after lists were made.
 vec3 from_origin(MovingFrame frame, FinePosition x, float time)
 {
-    return displacement(FinePosition(frame.origin, vec3(0)), x) - time * frame.velocity;
+    return displacement(FinePosition(frame.origin, vec3(0)), x) - time * frame.motion.velocity;
 }
 
-// m/s: of the frame, `r` from its origin.
-vec3 velocity_at(MovingFrame frame, vec3 r) { return frame.velocity + cross(frame.angular_velocity, r); }
-
+// m/s: of the frame at `x`, `time` s after lists were made.
 vec3 velocity_at(MovingFrame frame, vec3 x, float time)
 {
     if (!is_turning(frame))
-        return frame.velocity;
-    return velocity_at(frame, from_origin(frame, FinePosition(x, vec3(0)), time));
+        return frame.motion.velocity;
+    return velocity_at(frame.motion, from_origin(frame, FinePosition(x, vec3(0)), time));
 }
 
 // Its rotation in `time` s.
-vec3 turn_in(MovingFrame frame, float time) { return turn_of(time * frame.angular_velocity); }
+vec3 turn_in(MovingFrame frame, float time) { return turn_of(time * frame.motion.angular_velocity); }
 
 #endif

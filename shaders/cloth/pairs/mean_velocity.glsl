@@ -16,28 +16,17 @@ vec3 velocity_at_pass(vec3 velocity, uint cloth_flags)
 }
 
 // m/s or m: of sums over vertices.
-vec3 mean_of(ivec3 momentum, uint mass)
+vec3 mean_of(int sum[3], uint mass)
 {
-    return vec3(momentum) * (VOILE_PAIR_UNIT_SPEED / VOILE_PAIR_UNIT_MASS / float(max(mass, 1)));
-}
-
-ivec3 momentum_of(uint island)
-{
-    return ivec3(pair_islands[island].momentum[0], pair_islands[island].momentum[1], pair_islands[island].momentum[2]);
-}
-
-// m, of those vertices, from the origin of the frame.
-vec3 mean_position(uint island)
-{
-    const ivec3 moment =
-        ivec3(pair_islands[island].moment[0], pair_islands[island].moment[1], pair_islands[island].moment[2]);
-    return mean_of(moment, pair_islands[island].mass);
+    return vec3(sum[0], sum[1], sum[2]) * (VOILE_PAIR_UNIT_SPEED / VOILE_PAIR_UNIT_MASS / float(max(mass, 1)));
 }
 
 // m/s, in the frame of the island.
 vec3 mean_velocity(uint island)
 {
-    return mean_of(momentum_of(island), pair_islands[island].mass) - velocity_at(frame_of(island), mean_position(island));
+    const uint mass = pair_islands[island].mass;
+    const vec3 position = mean_of(pair_islands[island].moment, mass); // from the origin of the frame
+    return mean_of(pair_islands[island].momentum, mass) - velocity_at(frame_of(island).motion, position);
 }
 
 #endif

@@ -106,7 +106,7 @@ Frame frame_at(uint first, uint cloth)
     const float time = time_at_pass(cloth);
     const FinePosition origin = FinePosition(positions[first].xyz, unpack_residual(residuals[first]));
     return Frame(origin, pair_carries[first], free_fall_until_next(cloth), velocity_at(frame, origin.x, time),
-                 frame.angular_velocity, turn_in(frame, time));
+                 frame.motion.angular_velocity, turn_in(frame, time));
 }
 
 void read_vertex(uint i, uint k, Frame frame, inout Vertices vertices)

@@ -64,10 +64,7 @@ struct ClothMotion
 
 ClothMotion motion_of(uint cloth)
 {
-    float sums[VOILE_FRAME_SUMS];
-    for (uint k = VOILE_FRAME_RESTRAINTS; k < VOILE_FRAME_SUMS; ++k)
-        sums[k] = frame_sum(pair_islands[cloth].frame_sums.low[k], pair_islands[cloth].frame_sums.high[k], k);
-    const MeanMotion mean = mean_motion(sums, pair_islands[cloth].vertices);
+    const MeanMotion mean = mean_motion(sums_of(pair_islands[cloth].frame_sums), pair_islands[cloth].vertices);
     const RigidMotion motion = rigid_motion(mean);
     return ClothMotion(motion, origin_of(cloth), push.cloths > 1 || is_worth_lists(mean_square(mean, motion)));
 }

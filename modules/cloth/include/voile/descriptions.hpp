@@ -85,17 +85,16 @@ struct GridCloth
     // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
     // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders and
     // anchors it is relative to the rigid motion that fits theirs best, and the cloth's in directions in which they do
-    // not hold it.
-    // A vertex that this stops keeps its velocity, and hands it on to what it has met. While colliders or anchors move,
-    // where lists of pairs are full, and beside pins, that velocity is lost with its momentum. The mean is that of an
-    // island: the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when near pairs are
-    // searched. Cloth in free flight falls freely, in any shape and at any speed, as long as its island flies together.
-    // That holds even if layers start very near each other, or touch. A closed sphere of 38 vertices along a seam that
-    // is not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness lost 0.06 m/s or a
-    // little more while they parted. Layers that start nearer than a fiftieth of the thickness do not part. Parts of a
-    // mesh that touch at the start, as along a seam that is not merged, do not collide with each other there. Neither
-    // does cloth that pins hold at one point, nor cloth that is within 1e-7 m of other cloth, or within 1e-7 of its
-    // coordinates: these count as forced.
+    // not hold it. A vertex that this stops keeps its velocity, and hands it on to what it has met. While colliders or
+    // anchors move, where lists of pairs are full, and beside pins, that velocity is lost with its momentum. The mean
+    // is that of an island: the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when
+    // near pairs are searched. Cloth in free flight falls freely, in any shape and at any speed, as long as its island
+    // flies together. That holds even if layers start very near each other, or touch. A closed sphere of 38 vertices
+    // along a seam that is not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness
+    // lost 0.06 m/s or a little more while they parted. Layers that start nearer than a fiftieth of the thickness do
+    // not part. Parts of a mesh that touch at the start, as along a seam that is not merged, do not collide with each
+    // other there. Neither does cloth that pins hold at one point, nor cloth that is within 1e-7 m of other cloth, or
+    // within 1e-7 of its coordinates: these count as forced.
     //
     // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
     // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at
