@@ -115,10 +115,11 @@ Cloths add_verlet_sheet(voile::Solver& solver)
     return {voile::engine::take(solver.add_cloth(grid))};
 }
 
-// The sheet as a triangle mesh, with the diagonals of the solver's grids.
-voile::ClothId add_mesh_sheet(voile::Solver& solver, uint32_t side, bool shuffled, voile::BendingModel bending)
+// The sheet as a triangle mesh, with the diagonals of the solver's grids, and its material and integrator.
+voile::ClothId add_mesh_sheet(voile::Solver& solver, const voile::GridCloth& grid, bool shuffled,
+                              voile::BendingModel bending)
 {
-    const voile::GridCloth grid = drape_grid(side);
+    const uint32_t side = grid.columns;
     std::vector<uint32_t> order(size_t{side} * side);
     std::iota(order.begin(), order.end(), 0u);
     if (shuffled) // files may have their vertices in any order
@@ -143,14 +144,25 @@ voile::ClothId add_mesh_sheet(voile::Solver& solver, uint32_t side, bool shuffle
     voile::Fabric fabric = std::get<voile::Fabric>(grid.material);
     fabric.bending_model = bending;
     mesh.material = fabric;
+    mesh.integrator = grid.integrator;
+    mesh.self_collision = grid.self_collision;
     return voile::engine::take(solver.add_cloth(mesh));
 }
 
 template <uint32_t side, bool shuffled, bool isometric>
 Cloths add_mesh_sheet(voile::Solver& solver)
 {
-    return {add_mesh_sheet(solver, side, shuffled,
+    return {add_mesh_sheet(solver, drape_grid(side), shuffled,
                            isometric ? voile::BendingModel::isometric : voile::BendingModel::springs)};
+}
+
+template <uint32_t side, bool shuffled>
+Cloths add_self_mesh_sheet(voile::Solver& solver)
+{
+    voile::GridCloth grid = drape_grid(side);
+    grid.integrator = voile::Integrator::verlet;
+    grid.self_collision = true;
+    return {add_mesh_sheet(solver, grid, shuffled, voile::BendingModel::springs)};
 }
 
 // The sheet of 128 x 128 with one additional feature, to measure the feature's cost.
@@ -310,6 +322,10 @@ constexpr Case k_cases[] = {
      0, 0, true},
     {"flat-self-512", "the same, which collides with itself, after a fall of 0.5 s", add_verlet_sheet<512, true>,
      k_nearest, k_fallen_frames, false, k_interleaved, 0, 0, true},
+    {"flat-self-mesh", "the sheet of flat-self as a mesh of triangles", add_self_mesh_sheet<128, false>, k_nearest,
+     k_fallen_frames, false, k_interleaved, 0, 0, true, 12},
+    {"flat-self-shuffled", "its vertices in random order", add_self_mesh_sheet<128, true>, k_nearest, k_fallen_frames,
+     false, k_interleaved, 0, 0, true, 12},
     {"verlet-1024", "1024 x 1024 with velocity Verlet", add_verlet_sheet<1024, false>, k_nearest, 0, false,
      k_interleaved, 0, 0, true},
     {"isometric-128", "isometric bending instead of springs", add_changed_sheet<bend_isometrically>},

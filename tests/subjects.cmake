@@ -3,7 +3,7 @@ add_dependencies(test_samples async_compute batch foreign_engine hello_cloth own
 voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_save_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp geometry/test_self_intersection.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
+voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_fans.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
                                   colliders/test_cooked_collider.cpp
                LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_sleep SOURCES solver/test_sleep.cpp solver/test_wake.cpp solver/test_awake_patches.cpp pairs/test_sleeping_islands.cpp LIBRARIES voile::cloth_internal voile::engine)

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 // Lists the pairs of near primitives of all cloths that collide with themselves and each other. A vertex searches for
-// all primitives that it owns (fan.glsl) at once, among those of its candidates that may be near (sift_candidates.comp).
+// all primitives that it owns (wedges.glsl) at once, among those of its candidates that may be near (sift_candidates.comp).
 // push.lanes neighboring threads share a search: VOILE_PAIR_WEDGE_LANES of them take a candidate, each some of its wedges.
 //
 // Vertices move along sweeps. A pair is listed if the distance of its sweeps is at most the range of the owner. A thread
@@ -15,8 +15,8 @@
 layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
-layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(mesh_fans)) readonly buffer MeshFans { MeshFan mesh_fans[]; };
+layout(VOILE_BINDING(mesh_wedges)) readonly buffer MeshWedges { MeshWedge mesh_wedges[]; };
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
 layout(VOILE_BINDING(pair_midpoints)) readonly buffer PairMidpoints { vec4 midpoints[]; };
 layout(VOILE_BINDING(pair_carries)) readonly buffer PairCarries { uint pair_carries[]; };

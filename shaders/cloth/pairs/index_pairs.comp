@@ -13,7 +13,8 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(mesh_fans)) readonly buffer MeshFans { MeshFan mesh_fans[]; };
+layout(VOILE_BINDING(mesh_owners)) readonly buffer MeshOwners { uint mesh_owners[]; };
 layout(VOILE_BINDING(start)) readonly buffer Start { vec4 start[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
@@ -39,9 +40,9 @@ layout(VOILE_BINDING(pair_bounds)) buffer PairBounds
 layout(push_constant, std430) uniform Push { PairPush push; };
 
 #include "shared/patch.glsl"
-#include "pairs/fan.glsl"
 #include "pairs/isolated.glsl"
 #include "pairs/mean_velocity.glsl"
+#include "pairs/owners.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/pair_masks.glsl"
 #include "pairs/pair_pass.glsl"

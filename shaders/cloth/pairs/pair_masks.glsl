@@ -1,4 +1,4 @@
-// The pairs that a vertex is in: one mask per owner of primitives around it (fan.glsl), with one bit per place of the
+// The pairs that a vertex is in: one mask per owner of primitives around it (owners.glsl), with one bit per place of the
 // owner's list.
 #ifndef VOILE_PAIR_MASKS_GLSL
 #define VOILE_PAIR_MASKS_GLSL
@@ -11,7 +11,7 @@ uint mask_place(Fan fan, uint k, uint vertices)
 {
     if (fan.columns > 0 || k == 0)
         return 4 * fan.center + k;
-    return 4 * vertices + 2 * (fan.lists.first_corner + (k - 1) / 2 * MESH_STRIDE) + ((k - 1) & 1u);
+    return 4 * vertices + fan.mesh.first_owner + k - 1;
 }
 
 #endif

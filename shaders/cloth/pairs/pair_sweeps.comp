@@ -13,6 +13,7 @@ layout(local_size_x_id = k_constant_workgroup_size) in;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
+layout(VOILE_BINDING(mesh_fans)) readonly buffer MeshFans { MeshFan mesh_fans[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 layout(VOILE_BINDING(stage_positions)) readonly buffer StagePositions { vec4 positions[]; };
 layout(VOILE_BINDING(stage_velocities)) readonly buffer StageVelocities { vec4 velocities[]; };
@@ -40,6 +41,11 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
 #include "pairs/sweep.glsl"
+#include "shared/mesh.glsl"
+
+MeshVertex lists_of(uint cloth, Fan fan) { return mesh_vertices[cloths[cloth].first_list + fan.local]; }
+
+MeshCorner corner_of(MeshVertex lists, uint k) { return mesh_corners[lists.first_corner + k * MESH_STRIDE]; }
 
 vec3 grid_normal(Fan fan)
 {
@@ -52,14 +58,14 @@ vec3 grid_normal(Fan fan)
     return cross(along, down);
 }
 
-vec3 mesh_normal(Fan fan)
+vec3 mesh_normal(Fan fan, MeshVertex lists)
 {
     const uint first = fan.center - fan.local;
     const vec3 x = positions[fan.center].xyz;
     vec3 sum = vec3(0);
-    for (uint k = 0; k < fan.wedges; ++k)
+    for (uint k = 0; k < lists.corners; ++k)
     {
-        const MeshCorner corner = fan_corner(fan, k);
+        const MeshCorner corner = corner_of(lists, k);
         sum += cross(positions[first + corner.b].xyz - x, positions[first + corner.c].xyz - x);
     }
     return sum;
@@ -81,12 +87,12 @@ float grid_clearance(Fan fan)
     return clear / count;
 }
 
-float mesh_clearance(Fan fan)
+float mesh_clearance(Fan fan, MeshVertex lists)
 {
     float clear = pair_flats[fan.center].x;
-    for (uint k = 0; k < fan.wedges; ++k)
-        clear += pair_flats[fan.center - fan.local + fan_corner(fan, k).b].x;
-    return clear / float(1 + fan.wedges);
+    for (uint k = 0; k < lists.corners; ++k)
+        clear += pair_flats[fan.center - fan.local + corner_of(lists, k).b].x;
+    return clear / float(1 + lists.corners);
 }
 
 // The part of the mean velocity, and of gravity if it is all.
@@ -94,13 +100,13 @@ float clearance(uint i, uint cloth, Fan fan)
 {
     if (positions[i].w == 0 || is_clock_stopped(cloth))
         return 0;
-    return fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan);
+    return fan.columns > 0 ? grid_clearance(fan) : mesh_clearance(fan, lists_of(cloth, fan));
 }
 
 // `v`: m/s, relative to what carries the vertex.
 vec3 sweep_of(Fan fan, uint cloth, vec3 v)
 {
-    const vec3 normal = fan.columns > 0 ? grid_normal(fan) : mesh_normal(fan);
+    const vec3 normal = fan.columns > 0 ? grid_normal(fan) : mesh_normal(fan, lists_of(cloth, fan));
     const vec3 n = normal / max(length(normal), 1e-30);
     const float along = length(v - dot(v, n) * n);
     return v * min(VOILE_PAIR_SWEEP_TIME, min(cloths[cloth].pair_sweep / max(length(v), 1e-30),

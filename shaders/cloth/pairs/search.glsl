@@ -1,15 +1,15 @@
 // Which primitives that two vertices own are near each other: those of the vertex that searches, and of a candidate.
 //
-// The including kernel declares cloths[], mesh_vertices[], mesh_corners[], midpoints[], pair_carries[] and defines
+// The including kernel declares cloths[], mesh_fans[], mesh_wedges[], midpoints[], pair_carries[] and defines
 // insert() and goes_on().
 #ifndef VOILE_SEARCH_GLSL
 #define VOILE_SEARCH_GLSL
 
 #include "contact/rounding.glsl"
 #include "shared/box.glsl"
-#include "pairs/fan.glsl"
 #include "pairs/node.glsl"
 #include "pairs/pair.glsl"
+#include "pairs/wedges.glsl"
 
 // A wedge with its vertices, as the search sees them. A spoke that the fan does not own repeats the center.
 struct Piece

@@ -49,6 +49,9 @@ VOILE_BUFFER(2, mesh_vertices, MeshVertex, mesh_vertices, "the offsets and lengt
 VOILE_BUFFER(3, mesh_springs, MeshSpring, springs, "springs of mesh vertices; the lists of a workgroup are interleaved")
 VOILE_BUFFER(4, mesh_corners, MeshCorner, corners, "triangles around mesh vertices, interleaved like springs")
 VOILE_BUFFER(5, membrane_corners, MembraneCorner, corners, "the same triangles at rest, in warp and weft coordinates")
+VOILE_BUFFER(98, mesh_fans, MeshFan, fans, "the wedges of the vertices of meshes that collide with themselves, and the owners around them")
+VOILE_BUFFER(99, mesh_wedges, MeshWedge, wedges, "the triangles and edges that these vertices own")
+VOILE_BUFFER(100, mesh_owners, uint, owners, "vertices that own primitives around them")
 VOILE_BUFFER(6, start, vec4, vertices, "start position, and the inverse of the area or mass scale that the density multiplies")
 VOILE_BUFFER(7, start_residuals, uvec2, vertices, "residual of the start position")
 VOILE_BUFFER(8, normals, vec4, vertices, "unit normal and 0; the host draws from it")
@@ -151,7 +154,7 @@ VOILE_SCRATCH_BUFFER(66, pair_entries, uint, pair_vertices * VOILE_PAIRS, "the p
 VOILE_SCRATCH_BUFFER(67, pair_responses, PairResponse, pair_vertices * VOILE_PAIRS, "what each listed pair does in a pass")
 VOILE_SCRATCH_BUFFER(68, pair_loads, uint, 2 * pair_vertices, "the sums of the weights of a vertex in the pairs that are pushed, of even and of odd passes")
 VOILE_SCRATCH_BUFFER(69, paired_vertices, uvec4, pair_vertices, "the vertices in pairs: vertex, cloth, first reference, number of references; in no order")
-VOILE_SCRATCH_BUFFER(70, pair_masks, uint, pair_vertices == 0 ? 0 : 4 * pair_vertices + 2 * corners, "the pairs that each vertex is in, in the lists of the owners around it; during a search the vertices that search")
+VOILE_SCRATCH_BUFFER(70, pair_masks, uint, pair_vertices == 0 ? 0 : 4 * pair_vertices + owners, "the pairs that each vertex is in, in the lists of the owners around it; during a search the vertices that search")
 
 VOILE_SCRATCH_BUFFER(93, tangles, Tangle, pair_vertices, "the pairs around a vertex that intersect at the step's start, and the direction out of it")
 

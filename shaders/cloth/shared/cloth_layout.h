@@ -90,7 +90,8 @@ struct ClothRecord
     vec3 bending;
     float bending_time; // s; the bending force depends on x + bending_time * v
     float pair_mass;    // kg, of its heaviest vertex
-    uint padding[3];
+    uint first_fan;     // of a mesh that collides with itself: its first MeshFan
+    uint padding[2];
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 
@@ -116,6 +117,26 @@ struct MeshSpring
 
 // A triangle around a vertex: its other two corners, counter-clockwise, counted within the cloth.
 struct MeshCorner
+{
+    uint b;
+    uint c;
+};
+
+// Of a mesh vertex: its wedges, and the owners of primitives around it (pairs/fan.glsl), each from the first one on.
+struct MeshFan
+{
+    uint first_wedge;
+    uint wedges;
+    uint first_owner;
+    uint owners;
+};
+
+// In MeshWedge: the vertex owns the edge to b, or to c.
+#define VOILE_SPOKE_BIT 0x80000000u
+
+// A triangle that a vertex owns, with its other two corners counted within the cloth, or an edge: b == c. A vertex that
+// owns neither has one wedge without spokes: it can meet triangles itself.
+struct MeshWedge
 {
     uint b;
     uint c;
@@ -164,6 +185,8 @@ static_assert(offsetof(ClothRecord, springs) == 144);
 static_assert(sizeof(MeshVertex) == 16);
 static_assert(sizeof(MeshSpring) == 16);
 static_assert(sizeof(MeshCorner) == 8);
+static_assert(sizeof(MeshFan) == 16);
+static_assert(sizeof(MeshWedge) == 8);
 static_assert(sizeof(MembraneCorner) == 24);
 static_assert(sizeof(Patch) == 32);
 #endif

@@ -183,21 +183,44 @@ Result<ClothId> Model::add(const MeshCloth& description)
     cloth.lists = uploaded_lists(cloth.mesh);
     cloth.record.layers = description.layers;
     cloth.self_collision = description.self_collision;
+    if (cloth.self_collision)
+        cloth.fans = uploaded_fans(cloth.mesh);
     return append(std::move(cloth), input_of(description), shape.value().world);
 }
 
+namespace
+{
+
+// What `make` makes of a mesh, if nothing of it exists yet.
+template <typename T, typename Make>
+std::shared_ptr<const T> kept_or_made(std::unordered_map<const MeshTopology*, std::weak_ptr<const T>>& kept,
+                                      const std::shared_ptr<const MeshTopology>& mesh, const Make& make)
+{
+    // Who holds what is made of a mesh holds the mesh, so that no other mesh has its address while it exists.
+    if (auto made = kept[mesh.get()].lock())
+        return made;
+    std::erase_if(kept, [&](const auto& entry) { return entry.first != mesh.get() && entry.second.expired(); });
+    const std::shared_ptr<const T> made = make();
+    kept[mesh.get()] = made;
+    return made;
+}
+
+} // namespace
+
 std::shared_ptr<const MeshLists> Model::uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh)
 {
-    // Who holds the lists of a mesh holds the mesh, so that no other mesh has its address while they exist.
-    std::weak_ptr<const MeshLists>& kept = lists_of_[mesh.get()];
-    if (auto made = kept.lock())
-        return made;
-    std::erase_if(lists_of_, [&](const auto& entry) { return entry.first != mesh.get() && entry.second.expired(); });
-    std::shared_ptr<const MeshLists> made(mesh, &mesh->lists);
-    if (interleaved)
-        made = std::make_shared<const MeshLists>(interleave(mesh->lists, limits.workgroup_size));
-    lists_of_[mesh.get()] = made;
-    return made;
+    return kept_or_made(lists_of_, mesh,
+                        [&]
+                        {
+                            if (!interleaved)
+                                return std::shared_ptr<const MeshLists>(mesh, &mesh->lists);
+                            return std::make_shared<const MeshLists>(interleave(mesh->lists, limits.workgroup_size));
+                        });
+}
+
+std::shared_ptr<const MeshFans> Model::uploaded_fans(const std::shared_ptr<const MeshTopology>& mesh)
+{
+    return kept_or_made(fans_of_, mesh, [&] { return std::make_shared<const MeshFans>(make_mesh_fans(mesh->lists)); });
 }
 
 } // namespace voile

@@ -75,6 +75,13 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
             lists.acquire(cloth.lists, {mesh.vertices.size(), mesh.springs.size(), mesh.corners.size()});
         record.first_list = static_cast<uint32_t>(placement.first[k_list_vertices]);
     }
+    if (cloth.fans)
+    {
+        const MeshFans& mesh = *cloth.fans;
+        const auto& placement =
+            fans.acquire(cloth.fans, {mesh.vertices.size(), mesh.wedges.size(), mesh.owners.size()});
+        record.first_fan = static_cast<uint32_t>(placement.first[k_fan_vertices]);
+    }
     if (indices)
         cloth.first_triangle = triangles.allocate(count_triangles(cloth));
     record.sleep_speed = input.sleep_speed;
@@ -91,6 +98,7 @@ void Model::remove(ClothId id)
     const ClothModel& cloth = *cloths.find(id);
     vertices.release(cloth.record.first_vertex, cloth.record.vertices);
     lists.release(cloth.lists.get());
+    fans.release(cloth.fans.get());
     trees.remove(cloth);
     if (indices)
         triangles.release(cloth.first_triangle, count_triangles(cloth));

@@ -32,6 +32,15 @@ enum ListArray : size_t
     k_list_arrays
 };
 
+// Those of MeshFans.
+enum FanArray : size_t
+{
+    k_fan_vertices,
+    k_fan_wedges,
+    k_fan_owners,
+    k_fan_arrays
+};
+
 // All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays, and ranges of the solver's
 // buffers for them.
 struct Model
@@ -40,6 +49,7 @@ struct Model
     Slots<AnchorId, Anchor> anchors; // the first is the world
     RangeAllocator vertices;
     SharedRanges<MeshLists, k_list_arrays> lists;
+    SharedRanges<MeshFans, k_fan_arrays> fans;
     RangeAllocator triangles; // of cloths, in the index buffer
     bool indices = false;     // there is one: OutputOptions::indices
     ClothTrees trees;
@@ -58,11 +68,13 @@ struct Model
     void remove(ClothId cloth);
 
 private:
-    // A mesh's lists as this solver uploads them; instances share them.
+    // A mesh's lists and fans as this solver uploads them; instances share them.
     std::shared_ptr<const MeshLists> uploaded_lists(const std::shared_ptr<const MeshTopology>& mesh);
+    std::shared_ptr<const MeshFans> uploaded_fans(const std::shared_ptr<const MeshTopology>& mesh);
     Result<ClothId> append(ClothModel cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions);
 
     std::unordered_map<const MeshTopology*, std::weak_ptr<const MeshLists>> lists_of_;
+    std::unordered_map<const MeshTopology*, std::weak_ptr<const MeshFans>> fans_of_;
 };
 
 // Errors: an anchor that add_anchor did not give.

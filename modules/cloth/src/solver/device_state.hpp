@@ -41,6 +41,9 @@ struct BufferCounts
     uint64_t mesh_vertices = 0;
     uint64_t springs = 0;
     uint64_t corners = 0;
+    uint64_t fans = 0;
+    uint64_t wedges = 0;
+    uint64_t owners = 0;
     uint64_t colliders = 0;
     uint64_t nodes = 0;
     uint64_t triangles = 0;

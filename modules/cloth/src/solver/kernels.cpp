@@ -106,12 +106,12 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     add(kernels.pair_clear, "cloth pair clear", shaders::k_pair_clear_comp, plain);
     add(kernels.find_islands, "cloth find islands", shaders::k_find_islands_comp, plain);
     add(kernels.pair_sweeps, "cloth pair sweeps", shaders::k_pair_sweeps_comp, with_lists);
-    add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, with_lists);
-    add(kernels.find_candidates, "cloth find candidates", shaders::k_find_candidates_comp, with_lists);
-    add(kernels.sift_candidates, "cloth sift candidates", shaders::k_sift_candidates_comp, with_lists);
-    add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, with_lists);
+    add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, plain);
+    add(kernels.find_candidates, "cloth find candidates", shaders::k_find_candidates_comp, plain);
+    add(kernels.sift_candidates, "cloth sift candidates", shaders::k_sift_candidates_comp, plain);
+    add(kernels.find_pairs, "cloth find pairs", shaders::k_find_pairs_comp, plain);
     add(kernels.match_pairs, "cloth match pairs", shaders::k_match_pairs_comp, plain);
-    add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, with_lists);
+    add(kernels.index_pairs, "cloth index pairs", shaders::k_index_pairs_comp, plain);
     add(kernels.meet_pairs, "cloth meet pairs", shaders::k_meet_pairs_comp, plain);
     add(kernels.respond_to_pairs, "cloth respond to pairs", shaders::k_respond_to_pairs_comp, plain);
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);

@@ -68,6 +68,21 @@ void stage_lists(Staging& staging, const SharedRanges<MeshLists, k_list_arrays>:
     staging.add(buffer::membrane_corners, placement.first[k_list_corners], lists.membrane);
 }
 
+// The fans of a mesh. Vertices count theirs from the first entries of all meshes.
+void stage_fans(Staging& staging, const SharedRanges<MeshFans, k_fan_arrays>::Placement& placement)
+{
+    const MeshFans& fans = *placement.owner;
+    std::vector<shared::MeshFan> vertices(fans.vertices.begin(), fans.vertices.end());
+    for (shared::MeshFan& fan : vertices)
+    {
+        fan.first_wedge += static_cast<uint32_t>(placement.first[k_fan_wedges]);
+        fan.first_owner += static_cast<uint32_t>(placement.first[k_fan_owners]);
+    }
+    staging.add_copy(buffer::mesh_fans, placement.first[k_fan_vertices], vertices);
+    staging.add(buffer::mesh_wedges, placement.first[k_fan_wedges], fans.wedges);
+    staging.add(buffer::mesh_owners, placement.first[k_fan_owners], fans.owners);
+}
+
 void stage_collider(Staging& staging, const ColliderModel& collider, uint32_t index)
 {
     staging.add_copy(buffer::colliders, index, std::vector{shown_record(collider)});
@@ -157,6 +172,7 @@ Staging stage_new(Solver::State& solver)
     staging.add_copy(buffer::pair_order, 0, pair_order(solver.model));
     staging.add_copy(buffer::deforming_reach, 0, std::vector<uint32_t>{0});
     solver.model.lists.for_each_new([&](const auto& placement) { stage_lists(staging, placement); });
+    solver.model.fans.for_each_new([&](const auto& placement) { stage_fans(staging, placement); });
     for (auto [index, collider] : models.colliders)
     {
         const shared::ColliderRecord before = collider.record;
@@ -228,6 +244,9 @@ BufferCounts count_entries(const Solver::State& solver)
             .mesh_vertices = model.lists.end(k_list_vertices),
             .springs = model.lists.end(k_list_springs),
             .corners = model.lists.end(k_list_corners),
+            .fans = model.fans.end(k_fan_vertices),
+            .wedges = model.fans.end(k_fan_wedges),
+            .owners = model.fans.end(k_fan_owners),
             .colliders = models.colliders.size(),
             .nodes = models.hierarchies.end(k_hierarchy_nodes),
             .triangles = models.hierarchies.end(k_hierarchy_triangles),
@@ -286,6 +305,7 @@ void mark_uploaded(Solver::State& solver)
         collider.features_new = false;
     }
     solver.model.lists.mark_uploaded();
+    solver.model.fans.mark_uploaded();
     solver.model.trees.mark_uploaded();
     solver.collider_models.hierarchies.mark_uploaded();
     solver.collider_models.features.mark_uploaded();
