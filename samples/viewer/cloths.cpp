@@ -143,7 +143,12 @@ voile::Result<voile::Attachment> follow(const PinContext& context, const PinEntr
 voile::Result<void> add_pins(const PinContext& context, const ClothEntry& entry)
 {
     auto& [solver, scene, solids, start, added] = context;
-    std::map<uint32_t, voile::Attachment> attached;
+    struct Pinned
+    {
+        voile::Attachment attachment;
+        const PinEntry* pin;
+    };
+    std::map<uint32_t, Pinned> attached;
     for (const PinEntry& pin : entry.pins)
     {
         std::optional<voile::AnchorId> anchor;
@@ -178,19 +183,26 @@ voile::Result<void> add_pins(const PinContext& context, const ClothEntry& entry)
                 const auto attachment = follow(context, pin, *followed, vertex);
                 if (!attachment)
                     return attachment.error();
-                attached[vertex] = attachment.value();
+                attached[vertex] = {attachment.value(), &pin};
                 continue;
             }
             voile::Attachment attachment = make_attachment(pin, vertex);
             if (anchor) // relative to the anchor, which is at its pose of time 0
                 attachment = attachment.to(*anchor).at(
                     glm::vec3(glm::inverse(matrix(*pin.motion, 0)) * glm::vec4(start.surface.positions[vertex], 1)));
-            attached[vertex] = attachment;
+            attached[vertex] = {attachment, &pin};
         }
     }
     std::vector<voile::Attachment> attachments;
-    for (const auto& [vertex, attachment] : attached)
-        attachments.push_back(attachment);
+    std::map<const PinEntry*, std::vector<uint32_t>> vertices;
+    for (const auto& [vertex, pinned] : attached)
+    {
+        attachments.push_back(pinned.attachment);
+        vertices[pinned.pin].push_back(vertex);
+    }
+    for (const PinEntry& pin : entry.pins)
+        if (pin.release_at > 0)
+            added.released_pins.push_back({added.id, vertices[&pin], static_cast<double>(pin.release_at), pin.location});
     if (auto set = solver.set_attachments(added.id, attachments); !set)
         return error_at(scene, entry.location, set.error().message);
     if (!entry.tethers)

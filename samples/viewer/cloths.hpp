@@ -29,12 +29,22 @@ struct FollowingPin
     Location location;    // of the pin, in the scene file
 };
 
+// Pinned vertices of a cloth that are let go at the same time.
+struct ReleasedPins
+{
+    voile::ClothId cloth;
+    std::vector<uint32_t> vertices;
+    double at = 0;     // s
+    Location location; // of the pin, in the scene file
+};
+
 struct AddedCloth
 {
     voile::ClothId id;
     Surface surface; // before the first step, without normals
     std::vector<MovingPin> moving_pins;
     std::vector<FollowingPin> following_pins;
+    std::vector<ReleasedPins> released_pins;
 };
 
 // Reads the mesh, if it has one, and adds the cloth with its pins and tethers. Irregularities of a mesh go to

@@ -68,6 +68,14 @@ void Motions::follow(const FollowingPin& pin)
     expect(solver_.move_anchor(pin.anchor, pose(pin.solid) * frame), pin.location, ".follow");
 }
 
+void Motions::release(const ReleasedPins& pins)
+{
+    std::vector<voile::Attachment> attachments = solver_.attachments(pins.cloth);
+    std::erase_if(attachments, [&](const voile::Attachment& attachment)
+                  { return std::ranges::find(pins.vertices, attachment.vertex) != pins.vertices.end(); });
+    expect(solver_.set_attachments(pins.cloth, attachments), pins.location, ".release_at");
+}
+
 void Motions::update(const voile::engine::FrameInfo& frame)
 {
     if (!frame.simulates)
@@ -86,6 +94,11 @@ void Motions::update(const voile::engine::FrameInfo& frame)
         deform(solid, frame);
     for (const FollowingPin& pin : following)
         follow(pin);
+    constexpr double k_rounding = 1e-9; // s, of the frame's time
+    for (const ReleasedPins& pins : releases)
+        if (frame.time + k_rounding >= pins.at)
+            release(pins);
+    std::erase_if(releases, [&](const ReleasedPins& pins) { return frame.time + k_rounding >= pins.at; });
 }
 
 } // namespace viewer

@@ -54,6 +54,7 @@ public:
 
     std::vector<MovingPin> pins;
     std::vector<FollowingPin> following;
+    std::vector<ReleasedPins> releases;
     std::vector<MovingSolid> solids;       // by their numbers, ascending
     std::vector<DeformingSolid> deforming; // by their numbers, ascending
 
@@ -66,6 +67,7 @@ public:
 
 private:
     void follow(const FollowingPin& pin);
+    void release(const ReleasedPins& pins);
     void deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame);
     // `member` of the entry at `location` gave the pose.
     void expect(const voile::Result<void>& moved, const Location& location, const char* member) const;

@@ -138,20 +138,23 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
     if (is_object &&
-        (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance") || has("follow")))
+        (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance") || has("follow") ||
+         has("release_at")))
     {
         if (has("box"))
         {
             reader.fail(field, "has \"box\" beside other keys; put it under \"at\": {\"at\": {\"box\": ...}, ...}");
             return pin;
         }
-        if (!reader.object(field, {"at", "motion", "follow", "stiffness", "damping", "max_distance"}))
+        if (!reader.object(field,
+                           {"at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
             return pin;
         parse_pin_position(reader, reader.required(field, "at"), grid, pin);
         reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness),
                     pin.stiffness);
         reader.read(SceneReader::child(field, "damping"), between(0, voile::k_most_attachment_damping), pin.damping);
         reader.read(SceneReader::child(field, "max_distance"), k_not_negative, pin.max_distance);
+        reader.read(SceneReader::child(field, "release_at"), k_duration, pin.release_at);
         if (!reader.failed() && has("damping") && !has("stiffness"))
             reader.fail(SceneReader::child(field, "damping"), "is a spring's; it needs a \"stiffness\"");
         if (const Field motion = SceneReader::child(field, "motion"))
@@ -164,7 +167,7 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         }
         return pin;
     }
-    if (is_object && !reader.object(field, {"box", "at", "motion", "stiffness", "damping", "max_distance"}))
+    if (is_object && !reader.object(field, {"box", "at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
         return pin;
     parse_pin_position(reader, field, grid, pin);
     return pin;

@@ -12,7 +12,6 @@ namespace
 
 const Range k_position = within(voile::k_most_coordinate);
 const Range k_radius = between(voile::k_least_collider_size, voile::k_most_collider_size);
-const Range k_duration = between(0, 1000); // s
 const Range k_friction = between(0, voile::k_most_friction);
 const Range k_scale{0, static_cast<double>(voile::k_most_coordinate), true}; // of a mesh of 1 m
 

@@ -145,6 +145,7 @@ struct PinEntry
     std::optional<float> stiffness;                         // N/m, >= 0: a spring in place of a pin
     float damping = 0.f;                                    // N·s/m, >= 0, of that spring
     std::optional<float> max_distance;                      // m, >= 0, from the point
+    float release_at = 0.f;                                 // s, >= 0: from then on it holds nothing; 0: never
     Location location;
 };
 

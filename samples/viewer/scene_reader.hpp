@@ -38,6 +38,7 @@ struct Range
 constexpr Range k_any{};
 constexpr Range k_positive{0, std::numeric_limits<double>::infinity(), true};
 constexpr Range k_not_negative{0};
+constexpr Range k_duration{0, 1000}; // s
 // Bounds as their decimals read: 0.0001 is not 9.9999997e-05.
 Range between(float min, float max);
 inline Range within(float most)

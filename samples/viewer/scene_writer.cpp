@@ -118,7 +118,7 @@ Json pin_position(const PinEntry& pin)
 
 Json pin(const PinEntry& entry)
 {
-    if (!entry.motion && !entry.follow && !entry.stiffness && !entry.max_distance)
+    if (!entry.motion && !entry.follow && !entry.stiffness && !entry.max_distance && entry.release_at == 0)
         return pin_position(entry);
     Json json{{"at", pin_position(entry)}};
     if (entry.motion)
@@ -130,6 +130,7 @@ Json pin(const PinEntry& entry)
     add(json, "damping", entry.damping, 0);
     if (entry.max_distance)
         json["max_distance"] = number(*entry.max_distance);
+    add(json, "release_at", entry.release_at, 0);
     return json;
 }
 

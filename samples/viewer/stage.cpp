@@ -202,6 +202,8 @@ voile::Result<Stage> set_stage(voile::engine::App& app, const SceneFile& scene, 
                                    added.value().moving_pins.end());
         stage.motions->following.insert(stage.motions->following.end(), added.value().following_pins.begin(),
                                         added.value().following_pins.end());
+        stage.motions->releases.insert(stage.motions->releases.end(), added.value().released_pins.begin(),
+                                       added.value().released_pins.end());
         Surface& surface = added.value().surface;
         stage.cloths.push_back({entry.name, added.value().id, std::move(surface.positions), entry.layers,
                                 std::move(surface.faces), std::move(surface.texture_coordinates)});

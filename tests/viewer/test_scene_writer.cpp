@@ -30,6 +30,7 @@ constexpr const char* k_all = R"({
                                               "sway": {"amplitude": [0.5, 0, 0], "period": 3}},
               "stiffness": 50, "damping": 0.2, "max_distance": 0.1},
              {"at": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}, "max_distance": 0.3},
+             {"at": "edge:left", "release_at": 2.5},
              {"at": "corner:0", "follow": 6}],
     "tethers": {"stretch": 0.02},
     "velocity": [0, 0, -1],

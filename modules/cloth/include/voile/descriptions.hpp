@@ -72,7 +72,9 @@ struct GridCloth
     // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: cloth may intersect if pins are driven
     // into it faster than it can give way (Statistics::forced_pairs). A free sheet gave way to a pinned one at up to an
     // eighth of the thickness per substep, three sheets on each other at up to a thirtieth. Cloth may also intersect
-    // where the host puts it: reset, teleport, a snapshot, a pin with a position elsewhere.
+    // where the host puts it: reset, teleport, a snapshot, a pin with a position elsewhere. Strips of 0.1 m width whose
+    // pinned ends turned against each other stayed free of intersections up to 4.2 turns per meter, in weightlessness;
+    // from 4.9 turns per meter on, or 3.1 of 0.14 m width, the pins forced their way, and tangles stayed.
     //
     // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
     // In that step, vertices around an intersection collide with all other cloth but not with each other. They are
