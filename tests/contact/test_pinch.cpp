@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -42,6 +43,24 @@ std::vector<Jaws> jaws()
             {"meshes", mesh_ball(y), mesh_ball(-y)},
             {"a ball and the ground", voile::SphereCollider{.center = {0, y, 0}, .radius = k_radius},
              voile::PlaneCollider{.offset = -0.003f}, false}};
+}
+
+// Boxes, turned about the vertical and tilted against each other, rad.
+Jaws boxes(bool meshes, float turn, float tilt)
+{
+    const float y = k_open + k_radius;
+    const auto box = [&](float height, float side) -> voile::Collider
+    {
+        const glm::mat4 pose = glm::rotate(glm::rotate(tests::moved({0, height, 0}), turn, glm::vec3(0, 1, 0)),
+                                           side * tilt, glm::vec3(1, 0, 0));
+        if (!meshes)
+            return voile::BoxCollider{.min = glm::vec3(-k_radius), .max = glm::vec3(k_radius), .transform = pose};
+        static const voile::engine::Mesh cube = voile::engine::make_box(glm::vec3(-k_radius), glm::vec3(k_radius));
+        voile::MeshCollider mesh = tests::collider(cube);
+        mesh.transform = pose;
+        return mesh;
+    };
+    return {"boxes", box(y, 1), box(-y, -1)};
 }
 
 struct Pinched
@@ -105,4 +124,31 @@ TEST_CASE("solids that close on a sheet hold it where it is, and release it when
                 CHECK(pinched.inside_at_end == 0);
                 CHECK(pinched.end.collider_pairs == 0);
             }
+}
+
+// Cloth around the edges of boxes that had closed on it was taken for cloth that belongs there, and held within them:
+// in 8 of these scenes, by up to 41 pairs.
+TEST_CASE("boxes that close on a sheet leave none of their edges in it when they part, in all scenes but one")
+{
+    int scenes_with_pairs = 0;
+    uint32_t most_pairs = 0;
+    for (const bool meshes : {false, true})
+        for (const auto& [turn, tilt] :
+             {std::pair(0.f, 0.f), std::pair(0.4f, 0.f), std::pair(0.f, 0.1f), std::pair(0.4f, 0.1f)})
+            for (const float overlap : {0.f, 0.005f})
+            {
+                CAPTURE(meshes);
+                CAPTURE(turn);
+                CAPTURE(tilt);
+                CAPTURE(overlap);
+                const Pinched pinched = pinch(boxes(meshes, turn, tilt), overlap, voile::Integrator::verlet);
+                CHECK(pinched.most_inside > 0);
+                CHECK(pinched.inside_at_end == 0);
+                CHECK(pinched.fastest < 35);   // measured: 16
+                CHECK(pinched.stretch < 1.3f); // 0.64
+                scenes_with_pairs += pinched.end.collider_pairs > 0 ? 1 : 0;
+                most_pairs = std::max(most_pairs, pinched.end.collider_pairs);
+            }
+    CHECK(scenes_with_pairs <= 1); // the meshes that only touch, not turned
+    CHECK(most_pairs <= 8);
 }

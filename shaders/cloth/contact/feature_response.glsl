@@ -7,8 +7,8 @@
 
 // Edges closer to parallel than this sine have no direction across.
 const float k_parallel = 0.03;
-// A cosine: a direction this far beyond the limit is certainly inside.
-const float k_certain = 0.2;
+// A cosine: a direction this far beyond the limit is inside, whatever rounding does.
+const float k_certain = 0.02;
 // m/s: the speed at which cloth closer than the thickness is lifted.
 const float k_lift_speed = 0.2;
 // m/s^2: a velocity below one substep of this acceleration is slow, up to twice that partly. Cloth at rest presses with
@@ -23,6 +23,9 @@ const float k_round_border = 0.05;
 const float k_touching = 1.001;
 // Over the thickness: a piece this close to a feature is pressed harder than its response can answer.
 const float k_squeezed = 0.5;
+// Over the thickness: cloth this far behind a feature is let out there, if the solid is deep enough. Solids that close on cloth
+// leave it around their edges.
+const float k_deepest = 3;
 // The most that a vertex moves per motion of the contact point. Equal masses need 1.4, a ratio of 16 needs 3.4.
 const float k_most_portion = 4;
 
@@ -108,6 +111,12 @@ bool holds_back(Feature feature, vec3 direction)
     return feature.cosine > -1 && (pinched || dot(exits_along, direction) < 0);
 }
 
+// m: how far behind a feature cloth is let out. Thin solids have another side there, on which it may belong.
+float deepest_behind(Feature feature)
+{
+    return max(self.thickness, min(feature.depth, k_deepest * self.thickness));
+}
+
 // The piece of cloth was at height `from` (m) along the unit vector `before` and is at `to` along `now`. It belongs to
 // the side where it was, unless it was inside, and so close that it must have entered here.
 FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 now, float to)
@@ -118,9 +127,11 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     if (dot(before, now) <= 0)
         from = to; // it has turned over
     float side = from >= 0 ? 1 : -1;
+    float deepest = self.thickness;
     if (is_behind(feature, side * now))
     {
-        if (abs(from) > self.thickness)
+        deepest = deepest_behind(feature);
+        if (abs(from) > deepest)
             return result;
         side = -side;
     }
@@ -130,7 +141,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
     result.direction = side * now;
     result.gap = side * to - feature.radius;
     const bool passed = gap_before > 0 && result.gap < 0;
-    result.found = result.gap < self.thickness && (passed || result.gap > -self.thickness);
+    result.found = result.gap < self.thickness && (passed || result.gap > -deepest);
     // What was too close before is lifted slowly, or one contact's push would make the next one miss.
     result.wanted = min(self.thickness, gap_before + k_lift_speed * seconds(push.substeps));
     result.squeezed = result.found && gap_before < k_squeezed * self.thickness;

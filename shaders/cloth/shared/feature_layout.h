@@ -54,7 +54,7 @@ struct Feature
     vec3 b;
     float cosine; // of the largest angle between `normal` and a direction in which it may push; -1: any direction
     vec3 normal;  // unit, the direction that it faces
-    uint padding;
+    float depth;  // m: cloth so far behind it has come in here; half of how far the solid goes on there. 0: unknown
 };
 
 // A feature of a mesh that deforms, in the order of the slots of its hierarchy: a vertex (a == b), or an edge. Which

@@ -2,6 +2,7 @@
 #include "colliders/collider_features.hpp"
 
 #include "colliders/collider_model.hpp"
+#include "colliders/feature_depths.hpp"
 #include "colliders/mesh_features.hpp"
 #include "geometry/bvh.hpp"
 
@@ -24,12 +25,13 @@ bool is_thin(float radius, const FeatureScale& scale)
 std::vector<Feature> box_features(const shared::ColliderRecord& record)
 {
     const glm::vec3 half(record.shape);
-    std::vector<Feature> features;
+    std::vector<Feature> features; // their depths along the diagonals
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
         const glm::vec3 position = sign * half;
-        features.push_back({position, 0, position, std::sqrt(1 / 3.f), glm::normalize(sign), 0});
+        const float corner_depth = std::sqrt(3.f) * std::min({half.x, half.y, half.z});
+        features.push_back({position, 0, position, std::sqrt(1 / 3.f), glm::normalize(sign), corner_depth});
         for (int axis = 0; axis < 3; ++axis)
         {
             if (sign[axis] > 0)
@@ -38,7 +40,8 @@ std::vector<Feature> box_features(const shared::ColliderRecord& record)
             other[axis] += 2 * half[axis];
             glm::vec3 outwards = sign;
             outwards[axis] = 0;
-            features.push_back({position, 0, other, std::sqrt(0.5f), glm::normalize(outwards), 0});
+            const float depth = std::sqrt(2.f) * std::min(half[(axis + 1) % 3], half[(axis + 2) % 3]);
+            features.push_back({position, 0, other, std::sqrt(0.5f), glm::normalize(outwards), depth});
         }
     }
     return features;
@@ -60,7 +63,14 @@ std::vector<Feature> features_of(const ColliderModel& collider, const FeatureSca
     switch (record.kind)
     {
     case VOILE_COLLIDER_MESH:
-        return collider.hierarchy ? mesh_features(*collider.hierarchy, record.flags, scale) : std::vector<Feature>();
+    {
+        if (!collider.hierarchy)
+            return {};
+        std::vector<Feature> features = mesh_features(*collider.hierarchy, record.flags, scale);
+        if ((record.flags & VOILE_COLLIDER_CLOSED) != 0)
+            find_depths(*collider.hierarchy, scale.edge, features);
+        return features;
+    }
     case VOILE_COLLIDER_BOX:
         return box_features(record);
     case VOILE_COLLIDER_SPHERE:
