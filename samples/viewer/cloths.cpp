@@ -202,7 +202,8 @@ voile::Result<void> add_pins(const PinContext& context, const ClothEntry& entry)
     }
     for (const PinEntry& pin : entry.pins)
         if (pin.release_at > 0)
-            added.released_pins.push_back({added.id, vertices[&pin], static_cast<double>(pin.release_at), pin.location});
+            added.released_pins.push_back(
+                {added.id, vertices[&pin], static_cast<double>(pin.release_at), pin.location});
     if (auto set = solver.set_attachments(added.id, attachments); !set)
         return error_at(scene, entry.location, set.error().message);
     if (!entry.tethers)

@@ -137,17 +137,15 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
     pin.location = location_of(field);
     const bool is_object = field && field.node->kind == JsonNode::Kind::object;
     const auto has = [&](const char* key) { return field.node->find(key) != nullptr; };
-    if (is_object &&
-        (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance") || has("follow") ||
-         has("release_at")))
+    if (is_object && (has("at") || has("motion") || has("stiffness") || has("damping") || has("max_distance") ||
+                      has("follow") || has("release_at")))
     {
         if (has("box"))
         {
             reader.fail(field, "has \"box\" beside other keys; put it under \"at\": {\"at\": {\"box\": ...}, ...}");
             return pin;
         }
-        if (!reader.object(field,
-                           {"at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
+        if (!reader.object(field, {"at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
             return pin;
         parse_pin_position(reader, reader.required(field, "at"), grid, pin);
         reader.read(SceneReader::child(field, "stiffness"), between(0, voile::k_most_attachment_stiffness),
@@ -167,7 +165,8 @@ PinEntry parse_pin(SceneReader& reader, const Field& field, const GridEntry* gri
         }
         return pin;
     }
-    if (is_object && !reader.object(field, {"box", "at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
+    if (is_object &&
+        !reader.object(field, {"box", "at", "motion", "follow", "stiffness", "damping", "max_distance", "release_at"}))
         return pin;
     parse_pin_position(reader, field, grid, pin);
     return pin;

@@ -8,8 +8,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace
 {
@@ -30,8 +32,8 @@ struct Count
     uint32_t corners = 0;
 };
 
-// Counts the features for a cloth whose longest edges are 5 cm.
-Count count(const voile::engine::Mesh& mesh)
+// For a cloth whose longest edges are 5 cm.
+std::vector<voile::shared::Feature> features_of(const voile::engine::Mesh& mesh)
 {
     voile::Model model;
     voile::GridCloth sheet = tests::flat_sheet(21, std::numbers::sqrt2_v<float> / 2, 1);
@@ -40,8 +42,13 @@ Count count(const voile::engine::Mesh& mesh)
     voile::ColliderModels colliders;
     REQUIRE(colliders.add(tests::collider(mesh)));
     voile::update_features(colliders, model);
+    return colliders.colliders.at(0)->features->features;
+}
+
+Count count(const voile::engine::Mesh& mesh)
+{
     Count result;
-    for (const auto& feature : colliders.colliders.at(0)->features->features)
+    for (const voile::shared::Feature& feature : features_of(mesh))
     {
         if (feature.a == feature.b)
             ++result.corners;
@@ -87,6 +94,30 @@ TEST_CASE("a round mesh has no features, a box of triangles has 12 edges and 8 c
     CHECK(box.along == 4);
     CHECK(box.around == 8);
     CHECK(box.corners == 8);
+}
+
+TEST_CASE("a feature knows how far its solid goes on behind it")
+{
+    constexpr float k_cloth_edge = 0.05f; // m, as in count()
+    const auto box = [](float height) {
+        return voile::engine::make_box({-0.2f, -height / 2, -0.2f}, {0.2f, height / 2, 0.2f});
+    };
+    for (const float height : {0.002f, 0.01f, 0.03f, 0.4f})
+    {
+        CAPTURE(height);
+        // Obliquely through a plate from an edge, by 20.8 or 69.2 degrees to its flats; a corner sees three of them.
+        const float oblique = std::numbers::pi_v<float> / 4 + std::atan(0.45f);
+        const float behind_edge = height / (2 * std::sin(oblique));
+        const std::vector<voile::shared::Feature> features = features_of(box(height));
+        for (const voile::shared::Feature& feature : features)
+        {
+            const bool upright = feature.a.y != feature.b.y;
+            if (feature.a == feature.b || upright)
+                CHECK(feature.depth > 0);
+            else
+                CHECK(feature.depth == doctest::Approx(std::min(behind_edge, k_cloth_edge)).epsilon(0.06));
+        }
+    }
 }
 
 TEST_CASE("features of a mesh are found again only where cloths are thinner or coarser than all before")

@@ -94,7 +94,8 @@ const std::function<tests::ClothMesh()> k_meshes[] = {[] { return tests::rough_s
 
 } // namespace
 
-TEST_CASE("each edge and each triangle of a mesh has one owner, its lowest vertex, and every vertex knows the owners around it")
+TEST_CASE("each edge and each triangle of a mesh has one owner, its lowest vertex, and every vertex knows the owners "
+          "around it")
 {
     for (const auto& make : k_meshes)
     {

@@ -32,12 +32,11 @@ TEST_CASE("a pin holds nothing from the time of its release on, unless a later p
                R"(}, "corner:1"], "self_collision": false, "layers": [], "name": "c)";
     };
     tests::SceneRuns runs;
-    const auto results = runs.run_named(
-        tests::scene_of(tests::soft_sheet(pinned("0.1") + R"(0")", 0.6f) + ", " +
-                            tests::soft_sheet(pinned("0") + R"(1")", 0.6f) + ", " +
-                            tests::soft_sheet(pinned("9") + R"(2")", 0.6f),
-                        R"({"plane": {"y": -3}})"),
-        3, 18, "--validate");
+    const auto results = runs.run_named(tests::scene_of(tests::soft_sheet(pinned("0.1") + R"(0")", 0.6f) + ", " +
+                                                            tests::soft_sheet(pinned("0") + R"(1")", 0.6f) + ", " +
+                                                            tests::soft_sheet(pinned("9") + R"(2")", 0.6f),
+                                                        R"({"plane": {"y": -3}})"),
+                                        3, 18, "--validate");
     const auto height = [&](size_t cloth, size_t vertex) { return results[cloth].cloth.positions[vertex].y; };
     for (size_t vertex = 0; vertex < 12; ++vertex) // of the row at the top
     {

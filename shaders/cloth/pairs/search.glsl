@@ -173,7 +173,10 @@ void consider_fan(inout Search search, Fan fan)
     const uint own_wedges = search.fan.wedges;
     uint wedge = fan.wedges; // of `piece`
     Piece piece;
-    for (uint k = search.lane; k < own_wedges * fan.wedges && goes_on(search); k += search.lanes)
+    // A thread has room for few pairs, so in the next candidate of a mesh another one takes the same wedges. Those of grids
+    // have one combination each, and keep their own wedge.
+    const uint first = fan.columns > 0 ? search.lane : (search.lane + search.candidate) % search.lanes;
+    for (uint k = first; k < own_wedges * fan.wedges && goes_on(search); k += search.lanes)
     {
         const uint j = k % own_wedges;
         if (wedge != k / own_wedges)

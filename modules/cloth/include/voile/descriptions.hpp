@@ -276,13 +276,16 @@ enum class Sidedness
 //   number is above 0. Overlapping colliders are one solid.
 // - A vertex leaves at 0.9 m/s relative to the surface, from the step after the one that found it. Pins stay.
 // - A sheet leaves to one side as a whole, along its normals, at less than 2.5 m/s. A sheet that a solid pierces is
-//   stretched: by 21 % in the worst of 60 random poses. In those without gravity, the fastest part reached 2.5 m/s.
+//   stretched: by 21 % in the worst of 60 random poses. In those without gravity, the fastest part reached 2.5 m/s; a
+//   vertex of a sheet thrown while it was pierced, or pushed into a slot, 13 m/s.
 // - Until a vertex is out, its own motion is slowed to 0.6 m/s. The collider carries it at the collider's speed v up to
 //   10 m/s. A faster collider carries it at 10 m/s (10 m/s / v)^2, so a collider that jumps throws no cloth. The
 //   collider's edges and corners do not stop the cloth, and no other solid stops the vertex.
 // - Where two colliders close on cloth that was outside, it stays halfway between their surfaces, and they release it
 //   when they part. Balls, capsules and round meshes that overlapped by 20 mm left no edge in a sheet. Boxes whose
-//   edges were within the sheet left some through it. Edges and corners of both do not push that cloth meanwhile.
+//   edges were within the sheet left none 10 frames after they had parted in 67 of 70 scenes, and 6 to 10 pairs in
+//   three; vertices reached up to 62 m/s where boxes were tilted by 17 degrees. Plates thinner than the cloth leave
+//   hundreds, and throw it. Edges and corners of both do not push that cloth meanwhile.
 // - A vertex below a plane, or nearer to a surface than the thickness at the start of a substep, rises at 0.75 m/s.
 // - Vertices are checked after uploads, edits and snapshots, while colliders move, while any are inside, and every
 //   eighth step. A collider that moves onto cloth pushes it at any speed. If the cloth collides with itself and lies in

@@ -1,4 +1,5 @@
-// Triangles and edges by their owners. Where three triangles meet at an edge, it still has one owner, and is listed once.
+// Triangles and edges by their owners. Where three triangles meet at an edge, it still has one owner, and is listed
+// once.
 #include "model/mesh_fans.hpp"
 
 #include "geometry/parallel.hpp"

@@ -14,8 +14,9 @@ namespace voile
 struct MeshFans
 {
     SharedArray<shared::MeshFan> vertices;
-    SharedArray<shared::MeshWedge> wedges; // in the order of the triangles, then edges without an own triangle beside them
-    SharedArray<uint32_t> owners;          // of primitives around a vertex, counted within the mesh; but for itself
+    SharedArray<shared::MeshWedge>
+        wedges;                   // in the order of the triangles, then edges without an own triangle beside them
+    SharedArray<uint32_t> owners; // of primitives around a vertex, counted within the mesh; but for itself
 };
 
 // `lists`: not interleaved. Runs on several threads.
