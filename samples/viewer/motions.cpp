@@ -68,12 +68,12 @@ void Motions::follow(const FollowingPin& pin)
     expect(solver_.move_anchor(pin.anchor, pose(pin.solid) * frame), pin.location, ".follow");
 }
 
-void Motions::release(const ReleasedPins& pins)
+void Motions::release(const ReleasedPins& released)
 {
-    std::vector<voile::Attachment> attachments = solver_.attachments(pins.cloth);
+    std::vector<voile::Attachment> attachments = solver_.attachments(released.cloth);
     std::erase_if(attachments, [&](const voile::Attachment& attachment)
-                  { return std::ranges::find(pins.vertices, attachment.vertex) != pins.vertices.end(); });
-    expect(solver_.set_attachments(pins.cloth, attachments), pins.location, ".release_at");
+                  { return std::ranges::find(released.vertices, attachment.vertex) != released.vertices.end(); });
+    expect(solver_.set_attachments(released.cloth, attachments), released.location, ".release_at");
 }
 
 void Motions::update(const voile::engine::FrameInfo& frame)
@@ -95,10 +95,11 @@ void Motions::update(const voile::engine::FrameInfo& frame)
     for (const FollowingPin& pin : following)
         follow(pin);
     constexpr double k_rounding = 1e-9; // s, of the frame's time
-    for (const ReleasedPins& pins : releases)
-        if (frame.time + k_rounding >= pins.at)
-            release(pins);
-    std::erase_if(releases, [&](const ReleasedPins& pins) { return frame.time + k_rounding >= pins.at; });
+    const auto is_due = [&](const ReleasedPins& released) { return frame.time + k_rounding >= released.at; };
+    for (const ReleasedPins& released : releases)
+        if (is_due(released))
+            release(released);
+    std::erase_if(releases, is_due);
 }
 
 } // namespace viewer

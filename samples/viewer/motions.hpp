@@ -67,7 +67,7 @@ public:
 
 private:
     void follow(const FollowingPin& pin);
-    void release(const ReleasedPins& pins);
+    void release(const ReleasedPins& released);
     void deform(DeformingSolid& solid, const voile::engine::FrameInfo& frame);
     // `member` of the entry at `location` gave the pose.
     void expect(const voile::Result<void>& moved, const Location& location, const char* member) const;

@@ -35,7 +35,7 @@ public:
                 wedges_.push_back({corner.b, corner.c});
         }
         std::ranges::sort(neighbors_);
-        neighbors_.erase(std::ranges::unique(neighbors_).begin(), neighbors_.end());
+        neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());
         const auto higher = std::ranges::upper_bound(neighbors_, vertex);
         lower_ = std::span(neighbors_.begin(), higher);
         add_spokes(std::span(higher, neighbors_.end()));
