@@ -39,9 +39,6 @@ voile::engine::Mesh case_icosphere(uint32_t subdivisions);
 
 std::span<const Case> cases();
 
-// The drape scene's cloth (samples/scenes/drape.json): 2.4 m square, side x side vertices, no air.
-voile::GridCloth drape_grid(uint32_t side);
-
 // Returns null if no case has this name.
 const Case* find_case(std::string_view name);
 

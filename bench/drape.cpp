@@ -1,8 +1,8 @@
 // The drape scene: timed frame by frame, its conditions checked on the host.
 #include "drape.hpp"
 
-#include "cases.hpp"
 #include "heart.hpp"
+#include "sheets.hpp"
 
 #include "voile/engine/gpu/download.hpp"
 #include "voile/fabrics.hpp"

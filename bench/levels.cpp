@@ -1,7 +1,7 @@
 // A soft sheet beside a stiff one.
 #include "levels.hpp"
 
-#include "cases.hpp"
+#include "sheets.hpp"
 
 namespace bench
 {
