@@ -197,9 +197,8 @@ constexpr uint32_t k_fallen_frames = 30; // 0.5 s: 4.9 m/s
 constexpr uint32_t k_heap_frames = 90;
 
 constexpr auto k_nearest = voile::ContactMethod::nearest_point;
-// Capsules at rest 20 m and more away from a sheet.
-template <uint32_t count>
-Cloths add_far_capsules(voile::Solver& solver)
+// 20 m and more away from a sheet.
+void add_capsules(voile::Solver& solver, uint32_t count)
 {
     for (uint32_t i = 0; i < count; ++i)
     {
@@ -207,7 +206,20 @@ Cloths add_far_capsules(voile::Solver& solver)
         (void)voile::engine::take(
             solver.add_collider(voile::CapsuleCollider{.from = from, .to = from + glm::vec3(1, 1, 0)}));
     }
+}
+
+template <uint32_t count>
+Cloths add_far_capsules(voile::Solver& solver)
+{
+    add_capsules(solver, count);
     return add_drape_sheet<128>(solver);
+}
+
+template <uint32_t count>
+Cloths add_far_capsules_self(voile::Solver& solver)
+{
+    add_capsules(solver, count);
+    return add_verlet_sheet<128, true>(solver);
 }
 
 constexpr float k_ground = -0.4f; // m
@@ -290,6 +302,8 @@ constexpr Case k_cases[] = {
     {"capsules-1", "the drape scene's sheet falls freely, 20 m from a capsule", add_far_capsules<1>},
     {"capsules-100", "from 100", add_far_capsules<100>},
     {"capsules-1000", "from 1000", add_far_capsules<1000>},
+    {"capsules-1000-self", "the sheet of flat-self, 20 m from 1000", add_far_capsules_self<1000>, k_nearest,
+     k_fallen_frames, false, k_interleaved, 0, 0, true},
     {"heap-16384",
      "the sheet of 128 x 128 in folds that fell over each other, 1.5 s ago",
      add_sheet_over_ground<128>,

@@ -64,85 +64,18 @@ struct GridCloth
     uint32_t layers = 1;
 
     // The cloth collides with itself and with other such cloths, at its thickness (at most 0.4 of the spacing of its
-    // vertices) and with its friction. Two cloths collide at the mean of their thicknesses,
-    // with the geometric means of their friction coefficients.
+    // vertices) and with its friction. Two cloths collide at the mean of their thicknesses, with the geometric means of
+    // their friction coefficients.
     //
     // Cloths that start without intersections stay without them, whatever forces, colliders, attachments, tethers and
-    // the strain limit do. A collider that presses layers together enters them instead
-    // (Statistics::penetrating_vertices). Nothing stops a vertex without mass: cloth may intersect if pins are driven
-    // into it faster than it can give way (Statistics::forced_pairs). A free sheet gave way to a pinned one at up to an
-    // eighth of the thickness per substep, three sheets on each other at up to a thirtieth. Cloth may also intersect
-    // where the host puts it: reset, teleport, a snapshot, a pin with a position elsewhere. Strips of 0.1 m width whose
-    // pinned ends turned against each other stayed free of intersections up to 4.2 turns per meter, in weightlessness;
-    // from 4.9 turns per meter on, or 3.1 of 0.14 m width, the pins forced their way, and tangles stayed.
+    // the strain limit do. Statistics count the exceptions: pins that drive vertices into cloth faster than it gives
+    // way (forced_pairs), colliders that press layers together, which then enter the collider (penetrating_vertices),
+    // and cloth that the host puts into cloth (tangled_pairs), which is pulled apart (SolverOptions::untangling).
     //
-    // Cloth that intersects when a step starts is pulled apart (SolverOptions::untangling, Statistics::tangled_pairs).
-    // In that step, vertices around an intersection collide with all other cloth but not with each other. They are
-    // accelerated at 300 m/s^2 up to 0.5 m/s along directions that shorten the line of intersection; springs may add to
-    // that. Sheets of 14 x 14 vertices that start halfway through each other are free within half a second. The pull
-    // ignores masses, so momentum is not conserved: silk and leather together gained 0.35 m/s. Cloth that pins or
-    // colliders hold inside other cloth stays there, and so do sheets at exactly the same position. Some crumples that
-    // pass through each other many times keep moving and never come free.
-    //
-    // Near other cloth, a vertex moves at most 0.45 of the gap in 0.27 to 0.53 ms, or in a substep if that is longer.
-    // This is relative to the mean velocity, by mass, of the cloth that is clear of colliders; beside colliders and
-    // anchors it is relative to the rigid motion that fits theirs best, and the cloth's in directions in which they do
-    // not hold it. A vertex that this stops keeps its velocity, and hands it on to what it has met. While colliders or
-    // anchors move, where lists of pairs are full, and beside pins, that velocity is lost with its momentum. The mean
-    // is that of an island: the cloths whose boxes may meet within 3 ms. Cloths outside the island affect only when
-    // near pairs are searched. Cloth in free flight falls freely, in any shape and at any speed, as long as its island
-    // flies together. That holds even if layers start very near each other, or touch. A closed sphere of 38 vertices
-    // along a seam that is not merged drove itself to 0.8 m/s in 4 s. Two sheets nearer than a tenth of the thickness
-    // lost 0.06 m/s or a little more while they parted. Layers that start nearer than a fiftieth of the thickness do
-    // not part. Parts of a mesh that touch at the start, as along a seam that is not merged, do not collide with each
-    // other there. Neither does cloth that pins hold at one point, nor cloth that is within 1e-7 m of other cloth, or
-    // within 1e-7 of its coordinates: these count as forced.
-    //
-    // So cloth that anchors or colliders carry along, or that slides or falls along a surface, is as free as cloth at
-    // rest, also on a budget of 8 substeps: two layers on a floor that moves at 30 m/s do not slip, two that slide at
-    // 12 m/s are slowed as Coulomb's law says within 1 %, on uneven ground within 10 %, capes of 10 and 25 mm spacing
-    // follow anchors at 15 and 40 m/s, and capes 0.4 m from a vertical axis follow anchors that turn at 5 rad/s in 8
-    // substeps, at 7 in 16, and at 15 with all, with less than 1.5 times their stretch without self-collision (leather,
-    // ribbons and other axes: up to 2.3 times, about an axis through the hem up to 4.9 times, 0.27 instead of 0.055).
-    //
-    // All of an island has one such rigid motion. What moves very differently from it is held back as if it were fast
-    // beside cloth at rest, and left behind or torn: a cape that passes a curtain within 20 mm at 8 m/s in 8 substeps,
-    // or at 40 m/s with all (at 25 m/s with all it is not); as islands are found by boxes along the axes, also one that
-    // passes within the box of a large diagonal curtain at 4 m/s in 8 substeps, or at 6 m/s in 16. Capes on anchors
-    // that turn at 10 rad/s, or swing by 0.2 m at 3 Hz, stretch by 0.7 to 6 in 8 substeps, flags that crumple on an
-    // anchor at 10 m/s by 0.9 to 6 in 8 and 1.2 in 16, and intersect there (Statistics::forced_pairs). A sphere of 30
-    // mm that a hem passes 10 mm above at 6 m/s stretches a cape by 0.15 instead of 0.03 in 8 substeps. Layers that
-    // slide through a narrow channel of few flat sides (0.5 m radius, 24 sides, 8 m/s) lose most of their speed, and in
-    // 8 substeps their edges enter it; layers on a moving floor are braked by a ceiling nearer than 20 mm in 8
-    // substeps, nearer than 12 mm at 12 m/s with all. Three layers and more slip in 8 substeps where friction is
-    // needed, by 40 to 100 mm in a second, also at rest. At 4 km from the origin layers lose a tenth of their friction,
-    // at 8 km all; beyond 9 km floats leave cloth of 3 mm too little room: it freezes or, with anchors that turn, is
-    // torn.
-    //
-    // A collider that moves less than half of the thickness per substep pushes such cloth without entering it. This
-    // held at 24 m/s with a spacing of 11 mm and automatic substeps. A faster collider may pass through. A collider
-    // that drives a sheet into another one may pass through from a quarter of the thickness per substep on. Colliders
-    // that moved 0.15 to 0.25 of the thickness per substep entered three and more sheets for some frames, by 4 to 16
-    // vertices, up to 12 mm deep. The faster colliders or anchors move, the more often near pairs are searched, up to
-    // once per substep. The solver does not know the speed of vertices in a GPU buffer (DeviceVertices).
-    //
-    // Cloth sticks on cloth up to nine tenths of static friction and creeps there at less than 0.1 mm/s; a second sheet
-    // on top of it creeps at up to 0.6 mm/s. Where vertices lie above vertices, as in equal grids that are not rotated
-    // against each other, a sheet creeps at up to 1 mm/s at eight tenths, and one slid at 0.88. Cloth that slides on
-    // cloth is slowed as Coulomb's law says, within 1 % at up to 1.5 m/s and 5 % at 2 m/s; at 3 m/s by up to 1.6 times
-    // as much. Layers that lie on each other on a plane or a sphere come to rest: two to six sheets kept less than 1e-4
-    // J/kg, and the uppermost of six moved at 0.1 to 0.4 mm/s. Pins that gather a grid to a twentieth of its width, in
-    // their order, keep single vertices beside them in motion. Three meshes with edges of 20 mm that pins gathered to a
-    // fifth or less within 0.5 s intersected (Statistics::forced_pairs), and stayed tangled.
-    //
-    // Of 40 random pairs of sheets of equal spacing that approached each other at 0.5 to 4 m/s, none lost more than
-    // 0.1 % of its momentum; of 24 at 5 to 11 m/s none lost more than 2.2 %. Cloth of 8 to 12 mm spacing on coarser
-    // cloth lost up to 19 % at 4 m/s and 56 % at 8 m/s, a mesh that hit another one with its edge 36 %, and cloth in 4
-    // substeps a frame 78 %, because lists of pairs were full. Equal sheets, one of which hits the other with its edge,
-    // lost 2 % at 2 m/s and 28 to 33 % at 4 m/s. A sheet of four times the mass that hits another one flat at 30 and
-    // 50 m/s adds neither momentum nor energy. Cloths of different kinds that hit each other at 24 m/s, or in 8
-    // substeps a frame, may: four random scenes gained 9 to 16 % of their energy. Sheets that start nearer than the
-    // thickness part at up to 0.25 m/s.
+    // Near other cloth, fast vertices are held back relative to the motion of the cloths around them. On a budget of
+    // substeps, what passes other cloth at several m/s may be left behind or tear. A collider that moves less than half
+    // of the thickness per substep pushes such cloth without entering it. A faster one may pass through.
+    // docs/self-collision.md has all limits with their numbers.
     bool self_collision = false;
 
     // m/s, 0..10. The cloth falls asleep when none of its vertices has been faster than this for 0.5 s of simulated
@@ -269,55 +202,16 @@ enum class Sidedness
     two_sided, // To the side that a vertex comes from. A box that holds cloth in needs this.
 };
 
-// Limits of contact. They hold for all colliders.
+// Contact. A crossing test stops every vertex at any speed. Edges and corners of colliders also stop cloth between its
+// vertices (SolverOptions::feature_contact). Where colliders close on cloth, they hold it until they part. Cloth at rest
+// on a collider stays at rest.
 //
-// Depenetration. Cloth that is inside a collider at the start of a step is moved out.
-// - Inside means inside a sphere, a capsule or a box, or inside a closed mesh that pushes outwards, where its winding
-//   number is above 0. Overlapping colliders are one solid.
-// - A vertex leaves at 0.9 m/s relative to the surface, from the step after the one that found it. Pins stay.
-// - A sheet leaves to one side as a whole, along its normals, at less than 2.5 m/s. A sheet that a solid pierces is
-//   stretched: by 21 % in the worst of 60 random poses. In those without gravity, the fastest part reached 2.5 m/s; a
-//   vertex of a sheet thrown while it was pierced, or pushed into a slot, 13 m/s.
-// - Until a vertex is out, its own motion is slowed to 0.6 m/s. The collider carries it at the collider's speed v up to
-//   10 m/s. A faster collider carries it at 10 m/s (10 m/s / v)^2, so a collider that jumps throws no cloth. The
-//   collider's edges and corners do not stop the cloth, and no other solid stops the vertex.
-// - Where two colliders close on cloth that was outside, it stays halfway between their surfaces, and they release it
-//   when they part. Balls, capsules and round meshes that overlapped by 20 mm left no edge in a sheet. Boxes whose
-//   edges were within the sheet left none 10 frames after they had parted in 67 of 70 scenes, and 6 to 10 pairs in
-//   three; vertices reached up to 62 m/s where boxes were tilted by 17 degrees. Plates thinner than the cloth leave
-//   hundreds, and throw it. Edges and corners of both do not push that cloth meanwhile.
-// - A vertex below a plane, or nearer to a surface than the thickness at the start of a substep, rises at 0.75 m/s.
-// - Vertices are checked after uploads, edits and snapshots, while colliders move, while any are inside, and every
-//   eighth step. A collider that moves onto cloth pushes it at any speed. If the cloth collides with itself and lies in
-//   two layers, a collider that moves by more than a quarter of the thickness per substep may enter it: for sheets of 3
-//   mm, 5 m/s in 112 substeps per frame. With more layers, a collider that moves by less may also enter
-//   (GridCloth::self_collision).
+// Cloth that is inside colliders at the start of a step is moved out on one side, at less than 2.5 m/s
+// (SolverOptions::depenetration): inside a sphere, a capsule, a box, or a closed mesh that pushes outwards. Overlapping
+// colliders are one solid.
 //
-// Edges and corners. Edges and corners of colliders collide with the triangles and edges of cloths
-// (SolverOptions::feature_contact).
-// - Cloth 1 and 3 mm thick, with 43 mm between vertices, was shot at needles, strips and boxes at 5 to 60 m/s. No edge
-//   of the cloth or the collider was left through the other, nor when such colliders were driven through a sheet at up
-//   to 100 m/s. Fast cloth near edges and corners may lose some of its speed along them. Of about a hundred random
-//   shots, three left the corner of a plate 1 to 6 mm thick through cloth that was taut between pins, by 2 mm at most.
-//   A strain limit moves cloth after contact, and so does the limit that replaces missing substeps. With either, edges
-//   may be left through a collider.
-// - A collider has the edges and corners that the coarsest and the thinnest cloth of its layers need, whether these are
-//   enabled or not. So another such cloth changes how the collider holds this one (by 5 mm beside a sphere). Cloths of
-//   other layers do not.
-// - Vertices of a billionth of their neighbors' mass may be thrown at edges (1.3 km/s, 10 m/s without edges).
-// - A mesh that deforms has edges and corners where its present shape bends. If its vertices move by more than the
-//   thickness between two contact passes, finding these takes longer. Needles that bend and turn at more than 30 m/s
-//   may be left through the cloth.
-// - Static friction is less exact for cloth that edges, corners, thin spheres and capsules support between its
-//   vertices. It may slip from 0.8 of static friction on, and creeps at less than 0.3 mm/s. Finer cloth, which touches
-//   with its vertices, does neither. Silk that hangs over a pole 40 mm thick creeps at 10 to 17 mm/s and slides off,
-//   unless every substep has a contact pass (Tuning::contact_interval).
-//
-// Rest. Cloth at rest stays at rest where its vertices touch. Cloth that hangs free swings for a long time: the hem of
-// coarse wool on a box still moves at about 50 mm/s after 10 s.
-//
-// Cost. A collider costs time where cloth is near. With more than 8 colliders, the solver lists a few times per frame
-// which are near which part of a cloth. Planes count as near everywhere.
+// docs/contact.md has the limits with their numbers: fast and thin colliders, strain limits, layers of cloth, friction
+// at edges.
 
 // A triangle mesh.
 //

@@ -123,7 +123,7 @@ struct SolverOptions
 {
     uint32_t statistics_slots = 2; // slots for the statistics of frames in flight, 1..16
 
-    // Corners and edges of colliders also collide with the triangles and edges of cloths (descriptions.hpp). A collider
+    // Corners and edges of colliders also collide with the triangles and edges of cloths (docs/contact.md). A collider
     // with features that can protrude between the vertices of a cloth costs two more passes per substep, and 176 bytes
     // of device memory per vertex and 112 per item (Tuning::feature_items).
     bool feature_contact = true;
@@ -133,7 +133,7 @@ struct SolverOptions
     bool depenetration = true;
 
     // Cloths with self_collision that intersect each other or themselves when a step starts are pulled apart
-    // (descriptions.hpp). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query per step.
+    // (docs/self-collision.md). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query per step.
     // Without this, the parts that intersect are held as they are.
     bool untangling = true;
 
