@@ -167,7 +167,7 @@ ConvexSurface surface_of(ColliderRecord collider, Box box)
     return surface;
 }
 
-bool is_clear_of(inout Restraints restraints, uint c, ColliderRecord collider, RelativeWay relative, vec3 v)
+bool is_clear_of_shape(inout Restraints restraints, uint c, ColliderRecord collider, RelativeWay relative, vec3 v)
 {
     if (surface_of(collider, relative.wide).distance > 0)
         return true;
@@ -198,21 +198,13 @@ RelativeWay relative_way(Way way, uint c, ColliderRecord collider)
                        grown(box_around(from, from + way.time * relative), way.near), from, surface);
 }
 
-bool is_clear(inout Restraints restraints, Way way, uint layers)
+bool is_clear_of(inout Restraints restraints, uint c, Way way)
 {
-    bool clear = true;
-    for (uint c = 0; c < push.colliders && (clear || restraints.wanted); ++c)
-    {
-        const ColliderRecord collider = colliders[c];
-        if ((collider.layers & layers) == 0)
-            continue;
-        const RelativeWay relative = relative_way(way, c, collider);
-        if (collider.kind == VOILE_COLLIDER_MESH)
-            clear = is_clear_of_mesh(restraints, c, collider, relative, way.v) && clear;
-        else
-            clear = is_clear_of(restraints, c, collider, relative, way.v) && clear;
-    }
-    return clear;
+    const ColliderRecord collider = colliders[c];
+    const RelativeWay relative = relative_way(way, c, collider);
+    if (collider.kind == VOILE_COLLIDER_MESH)
+        return is_clear_of_mesh(restraints, c, collider, relative, way.v);
+    return is_clear_of_shape(restraints, c, collider, relative, way.v);
 }
 
 #endif

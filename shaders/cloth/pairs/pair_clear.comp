@@ -41,6 +41,7 @@ const uint k_values = 16;
 #include "pairs/fold.glsl"
 #include "pairs/isolated.glsl"
 #include "pairs/mean_velocity.glsl"
+#include "pairs/met_colliders.glsl"
 #include "pairs/moving_frame.glsl"
 #include "pairs/neighborhood.glsl"
 #include "pairs/pair_tree.glsl"
@@ -69,26 +70,46 @@ ClothMotion motion_of(uint cloth)
     return ClothMotion(motion, origin_of(cloth), push.cloths > 1 || is_worth_lists(mean_square(mean, motion)));
 }
 
-// Edges and corners of colliders push vertices that are an edge of the cloth away. What springs, tethers or bounds hold
-// does not move as its island does.
-// `mean`: motion of the cloth.
-Surroundings surroundings_of(uint i, uint cloth, ClothMotion mean)
+// Springs, tethers and bounds hold the vertex, or nothing moves it: its motion is not that of its island.
+bool is_held(uint i, uint cloth)
 {
-    const vec3 along = velocity_at(mean.motion, positions[i].xyz - mean.origin);
-    Surroundings around = Surroundings(false, true, no_restraints(along, mean.wants_frame));
-    const uint flags = uint(velocities[i].w);
-    const vec3 v = velocities[i].xyz;
-    if (positions[i].w == 0 || (flags & VOILE_VERTEX_HELD) != 0 || (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) != 0)
-    {
-        restrain(around.restraints, v);
-        return around;
-    }
+    return positions[i].w == 0 || (uint(velocities[i].w) & VOILE_VERTEX_HELD) != 0 ||
+           (cloths[cloth].flags & VOILE_CLOTH_ASLEEP) != 0;
+}
+
+// Edges and corners of colliders push vertices that are an edge of the cloth away.
+Way way_of(uint i, uint cloth)
+{
     const float thickness = cloths[cloth].thickness;
     const float margin = thickness + (k_neighborhood_radius + 1) * cloths[cloth].springs[0].rest_length;
-    const Way way = Way(positions[i].xyz, v, frame_horizon(), margin, k_near * thickness);
-    const bool clear = is_clear(around.restraints, way, cloths[cloth].layers);
-    around.clear = clear && (flags & VOILE_VERTEX_BOUND) == 0;
-    around.restrained = !clear;
+    return Way(positions[i].xyz, velocities[i].xyz, frame_horizon(), margin, k_near * thickness);
+}
+
+// By all threads.
+// `counts`: there is a vertex. `mean`: motion of the cloth.
+Surroundings surroundings_of(PatchVertex self, ClothMotion mean, bool counts, uint thread)
+{
+    const uint i = self.index;
+    const vec3 along = counts ? velocity_at(mean.motion, positions[i].xyz - mean.origin) : vec3(0);
+    Surroundings around = Surroundings(false, counts, no_restraints(along, counts && mean.wants_frame));
+    const bool held = counts && is_held(i, self.cloth);
+    if (held)
+        restrain(around.restraints, velocities[i].xyz);
+    const bool moves = counts && !held;
+    Way way = Way(vec3(0), vec3(0), 0, 0, 0);
+    if (moves)
+        way = way_of(i, self.cloth);
+    share_ways(thread, moves, way);
+    bool clear = moves;
+    for (uint first = 0; first < push.colliders; first += gl_WorkGroupSize.x)
+    {
+        find_met(first, thread, cloths[self.cloth].layers);
+        for (uint word = 0; word < shared_met.length() && moves; ++word)
+            for (uint bits = shared_met[word]; bits != 0 && (clear || around.restraints.wanted); bits &= bits - 1)
+                clear = is_clear_of(around.restraints, first + 32 * word + uint(findLSB(bits)), way) && clear;
+    }
+    around.clear = clear && (uint(velocities[i].w) & VOILE_VERTEX_BOUND) == 0;
+    around.restrained = counts && !clear;
     return around;
 }
 
@@ -199,18 +220,15 @@ void add_to_cloth(PatchVertex self, uint thread)
         shared_motion = motion_of(self.cloth);
     barrier();
     const ClothMotion mean = shared_motion;
-    Surroundings around = Surroundings(false, false, no_restraints(vec3(0), false));
     float values[k_values];
     for (uint k = 0; k < k_values; ++k)
         values[k] = k < k_part_sums ? 0 : -k_unbounded;
     // What is not finite would move the frame of all cloth near it.
     const bool counts = self.exists && !is_isolated(self) && is_finite(positions[self.index].xyz) &&
                         is_finite(velocities[self.index].xyz);
+    const Surroundings around = surroundings_of(self, mean, counts, thread);
     if (counts)
-    {
-        around = surroundings_of(self.index, self.cloth, mean);
         part_of(self, around, mean.origin, values);
-    }
     if (self.exists)
         pair_flats[self.index] = vec2(around.clear ? 1 : 0, 0);
     if (self.exists && self.index == cloths[self.cloth].first_vertex)
