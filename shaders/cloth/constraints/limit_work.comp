@@ -52,8 +52,7 @@ Conservative conservative_forces(PatchVertex self, FinePosition x, float mass)
 {
     const uint cloth = self.cloth;
     const bool verlet = is_verlet(cloths[cloth].flags);
-    const float stiffness =
-        stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, seconds(push.substeps)).stiffness;
+    const float stiffness = scales_of(verlet, cloth, seconds(push.substeps)).stiffness;
     const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
     precise const vec3 gravity = cloths[cloth].gravity_scale * step_input.gravity;
     return Conservative(g.energy, g.force, g.bending + mass * gravity);

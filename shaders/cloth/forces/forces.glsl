@@ -160,7 +160,7 @@ vec3 acceleration(bool verlet, PatchVertex self, FinePosition x, float inverse_m
 {
     const uint cloth = self.cloth;
     const float h = seconds(push.substeps);
-    const StabilityScales scales = stability_scales(verlet, cloths[cloth].omega_squared, cloths[cloth].decay, h);
+    const StabilityScales scales = scales_of(verlet, cloth, h);
     Viscosity viscosity = k_no_viscosity;
     if (verlet)
         viscosity = viscosity_of(scales, cloths[cloth].flat_omega_squared, cloths[cloth].decay, h);

@@ -98,7 +98,6 @@ void main()
     next_positions[i] = vec4(next.x, stage_x.w);
     next_residuals[i] = pack_residual(next);
     next_velocities[i] = vec4(motion.v, ends ? touches : 0);
-    const StabilityScales scales =
-        stability_scales(true, cloths[self.cloth].omega_squared, cloths[self.cloth].decay, seconds(push.substeps));
+    const StabilityScales scales = scales_of(true, self.cloth, seconds(push.substeps));
     next_predicted[i] = vec4(motion.v + verlet_prediction(scales) * seconds(push.substeps) * a, 0);
 }

@@ -70,17 +70,22 @@ const float k_unbounded = 1e30;
 
 bool enters_node(Search search, Box node) { return overlap(search.box, node); }
 
-// Whether another vertex of the cloth is a neighbor in flat cloth. Then the range shrinks to how far that keeps
+// Columns and rows from the vertex that searches to another one of its grid.
+ivec2 offset_to(Fan fan, uint vertex)
+{
+    const int from_row = fan.column_row.x + int(vertex) - int(fan.center); // from the first vertex of its row
+    const int rows = int(floor((float(from_row) + 0.5) / float(fan.columns)));
+    return ivec2(from_row - rows * int(fan.columns) - fan.column_row.x, rows);
+}
+
+// Whether another vertex of the grid is a neighbor in flat cloth. Then the range shrinks to how far that keeps
 // primitives apart, at least. Both vertices find the same: either of them may have the neighborhood.
 bool is_flat_neighbor(inout Search search, uint vertex)
 {
-    const int columns = int(search.fan.columns);
-    const int apart = int(vertex) - int(search.fan.center);
-    if (abs(apart) > (k_flat_offset.y + 1) * columns)
+    if (abs(int(vertex) - int(search.fan.center)) > (k_flat_offset.y + 1) * int(search.fan.columns))
         return false;
-    const int rows = int(round(float(apart) / float(columns)));
-    const ivec2 at = ivec2(apart - rows * columns, rows);
-    if (!within(k_flat_offset, at) || uint(search.fan.column_row.x + at.x) >= search.fan.columns)
+    const ivec2 at = offset_to(search.fan, vertex);
+    if (!within(k_flat_offset, at))
         return false;
     float least = flat_distance(search.flat_around, at);
     if (least < search.least_flat)
@@ -138,7 +143,7 @@ void consider(inout Search search, uint vertex, uint cloth, uint list)
 {
     if (vertex == search.fan.center || !meets(search.cloth, cloth) || island_of(cloth) != search.island)
         return;
-    if (cloth == search.cloth && search.fan.columns >= VOILE_LEAST_FLAT_COLUMNS && is_flat_neighbor(search, vertex))
+    if (cloth == search.cloth && search.fan.columns > 0 && is_flat_neighbor(search, vertex))
         return;
     if (!are_near(search, hull_of(fan_of(cloth, vertex), search.from, search.normal)))
         return;

@@ -93,7 +93,6 @@ void main()
         return;
     const Fan fan = fan_of(entry.y, entry.x);
     const vec3 x = midpoints[entry.x].xyz;
-    const bool grid = fan.columns >= VOILE_LEAST_FLAT_COLUMNS;
-    const Flat flat_around = grid ? flatness(fan, 16 * rounding(x)) : Flat(0, 0);
+    const Flat flat_around = fan.columns > 0 ? flatness(fan, 16 * rounding(x)) : Flat(0, 0);
     pair_flats[entry.x] = vec2(flat_around.wide, flat_around.narrow);
 }

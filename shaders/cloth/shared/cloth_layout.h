@@ -91,7 +91,8 @@ struct ClothRecord
     float bending_time; // s; the bending force depends on x + bending_time * v
     float pair_mass;    // kg, of its heaviest vertex
     uint first_fan;     // of a mesh that collides with itself: its first MeshFan
-    uint padding[2];
+    float softened_substep; // s; if longer than a substep, the cloth is softened as if it were one
+    uint padding;
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 

@@ -101,7 +101,6 @@
 #define VOILE_PAIR_APPROACH 0.45f
 // Cloth is flat around a vertex if its primitives are farther apart than this part of the range of lists.
 #define VOILE_FLAT_RANGE 0.85f
-#define VOILE_LEAST_FLAT_COLUMNS 8
 // So many vertices have a leaf of the hierarchy of pairs.
 #define VOILE_PAIR_LEAF 4
 // Weights in sums of loads are integers, so that their order does not matter.

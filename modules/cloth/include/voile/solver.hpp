@@ -242,6 +242,11 @@ public:
     // with a position go back to it. Positions are clamped to 1e6 m along each axis, velocities to 1e4 m/s. Errors: a
     // transform that is not affine, an axis with an entry beyond 1e3, a translation beyond 2e6 m.
     Result<void> teleport(ClothId cloth, const Mat4& transform);
+    // Moves an anchor or a collider at once, with the arguments and errors of move_anchor and move_collider. It has no
+    // velocity there. To teleport a dressed character, teleport its cloths, its anchors and its colliders before one
+    // record. move_anchor and move_collider would sweep through the world within a step and drag the cloth along.
+    Result<void> teleport(AnchorId anchor, const Mat4& world_from_anchor);
+    Result<void> teleport(ColliderId collider, const Mat4& motion);
     // Sets the velocity of every vertex, m/s. Errors: beyond 1e4 along an axis.
     Result<void> set_velocity(ClothId cloth, const Vec3& velocity);
 

@@ -16,8 +16,8 @@ struct Step
     float duration = 1.f / 60; // s, 1e-6..10
 
     // Substeps of every cloth, 0..1000000. 0: each cloth takes as many as it needs (Solver::stability). A cloth that
-    // needs more than it takes is softened. If the softening changes from step to step, stretched springs change their
-    // energy.
+    // needs more than it takes is softened. If steps differ in their length, the longest one softens it; its stiffness
+    // comes back within about a second. After a spike it sags for that long.
     uint32_t substeps = 0;
 
     // The most substeps that a cloth takes if `substeps` is 0, 1..1000000.

@@ -27,6 +27,7 @@ struct ColliderPose
 {
     glm::mat4 from{1.f};              // at the end of the last step
     glm::mat4 to{1.f};                // at the end of the next one
+    bool jumped = false;              // to where it is
     std::optional<AnchorId> anchor{}; // of the attachments on its surface
 };
 

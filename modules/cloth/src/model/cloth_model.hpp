@@ -43,11 +43,12 @@ struct ClothModel
     std::string name;
     bool enabled = true;
     bool self_collision = false;
-    bool uploaded = false;  // its arrays are in the solver's buffers
-    uint32_t level = 0;     // of its substeps (substep_plan.hpp)
-    bool jumped = false;    // reset or teleported in the step that is recorded
-    bool limit_due = false; // the strain limit in the record changed with the substeps
-    bool wake_due = false;  // it must not sleep in the next step
+    bool uploaded = false;      // its arrays are in the solver's buffers
+    uint32_t level = 0;         // of its substeps (substep_plan.hpp)
+    bool jumped = false;        // reset or teleported in the step that is recorded
+    float softened_substep = 0; // s, of the last step (held_substep)
+    bool limit_due = false;     // the strain limit in the record changed with the substeps
+    bool wake_due = false;      // it must not sleep in the next step
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
     std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it

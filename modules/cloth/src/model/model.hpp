@@ -21,7 +21,16 @@ struct Anchor
     glm::mat4 added{1.f}; // world from anchor, when it was added
     glm::mat4 from{1.f};  // at the end of the last step
     glm::mat4 to{1.f};    // at the end of the next one
+    bool jumped = false;  // to where it is
 };
+
+// Without moving there. Of an anchor or the pose of a collider.
+template <typename Pose>
+void jump(Pose& pose)
+{
+    pose.from = pose.to;
+    pose.jumped = true;
+}
 
 // The arrays of MeshLists that have ranges of their own; corners and membrane corners share one.
 enum ListArray : size_t

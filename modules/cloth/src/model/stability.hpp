@@ -21,6 +21,14 @@ shared::StabilityScales stability_scales(const shared::ClothRecord& record, doub
 // The smallest number of substeps of a step of `duration` seconds that keeps all stiffness and damping. At least 1.
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration);
 
+// s: the substep that a cloth is softened for after a step; 0: it keeps its stiffness. Where steps differ in their
+// length, a budget of substeps would soften cloth differently in each of them, and each change of stiffness would
+// change the energy of its springs: alternating steps would shake it. So a long step softens at once, and stiffness
+// comes back slowly.
+float held_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
+// The same for the record, where substeps are shorter than that; else 0.
+float softened_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
+
 // The strain limit of a cloth in a step.
 struct StrainLimit
 {

@@ -183,9 +183,9 @@ Moved find_moved(const Solver::State& solver)
 {
     Moved moved;
     for (const auto [index, anchor] : solver.model.anchors)
-        moved.anchors |= anchor.from != anchor.to;
+        moved.anchors |= anchor.jumped || anchor.from != anchor.to;
     for (const auto [index, collider] : solver.collider_models.colliders)
-        moved.colliders |= collider.pose.from != collider.pose.to ||
+        moved.colliders |= collider.pose.jumped || collider.pose.from != collider.pose.to ||
                            (collider.uploaded && collider.deforming && collider.deforming->due);
     return moved;
 }
@@ -202,9 +202,15 @@ bool refit_due(const Solver::State& solver)
 void finish_motions(Solver::State& solver)
 {
     for (auto [index, anchor] : solver.model.anchors)
+    {
         anchor.from = anchor.to;
+        anchor.jumped = false;
+    }
     for (auto [index, collider] : solver.collider_models.colliders)
+    {
         collider.pose.from = collider.pose.to;
+        collider.pose.jumped = false;
+    }
 }
 
 void finish_edits(Solver::State& solver)

@@ -76,6 +76,10 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
         if (next.levels > 1)
             level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
         levels_change |= std::exchange(cloth.level, level) != level;
+        const float softened = softened_substep(cloth, step, next);
+        cloth.softened_substep = held_substep(cloth, step, next);
+        if (std::exchange(cloth.record.softened_substep, softened) != softened)
+            edits.records.insert(index);
         if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
         {
             cloth.record.strain_limit = limit.most;

@@ -31,7 +31,7 @@ bool uses_moved_anchor(const Model& model, const ClothModel& cloth)
 bool anchors_move(const Model& model)
 {
     for (const auto [index, anchor] : model.anchors)
-        if (anchor.from != anchor.to)
+        if (anchor.jumped || anchor.from != anchor.to)
             return true;
     return false;
 }

@@ -273,7 +273,9 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     std::vector<SubstepNeed> needs;
     const SubstepPlan plan = state_->plan(step, needs, model);
     result.used = plan.substeps_of(plan.level_of(result.needed));
-    const shared::StabilityScales scales = stability_scales(record, static_cast<double>(step.duration) / result.used);
+    const double substep = std::max(static_cast<double>(step.duration) / result.used,
+                                    static_cast<double>(softened_substep(*model, step, plan)));
+    const shared::StabilityScales scales = stability_scales(record, substep);
     result.stiffness_scale = static_cast<float>(scales.stiffness);
     result.damping_scale = static_cast<float>(scales.damping);
     result.load = static_cast<float>(scales.load);

@@ -93,6 +93,19 @@ Result<void> Solver::move_collider(ColliderId collider, const glm::mat4& motion)
     return {};
 }
 
+Result<void> Solver::teleport(ColliderId collider, const glm::mat4& motion)
+{
+    if (auto moved = move_collider(collider, motion); !moved)
+        return moved;
+    State& s = *state_;
+    ColliderModel& model = *s.collider_models.colliders.find(collider);
+    jump(model.pose);
+    if (model.pose.anchor)
+        jump(*s.model.anchors.find(*model.pose.anchor));
+    s.wake_near(model.record.layers);
+    return {};
+}
+
 Result<void> Solver::set_friction(ColliderId collider, const std::optional<Friction>& friction)
 {
     State& s = *state_;

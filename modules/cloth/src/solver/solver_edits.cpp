@@ -178,6 +178,14 @@ Result<void> Solver::move_anchor(AnchorId anchor, const glm::mat4& world_from_an
     return {};
 }
 
+Result<void> Solver::teleport(AnchorId anchor, const glm::mat4& world_from_anchor)
+{
+    if (auto moved = move_anchor(anchor, world_from_anchor); !moved)
+        return moved;
+    jump(*state_->model.anchors.find(anchor));
+    return {};
+}
+
 Result<void> Solver::reset(ClothId cloth)
 {
     if (auto exists = state_->check(cloth); !exists)
