@@ -17,6 +17,9 @@ const float k_slow_part = 0.25;
 const float k_no_room = 3e38;
 // Over the thickness: pieces do not come nearer than this to a feature.
 const float k_floor = 0.02;
+// Over the radius of something round that is larger than an edge of the cloth: nor nearer than this to its axis. Cloth
+// sinks towards it between its vertices. If it had to stay beyond the surface, it could not slide around it.
+const float k_core = 0.5;
 // Vertices may use this part of the distance, so that something is left.
 const float k_guarded_part = 0.9;
 
@@ -68,6 +71,12 @@ bool may_meet(SweptFeature f, SweptVertex b, bool triangle)
     return overlap(swept, own);
 }
 
+// m, from the line of a feature: where the guards of a piece with an edge from a to b are.
+float guarded_radius(float radius, vec3 a, vec3 b)
+{
+    return radius > distance(a, b) ? k_core * radius : radius;
+}
+
 struct GuardPlane
 {
     vec4 plane; // before the motion, in the collider's space
@@ -100,9 +109,9 @@ GuardPlane guard_plane(SweptFeature f, SweptVertex b, bool triangle, bool squeez
     const Separation separation = separate(!triangle, x, -n);
     // Of the feature, the first side: its border is farthest along n.
     const float border = triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]));
+    const float radius = guarded_radius(feature.radius, a.from, b.from);
     GuardPlane result;
-    result.plane = vec4(
-        n, separation.gap > feature.radius ? border + feature.radius + k_floor * self.thickness : k_no_room);
+    result.plane = vec4(n, separation.gap > radius ? border + radius + k_floor * self.thickness : k_no_room);
     result.motion = motion_of(f);
     return result;
 }

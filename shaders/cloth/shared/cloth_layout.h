@@ -88,9 +88,9 @@ struct ClothRecord
     // Stiffness of the isometric model. Grid, N/m: of a second difference along a row, along a column, and of a twist.
     // Mesh, N m: x.
     vec3 bending;
-    float bending_time; // s; the bending force depends on x + bending_time * v
-    float pair_mass;    // kg, of its heaviest vertex
-    uint first_fan;     // of a mesh that collides with itself: its first MeshFan
+    float bending_time;     // s; the bending force depends on x + bending_time * v
+    float pair_mass;        // kg, of its heaviest vertex
+    uint first_fan;         // of a mesh that collides with itself: its first MeshFan
     float softened_substep; // s; if longer than a substep, the cloth is softened as if it were one
     uint padding;
     SpringClass springs[VOILE_SPRING_CLASSES];

@@ -203,8 +203,8 @@ enum class Sidedness
 };
 
 // Contact. A crossing test stops every vertex at any speed. Edges and corners of colliders also stop cloth between its
-// vertices (SolverOptions::feature_contact). Where colliders close on cloth, they hold it until they part. Cloth at rest
-// on a collider stays at rest.
+// vertices (SolverOptions::feature_contact). Where colliders close on cloth, they hold it until they part. Cloth at
+// rest on a collider stays at rest.
 //
 // Cloth that is inside colliders at the start of a step is moved out on one side, at less than 2.5 m/s
 // (SolverOptions::depenetration): inside a sphere, a capsule, a box, or a closed mesh that pushes outwards. Overlapping

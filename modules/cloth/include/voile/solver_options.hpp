@@ -133,8 +133,8 @@ struct SolverOptions
     bool depenetration = true;
 
     // Cloths with self_collision that intersect each other or themselves when a step starts are pulled apart
-    // (docs/self-collision.md). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query per step.
-    // Without this, the parts that intersect are held as they are.
+    // (docs/self-collision.md). Costs 80 to 160 bytes of device memory per triangle of such a cloth, and a query per
+    // step. Without this, the parts that intersect are held as they are.
     bool untangling = true;
 
     // None: vertex input reads the streams. A queue without graphics has no vertex input: on such a queue, name the
