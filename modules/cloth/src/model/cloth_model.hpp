@@ -47,6 +47,7 @@ struct ClothModel
     uint32_t level = 0;         // of its substeps (substep_plan.hpp)
     bool jumped = false;        // reset or teleported in the step that is recorded
     float softened_substep = 0; // s, of the last step (held_substep)
+    bool softening_due = false; // that in the record changed with the steps
     bool limit_due = false;     // the strain limit in the record changed with the substeps
     bool wake_due = false;      // it must not sleep in the next step
     ClothMaterial material;

@@ -101,7 +101,7 @@ StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Subste
     const StrainLimit of_material{own, VOILE_STRAIN_PASSES};
     if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || cloth.mesh)
         return of_material;
-    const bool softened = substeps_of(cloth, step, plan).are_too_few() || cloth.record.softened_substep > 0;
+    const bool softened = substeps_of(cloth, step, plan).are_too_few() || softened_substep(cloth, step, plan) > 0;
     return softened ? StrainLimit{step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES} : of_material;
 }
 

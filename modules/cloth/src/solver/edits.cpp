@@ -81,12 +81,13 @@ void update_softened(gpu::Recorder& recorder, Solver::State& solver)
     const DeviceState& device = *solver.device;
     for (auto [index, cloth] : solver.model.cloths)
     {
-        if (!std::exchange(cloth.limit_due, false) || !cloth.uploaded)
+        const bool limit = std::exchange(cloth.limit_due, false);
+        if ((!std::exchange(cloth.softening_due, false) && !limit) || !cloth.uploaded)
             continue;
         if (!solver.edits.records.contains(index)) // else it is written already
             recorder.update(device[buffer::cloths].handle(), index * sizeof(shared::ClothRecord),
                             std::as_bytes(std::span(&cloth.record, 1)));
-        if (!solver.edits.limits.contains(index))
+        if (limit && !solver.edits.limits.contains(index))
             recorder.update(device[buffer::limit_scales].handle(), index * sizeof(k_first_scale),
                             std::as_bytes(std::span(&k_first_scale, 1)));
     }

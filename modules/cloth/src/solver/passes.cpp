@@ -76,16 +76,16 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
         if (next.levels > 1)
             level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
         levels_change |= std::exchange(cloth.level, level) != level;
-        const float softened = softened_substep(cloth, step, next);
-        cloth.softened_substep = held_substep(cloth, step, next);
-        if (std::exchange(cloth.record.softened_substep, softened) != softened)
-            edits.records.insert(index);
         if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
         {
             cloth.record.strain_limit = limit.most;
             cloth.record.strain_passes = limit.passes;
             cloth.limit_due = edits.softened = true;
         }
+        const float softened = softened_substep(cloth, step, next);
+        cloth.softened_substep = held_substep(cloth, step, next);
+        if (std::exchange(cloth.record.softened_substep, softened) != softened)
+            cloth.softening_due = edits.softened = true;
     }
     if (edits.softened)
         update_passes();

@@ -30,7 +30,7 @@ struct Edits
     std::set<uint32_t> limits;                 // cloths that got a strain limit
     std::set<uint32_t> colliders;              // colliders whose record changed, or that were removed
     std::vector<shared::EditPush> state_edits; // in order
-    bool softened = false;                     // cloths got or lost a strain limit with the step (limit_due)
+    bool softened = false;                     // steps changed softening or strain limits (softening_due, limit_due)
     bool patches = false;
     bool attachments = false; // the lists of attachments and tethers
     bool pins = false;        // they must be set again
