@@ -33,7 +33,7 @@ float air_scale(bool verlet, float decay, float h)
     return min(1, 0.5 * region / max(decay * h, 1e-30));
 }
 
-// Where steps differ in their length and a budget leaves too few substeps, the longest of the last time decide (held_substep in
+// Where steps differ in their length and a budget leaves too few substeps, the longest of the last time decide (Softening in
 // stability.hpp). `h`: s, of the substep.
 StabilityScales scales_of(bool verlet, uint cloth, float h)
 {

@@ -1,4 +1,4 @@
-// The colliders that vertices of a workgroup may meet on their ways (clear.glsl), a bit each: most patches of cloth are far from
+// The colliders that vertices of a workgroup may meet as they move (clear.glsl), a bit each: most patches of cloth are far from
 // most colliders. Where there are few, all of them.
 //
 // The including kernel includes clear.glsl and fold.glsl, and defines k_unbounded.
@@ -11,18 +11,17 @@
 const uint k_few_colliders = 8;
 const float k_diagonal = 1.7320508; // of a cube: boxes are grown in the space of a collider
 
-shared Box shared_ways; // around all ways, with their margins; nothing overlaps it if there are none
+shared Box shared_swept; // around all displacements, with their margins; nothing overlaps it if no vertex moves
 shared uint shared_met[(gl_WorkGroupSize.x + 31) / 32];
 
 bool are_few() { return push.colliders <= k_few_colliders; }
 
-// By all threads. `moves`: the vertex has a way.
-void share_ways(uint thread, bool moves, Way way)
+// Of the workgroup; by all threads. `moves`: whether the vertex does.
+void find_swept_box(uint thread, bool moves, Way way)
 {
     if (are_few())
         return;
-    const float farthest =
-        k_diagonal * max(way.margin, way.near) + max(VOILE_PAIR_SWEEP_TIME, way.time) * length(way.v);
+    const float farthest = k_diagonal * max(way.margin, way.near) + way.time * length(way.v);
     float corners[k_values]; // the lower one negated
     for (uint k = 0; k < k_values; ++k)
         corners[k] = -k_unbounded;
@@ -33,15 +32,15 @@ void share_ways(uint thread, bool moves, Way way)
     }
     fold(thread, 0, corners);
     if (thread == 0)
-        shared_ways = Box(-vec3(corners[0], corners[1], corners[2]), vec3(corners[3], corners[4], corners[5]));
+        shared_swept = Box(-vec3(corners[0], corners[1], corners[2]), vec3(corners[3], corners[4], corners[5]));
     barrier();
 }
 
 // m: how much nearer the motion of a collider brings it than the box says that it sweeps (relative_way).
 float motion_margin(uint c, Box swept)
 {
-    const vec3 apart = max(abs(swept.max - shared_ways.min), abs(shared_ways.max - swept.min));
-    const float farthest = length(apart) + length(shared_ways.max - shared_ways.min);
+    const vec3 apart = max(abs(swept.max - shared_swept.min), abs(shared_swept.max - swept.min));
+    const float farthest = length(apart) + length(shared_swept.max - shared_swept.min);
     const float steps = max(1, frame_horizon() * step_input.rate);
     return k_diagonal * steps * motion_at(collider_motions[c], vec3(farthest));
 }
@@ -51,9 +50,9 @@ bool may_meet(uint c, ColliderRecord collider)
     if (are_few() || collider.kind == VOILE_COLLIDER_PLANE)
         return true;
     const Box swept = swept_box(c, collider);
-    const float rounding = k_near_rounding * length(max(abs(shared_ways.min), abs(shared_ways.max)));
+    const float rounding = k_near_rounding * length(max(abs(shared_swept.min), abs(shared_swept.max)));
     const float motion = is_moved(collider.flags) ? motion_margin(c, swept) : 0;
-    return overlap(grown(swept, rounding + motion), shared_ways);
+    return overlap(grown(swept, rounding + motion), shared_swept);
 }
 
 // Of the colliders from `first` on, as many as there are threads. By all threads.

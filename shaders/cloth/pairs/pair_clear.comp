@@ -99,7 +99,7 @@ Surroundings surroundings_of(PatchVertex self, ClothMotion mean, bool counts, ui
     Way way = Way(vec3(0), vec3(0), 0, 0, 0);
     if (moves)
         way = way_of(i, self.cloth);
-    share_ways(thread, moves, way);
+    find_swept_box(thread, moves, way);
     bool clear = moves;
     for (uint first = 0; first < push.colliders; first += gl_WorkGroupSize.x)
     {

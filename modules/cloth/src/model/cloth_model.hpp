@@ -46,7 +46,7 @@ struct ClothModel
     bool uploaded = false;      // its arrays are in the solver's buffers
     uint32_t level = 0;         // of its substeps (substep_plan.hpp)
     bool jumped = false;        // reset or teleported in the step that is recorded
-    float softened_substep = 0; // s, of the last step (held_substep)
+    float softened_substep = 0; // s, of the last step (Softening)
     bool softening_due = false; // that in the record changed with the steps
     bool limit_due = false;     // the strain limit in the record changed with the substeps
     bool wake_due = false;      // it must not sleep in the next step

@@ -57,52 +57,30 @@ uint32_t stable_substeps(const shared::ClothRecord& record, double duration)
     return static_cast<uint32_t>(std::clamp(substeps, 1.0, static_cast<double>(k_most_substeps)));
 }
 
-namespace
-{
-
-struct SubstepsOfCloth
-{
-    uint32_t needed;
-    uint32_t used;
-    [[nodiscard]] bool are_too_few() const { return used < needed; }
-};
-
-SubstepsOfCloth substeps_of(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
-{
-    const uint32_t needed = stable_substeps(cloth.record, static_cast<double>(step.duration));
-    return {needed, plan.substeps_of(plan.level_of(needed))};
-}
-
-} // namespace
-
-float held_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
+Softening softening_of(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
 {
     constexpr double k_recovery = 0.5; // s
     constexpr double k_least = 1e-3;   // of a substep; less is rounding
-    const SubstepsOfCloth substeps = substeps_of(cloth, step, plan);
-    const double substep = static_cast<double>(step.duration) / substeps.used;
+    const auto duration = static_cast<double>(step.duration);
+    const uint32_t needed = stable_substeps(cloth.record, duration);
+    const uint32_t used = plan.substeps_of(plan.level_of(needed));
+    const double substep = duration / used;
     const auto before = static_cast<double>(cloth.softened_substep);
-    const double held = substep + (before - substep) * std::exp(-static_cast<double>(step.duration) / k_recovery);
-    if (held > (1 + k_least) * substep)
-        return static_cast<float>(held);
-    return substeps.are_too_few() ? static_cast<float>(substep) : 0;
+    if (before > substep)
+    {
+        const double held = substep + (before - substep) * std::exp(-duration / k_recovery);
+        if (held > (1 + k_least) * substep)
+            return {true, static_cast<float>(held), static_cast<float>(held)};
+    }
+    return used < needed ? Softening{true, static_cast<float>(substep), 0} : Softening{};
 }
 
-float softened_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
-{
-    const float held = held_substep(cloth, step, plan);
-    const auto used = static_cast<float>(substeps_of(cloth, step, plan).used);
-    return held * used > step.duration * (1 + 1e-4f) ? held : 0;
-}
-
-StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan)
+StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Softening& softening)
 {
     const float own = std::visit([](const auto& m) { return m.strain_limit; }, cloth.material);
-    const StrainLimit of_material{own, VOILE_STRAIN_PASSES};
-    if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || cloth.mesh)
-        return of_material;
-    const bool softened = substeps_of(cloth, step, plan).are_too_few() || softened_substep(cloth, step, plan) > 0;
-    return softened ? StrainLimit{step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES} : of_material;
+    if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || cloth.mesh || !softening.is_soft)
+        return {own, VOILE_STRAIN_PASSES};
+    return {step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES};
 }
 
 double largest_eigenvalue(double xx, double xy, double yy)

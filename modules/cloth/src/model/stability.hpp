@@ -21,13 +21,16 @@ shared::StabilityScales stability_scales(const shared::ClothRecord& record, doub
 // The smallest number of substeps of a step of `duration` seconds that keeps all stiffness and damping. At least 1.
 uint32_t stable_substeps(const shared::ClothRecord& record, double duration);
 
-// s: the substep that a cloth is softened for after a step; 0: it keeps its stiffness. Where steps differ in their
-// length, a budget of substeps would soften cloth differently in each of them, and each change of stiffness would
-// change the energy of its springs: alternating steps would shake it. So a long step softens at once, and stiffness
-// comes back slowly.
-float held_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
-// The same for the record, where substeps are shorter than that; else 0.
-float softened_substep(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
+// How a step softens a cloth. Where steps differ in their length, a budget of substeps would soften cloth differently
+// in each of them, and each change of stiffness would change the energy of its springs: alternating steps would shake
+// it. So a long step softens at once, and stiffness comes back slowly.
+struct Softening
+{
+    bool is_soft = false;       // it takes fewer substeps than it needs, or has done so
+    float substep = 0;          // s, that it is softened for; the next step holds it
+    float softened_substep = 0; // s, for the record: the same where it is longer than those of the step, else 0
+};
+Softening softening_of(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
 
 // The strain limit of a cloth in a step.
 struct StrainLimit
@@ -40,9 +43,9 @@ inline StrainLimit strain_limit(const shared::ClothRecord& record)
 {
     return {record.strain_limit, record.strain_passes};
 }
-// Its material's. If that has none and the plan softens the cloth, the step's. Without coarse levels, as on a mesh, so
+// Its material's. If that has none and the step softens the cloth, the step's. Without coarse levels, as on a mesh, so
 // few passes would reach nothing.
-StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const SubstepPlan& plan);
+StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Softening& softening);
 
 // Of the symmetric matrix (xx, xy; xy, yy).
 double largest_eigenvalue(double xx, double xy, double yy);

@@ -76,15 +76,15 @@ void Solver::State::assign_levels(const SubstepPlan& next, const Step& step)
         if (next.levels > 1)
             level = next.level_of(voile::stable_substeps(cloth.record, static_cast<double>(step.duration)));
         levels_change |= std::exchange(cloth.level, level) != level;
-        if (const StrainLimit limit = strain_limit(cloth, step, next); limit != strain_limit(cloth.record))
+        const Softening softening = softening_of(cloth, step, next);
+        cloth.softened_substep = softening.substep;
+        if (const StrainLimit limit = strain_limit(cloth, step, softening); limit != strain_limit(cloth.record))
         {
             cloth.record.strain_limit = limit.most;
             cloth.record.strain_passes = limit.passes;
             cloth.limit_due = edits.softened = true;
         }
-        const float softened = softened_substep(cloth, step, next);
-        cloth.softened_substep = held_substep(cloth, step, next);
-        if (std::exchange(cloth.record.softened_substep, softened) != softened)
+        if (std::exchange(cloth.record.softened_substep, softening.softened_substep) != softening.softened_substep)
             cloth.softening_due = edits.softened = true;
     }
     if (edits.softened)

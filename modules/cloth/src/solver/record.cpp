@@ -232,7 +232,8 @@ uint32_t Solver::dispatches(const Step& step) const
     ActiveLists lists;
     list_patches(state_->model, level_of, state_->options.tuning.workgroup_size, lists);
     list_attachments(state_->model, level_of, lists);
-    const Passes passes = state_->passes_with([&](const ClothModel& cloth) { return strain_limit(cloth, step, plan); });
+    const Passes passes = state_->passes_with([&](const ClothModel& cloth)
+                                              { return strain_limit(cloth, step, softening_of(cloth, step, plan)); });
     record_passes(dry, *state_, lists, history, step, plan, passes);
     return dry.dispatches();
 }

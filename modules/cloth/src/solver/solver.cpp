@@ -274,7 +274,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     const SubstepPlan plan = state_->plan(step, needs, model);
     result.used = plan.substeps_of(plan.level_of(result.needed));
     const double substep = std::max(static_cast<double>(step.duration) / result.used,
-                                    static_cast<double>(softened_substep(*model, step, plan)));
+                                    static_cast<double>(softening_of(*model, step, plan).softened_substep));
     const shared::StabilityScales scales = stability_scales(record, substep);
     result.stiffness_scale = static_cast<float>(scales.stiffness);
     result.damping_scale = static_cast<float>(scales.damping);
