@@ -69,6 +69,12 @@ float turning_margin(ColliderMotion motion, float distance)
     return k_chord_rate * angle * push.progress_per_substep * distance;
 }
 
+// m: within a substep a collider may carry a vertex aside by half of its own motion (held_box in feature_pieces.glsl).
+float carrying_margin(ColliderMotion motion)
+{
+    return 1.4 * distance(motion.offset_from, motion.offset_to) * push.progress_per_substep * float(push.substeps);
+}
+
 // Whether the collider may touch the box until the end of the step.
 bool touches(uint c, ColliderRecord collider, Box box)
 {
@@ -78,7 +84,8 @@ bool touches(uint c, ColliderRecord collider, Box box)
     if (is_moved(collider.flags))
     {
         const vec3 farthest = max(abs(around.max - box.min), abs(box.max - around.min));
-        around = grown(around, turning_margin(collider_motions[c], length(farthest)));
+        const ColliderMotion motion = collider_motions[c];
+        around = grown(around, turning_margin(motion, length(farthest)) + carrying_margin(motion));
     }
     return overlap(around, box);
 }
@@ -97,7 +104,7 @@ uint bits_of(uint word, uint cloth, Box box)
         if ((collider.layers & cloths[cloth].layers) == 0)
             continue;
         const bool has_features = push.features != 0 && feature_sets[c].features > 0;
-        const float loose = has_features ? VOILE_MOST_STRETCH * feature_sets[c].edge : 0;
+        const float loose = has_features ? 2 * VOILE_MOST_STRETCH * feature_sets[c].edge : 0;
         bits |= touches(c, collider, grown(box, margin + loose)) ? 1u << bit : 0;
     }
     return bits;

@@ -166,7 +166,7 @@ void visit_collider(uint c, uint part, uint parts)
     piece.a = swept_vertex(self.earlier, self.proposed, self.velocity, self.inverse_mass);
     // Most vertices are far from all features. Their own positions suffice to decide that.
     const float loose = VOILE_MOST_STRETCH * set.edge;
-    const Box around = grown(box_around(piece.a.from, piece.a.to), loose);
+    const Box around = grown(vertex_box(piece.a, finds_guards), 2 * loose);
     if (!is_near(around, feature_box(set)))
         return;
     prepare_collider();
@@ -175,7 +175,8 @@ void visit_collider(uint c, uint part, uint parts)
     {
         if (!load_piece(k))
             continue;
-        const Box box = piece_box();
+        any_guarded = any_guarded || is_fast(longest_motion(piece.b, true, vec3(0)));
+        const Box box = piece_box(finds_guards);
         FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
         if (is_deforming(collider_flags))
             traverse_padded(query, collider.first_node, set.first_node, collider.triangles);
@@ -186,7 +187,7 @@ void visit_collider(uint c, uint part, uint parts)
 
 void visit_colliders(uint patch_index, uint part, uint parts)
 {
-    ColliderWalk walk = walk_colliders(patch_index, box_around(self.earlier.x, self.proposed.x));
+    ColliderWalk walk = walk_colliders(patch_index, thales_box(self.earlier.x, self.proposed.x));
     uint c;
     while (next_collider(walk, c))
         visit_collider(c, part, parts);
@@ -218,21 +219,10 @@ void find_change()
 void hold_at_features()
 {
     const vec3 proposed = displacement(self.earlier, self.proposed);
-    const vec3 carry = guard.carried / seconds(push.substeps);
-    for (uint k = 0; k < 2; ++k)
-    {
-        const vec4 plane = guard.planes[k];
-        const float outside = max(-inside(plane, proposed + response.shift), 0);
-        response.shift += outside * plane.xyz;
-        if (outside > 0)
-            response.change -= min(dot(plane.xyz, self.velocity + response.change - carry), 0) * plane.xyz;
-    }
-    const float part = safe_part(guard, proposed, proposed + response.shift);
-    if (part < 1)
-    {
-        response.shift = mix(guard.carried, proposed + response.shift, part) - proposed;
-        response.change = mix(carry, self.velocity + response.change, part) - self.velocity;
-    }
+    const HeldMotion motion = HeldMotion(proposed + response.shift, self.velocity + response.change);
+    const HeldMotion held = hold(guard, proposed, motion, self.thickness, seconds(push.substeps));
+    response.shift += held.displacement - motion.displacement;
+    response.change += held.velocity - motion.velocity;
 }
 
 void write_correction()
@@ -285,14 +275,16 @@ void merge_responses(uint part, bool exists)
 
 void merge_guards(uint part, bool exists)
 {
-    const uint thread = gl_LocalInvocationID.x;
-    barrier(); // the first lane has read all responses
-    store_guard(thread);
-    barrier();
-    if (part != 0 || !exists)
-        return;
-    for (uint other = thread + 1; other < thread + push.lanes; ++other)
-        merge_stored_guard(other);
+    const uint first = gl_LocalInvocationID.x - part;
+    for (uint other = 1; other < push.lanes; ++other)
+    {
+        barrier(); // the first lane has read what was there
+        if (part == other)
+            store_guard(first);
+        barrier();
+        if (part == 0 && exists)
+            merge_stored_guard(first);
+    }
 }
 
 // The response of the `index`-th vertex of those that traverse, and its guard, if any of its pieces needs one. A loop, for

@@ -17,14 +17,18 @@ const float k_slow_part = 0.25;
 const float k_no_room = 3e38;
 // Over the thickness: pieces do not come nearer than this to a feature.
 const float k_floor = 0.02;
-// Over the radius of something round that is larger than an edge of the cloth: nor nearer than this to its axis. Cloth
-// sinks towards it between its vertices. If it had to stay beyond the surface, it could not slide around it.
+// Over the longest edge of cloths at rest: something round with a larger radius has a core, to which pieces may come.
+// Cloth sinks towards it between its vertices. If it had to stay beyond the surface, it could not slide around it.
+const float k_round = 0.35;
+// The radius of the core, over the radius.
 const float k_core = 0.5;
 // Vertices may use this part of the distance, so that something is left.
 const float k_guarded_part = 0.9;
 
 FeatureGuard guard;
-vec2 urgency; // of the planes: the approach over the distance
+vec4 urgency; // of the planes: the approach over the distance
+vec4 slacks;  // m, of the planes: how far the vertex may approach them
+float least_slack; // m, of all planes: how far the vertex may approach
 bool is_guarded;
 // A second visit of the features finds the planes of pieces that are fast or squeezed. Together with the contacts they would take too many
 // registers.
@@ -33,12 +37,12 @@ bool any_guarded = false; // of this thread
 
 void clear_guard()
 {
-    guard.planes[0] = guard.planes[1] = vec4(0);
+    for (uint k = 0; k < VOILE_GUARD_PLANES; ++k)
+        guard.planes[k] = vec4(0);
+    urgency = vec4(-3e38);
+    slacks = vec4(3e38);
     guard.carried = vec3(0);
-    guard.least = 3e38;
-    guard.reach = 3e38;
-    guard.stray = 0;
-    urgency = vec2(-3e38);
+    guard.least = guard.reach = least_slack = 3e38;
     is_guarded = false;
 }
 
@@ -60,21 +64,22 @@ float longest_motion(SweptVertex b, bool triangle, SweptFeature f)
 bool is_fast(float longest) { return longest > k_slow_part * self.thickness; }
 
 // Whether the box of the piece's motion comes closer than the thickness. What does not is not listed in all cases
-// (find_near_features.comp), and `stray` keeps it away.
+// (find_near_features.comp), and vertices stay away from it (safe_part).
 bool may_meet(SweptFeature f, SweptVertex b, bool triangle)
 {
-    Box swept = joined(box_around(piece.a.from, piece.a.to), box_around(b.from, b.to));
+    Box swept = joined(held_box(piece.a), held_box(b));
     if (triangle)
-        swept = joined(swept, box_around(piece.c.from, piece.c.to));
+        swept = joined(swept, held_box(piece.c));
     const Box own = grown(joined(box_around(f.now.a, f.now.b), box_around(a_before(f), b_before(f))),
                           f.now.radius + self.thickness);
     return overlap(swept, own);
 }
 
-// m, from the line of a feature: where the guards of a piece with an edge from a to b are.
-float guarded_radius(float radius, vec3 a, vec3 b)
+// m, from the line of a feature: where guards are. Edges at rest decide: if stretched ones did, pieces in the core
+// would have no room from some stretch on.
+float guarded_radius(float radius)
 {
-    return radius > distance(a, b) ? k_core * radius : radius;
+    return radius > k_round * feature_sets[collider_index].edge ? k_core * radius : radius;
 }
 
 struct GuardPlane
@@ -109,36 +114,52 @@ GuardPlane guard_plane(SweptFeature f, SweptVertex b, bool triangle, bool squeez
     const Separation separation = separate(!triangle, x, -n);
     // Of the feature, the first side: its border is farthest along n.
     const float border = triangle ? dot(n, x[0]) : max(dot(n, x[0]), dot(n, x[1]));
-    const float radius = guarded_radius(feature.radius, a.from, b.from);
+    const float radius = guarded_radius(feature.radius);
     GuardPlane result;
     result.plane = vec4(n, separation.gap > radius ? border + radius + k_floor * self.thickness : k_no_room);
     result.motion = motion_of(f);
     return result;
 }
 
-void exceed(vec4 plane)
+// m: the displacement that integration proposes.
+vec3 proposed_displacement() { return displacement(self.earlier, self.proposed); }
+
+// Of a plane that is not kept.
+void exceed(vec4 plane, float slack)
 {
-    if (plane.xyz != vec3(0))
-        guard.reach = min(guard.reach, inside(plane, displacement(self.earlier, self.proposed)));
+    if (plane.xyz == vec3(0))
+        return;
+    guard.least = min(guard.least, slack);
+    guard.reach = min(guard.reach, inside(plane, proposed_displacement()));
 }
 
-void insert_plane(vec4 plane, float urgent)
+// `slack`: m, how far the vertex may approach the plane. The more urgent planes are first, so that the last one gives way.
+void insert_plane(vec4 plane, float slack)
 {
-    if (urgent > urgency.x)
-    {
-        exceed(guard.planes[1]);
-        guard.planes[1] = guard.planes[0];
-        guard.planes[0] = plane;
-        urgency = vec2(urgent, urgency.x);
-    }
-    else if (urgent > urgency.y)
-    {
-        exceed(guard.planes[1]);
-        guard.planes[1] = plane;
-        urgency.y = urgent;
-    }
-    else
-        exceed(plane);
+    float urgent = (slack - inside(plane, proposed_displacement())) / max(slack, 1e-9);
+    [[unroll]] for (uint k = 0; k < VOILE_GUARD_PLANES; ++k)
+        if (urgent > urgency[k])
+        {
+            const vec4 other = guard.planes[k];
+            const vec2 of_other = vec2(urgency[k], slacks[k]);
+            guard.planes[k] = plane;
+            urgency[k] = urgent;
+            slacks[k] = slack;
+            plane = other;
+            urgent = of_other.x;
+            slack = of_other.y;
+        }
+    exceed(plane, slack);
+}
+
+// The nearest feature carries the vertex.
+void carry(vec3 carried, float slack)
+{
+    is_guarded = true;
+    if (slack >= least_slack)
+        return;
+    least_slack = slack;
+    guard.carried = carried;
 }
 
 // Adds a plane in the space of the current collider.
@@ -149,35 +170,24 @@ void add_plane(GuardPlane added)
     if (plane.xyz == vec3(0))
         return;
     const float slack = k_guarded_part * max(dot(plane.xyz, own.from) - plane.w, 0);
-    is_guarded = true;
-    guard.stray = self.thickness;
     const vec3 carried = surface_displacement(added.motion);
-    if (slack < guard.least)
-    {
-        guard.least = slack;
-        guard.carried = carried;
-    }
+    carry(carried, slack);
     const vec3 turned = turned_vector(added.motion, plane.xyz);
     const vec3 n = collider_moves ? rotate(pose_to.rotation, turned) : turned;
-    insert_plane(vec4(n, slack - dot(n, carried)), dot(plane.xyz, own.from + motion_at(added.motion, own.from) - own.to) / max(slack, 1e-9));
+    insert_plane(vec4(n, slack - dot(n, carried)), slack);
 }
 
-// Adds the guard that another thread found for the same vertex.
-void merge_guard(FeatureGuard other, vec2 other_urgency)
+// Adds the guard that another thread found for the same vertex. `other_least`: its least slack.
+void merge_guard(FeatureGuard other, vec4 other_slacks, float other_least)
 {
-    if (other.least > 1e38)
+    if (other_least > 1e38)
         return;
-    is_guarded = true;
-    guard.stray = other.stray;
+    carry(other.carried, other_least);
+    guard.least = min(guard.least, other.least);
     guard.reach = min(guard.reach, other.reach);
-    if (other.least < guard.least)
-    {
-        guard.least = other.least;
-        guard.carried = other.carried;
-    }
-    for (uint k = 0; k < 2; ++k)
+    for (uint k = 0; k < VOILE_GUARD_PLANES; ++k)
         if (other.planes[k].xyz != vec3(0))
-            insert_plane(other.planes[k], other_urgency[k]);
+            insert_plane(other.planes[k], other_slacks[k]);
 }
 
 #endif

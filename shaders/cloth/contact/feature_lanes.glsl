@@ -1,4 +1,5 @@
-// What the threads of one vertex found, in shared memory: first their responses, then their guards in the same place.
+// What the threads of one vertex found, in shared memory: first the responses of all, then one guard after the other in the
+// same place.
 //
 // The including kernel includes feature_guard.glsl before. A barrier must separate storing from reading.
 #ifndef VOILE_FEATURE_LANES_GLSL
@@ -28,20 +29,27 @@ Response stored_response(uint thread)
                     change.w < 0 ? k_no_collider : uint(change.w), slowing.xyz, motion, slowing.w);
 }
 
+// The guard of this thread, where the responses of two threads from `thread` on were.
 void store_guard(uint thread)
 {
-    lanes[k_lane_words * thread] = guard.planes[0];
-    lanes[k_lane_words * thread + 1] = guard.planes[1];
-    lanes[k_lane_words * thread + 2] = vec4(guard.carried, guard.least);
-    lanes[k_lane_words * thread + 3] = vec4(guard.reach, guard.stray, urgency);
+    const uint first = k_lane_words * thread;
+    for (uint k = 0; k < VOILE_GUARD_PLANES; ++k)
+        lanes[first + k] = guard.planes[k];
+    lanes[first + VOILE_GUARD_PLANES] = vec4(guard.carried, guard.least);
+    lanes[first + VOILE_GUARD_PLANES + 1] = slacks;
+    lanes[first + VOILE_GUARD_PLANES + 2] = vec4(guard.reach, least_slack, 0, 0);
 }
 
 void merge_stored_guard(uint thread)
 {
-    const vec4 carried = lanes[k_lane_words * thread + 2];
-    const vec4 rest = lanes[k_lane_words * thread + 3];
-    merge_guard(FeatureGuard(vec4[](lanes[k_lane_words * thread], lanes[k_lane_words * thread + 1]), carried.xyz, carried.w, rest.x, rest.y, 0, 0),
-                rest.zw);
+    const uint first = k_lane_words * thread;
+    FeatureGuard other;
+    for (uint k = 0; k < VOILE_GUARD_PLANES; ++k)
+        other.planes[k] = lanes[first + k];
+    other.carried = lanes[first + VOILE_GUARD_PLANES].xyz;
+    other.least = lanes[first + VOILE_GUARD_PLANES].w;
+    other.reach = lanes[first + VOILE_GUARD_PLANES + 2].x;
+    merge_guard(other, lanes[first + VOILE_GUARD_PLANES + 1], lanes[first + VOILE_GUARD_PLANES + 2].y);
 }
 
 #endif

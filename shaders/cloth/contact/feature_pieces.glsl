@@ -134,10 +134,18 @@ bool load_piece(uint k)
     return orient_piece(has_c);
 }
 
-Box piece_box()
+// The ball whose diameter is a motion. Whatever planes through its start stop of the motion ends within it (Thales).
+Box thales_box(vec3 from, vec3 to) { return grown(Box(0.5 * (from + to), 0.5 * (from + to)), 0.5 * distance(from, to)); }
+
+// Where a vertex may be after its contacts, give or take the thickness.
+Box held_box(SweptVertex vertex) { return thales_box(vertex.from, vertex.to); }
+
+// `held`: wherever guards may hold it.
+Box vertex_box(SweptVertex vertex, bool held) { return held ? held_box(vertex) : box_around(vertex.from, vertex.to); }
+
+Box piece_box(bool held)
 {
-    return joined(box_around(piece.a.from, piece.a.to),
-                  joined(box_around(piece.b.from, piece.b.to), box_around(piece.c.from, piece.c.to)));
+    return joined(vertex_box(piece.a, held), joined(vertex_box(piece.b, held), vertex_box(piece.c, held)));
 }
 
 #endif

@@ -70,6 +70,12 @@ PatchVertex item_vertex(uint cloth, uint index)
     return vertex;
 }
 
+// m: how far a vertex may be from a point after its contacts, in the space of the collider (held_box).
+float farthest_of(vec3 point, SweptVertex vertex)
+{
+    return distance(point, 0.5 * (vertex.from + vertex.to)) + 0.5 * distance(vertex.from, vertex.to);
+}
+
 // The same for a collider that deforms: from the straight path in its space that the vertex was expected to take.
 float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition earlier, FinePosition proposed)
 {
@@ -83,7 +89,7 @@ float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition ea
         end = to_collider(pose_at(collider_index, push.progress_next), to);
     const SweptVertex path = swept_vertex(earlier, proposed, vec3(0), 1);
     return max(distance(mix(start, end, (push.progress_from - push.progress_listed) / duration), path.from),
-               distance(mix(start, end, (push.progress_to - push.progress_listed) / duration), path.to));
+               farthest_of(mix(start, end, (push.progress_to - push.progress_listed) / duration), path));
 }
 
 // m: the longest distance of a vertex within the substep from where it was when near features were listed, relative to
@@ -97,10 +103,12 @@ float drift(uint index)
     if (is_deforming(collider_flags))
         return drift_from_path(listed, center, earlier, proposed);
     if (!collider_moves)
-        return max(length(displacement(center, earlier)), length(displacement(center, proposed)));
+    {
+        const vec3 half_way = 0.5 * displacement(earlier, proposed);
+        return length(displacement(center, earlier) + half_way) + length(half_way);
+    }
     const vec3 at = to_collider(pose_listed, from_origin(collider_index, collider_flags, center));
-    return max(distance(at, to_collider(pose_from, from_origin(collider_index, collider_flags, earlier))),
-               distance(at, to_collider(pose_to, from_origin(collider_index, collider_flags, proposed))));
+    return farthest_of(at, swept_vertex(earlier, proposed, vec3(0), 1));
 }
 
 // m: how far the surface of the current collider may push a vertex off the way that integration proposes.

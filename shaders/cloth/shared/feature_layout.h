@@ -110,17 +110,20 @@ struct FaceFeaturesPush
     float sag;         // m, by which cloth may sink towards a bend
 };
 
-// Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: two
-// half-spaces, and bounds for those of other features. All displacements are from the start of the motion.
+#define VOILE_GUARD_PLANES 4
+
+// Where a vertex may move within a contact pass, so that no piece of cloth that it is in crosses a feature: within
+// half-spaces of which the most urgent are kept, and bounds for the others. All displacements are from the start of the
+// motion.
 struct FeatureGuard
 {
-    vec4 planes[2]; // unit, into the half-space, and m: the distance of the start from its border
-    vec3 carried;   // m, the displacement with the nearest feature
-    float least;    // m: displacements this far from `carried` are safe
-    float reach; // m, from what integration proposes, to the border of the nearest other half-space; negative: outside
-    float stray; // m, from the way that integration proposes, to where features may be that are not known
+    vec4 planes[VOILE_GUARD_PLANES]; // unit, into the half-space, and m: the distance of the start from its border
+    vec3 carried;                    // m, the displacement with the nearest feature
+    float least;                     // m, from there to the border of the nearest half-space that is not kept
+    float reach;                     // m, the same from what integration proposes; negative: outside
     uint padding_0;
     uint padding_1;
+    uint padding_2;
 };
 
 // The change that features make to the proposed state of a vertex.

@@ -186,7 +186,8 @@ public:
     Result<void> set_attachments(ClothId cloth, std::initializer_list<Attachment> attachments);
     [[nodiscard]] const std::vector<Attachment>& attachments(ClothId cloth) const;
     // A pin for each vertex of the cloth that starts within `distance` (m) of the collider's surface. It pins the
-    // vertex to the nearest point of that surface and moves with the collider. Errors: no vertex is that near.
+    // vertex to the nearest point of that surface and moves with the collider. Errors: no vertex is that near, a mesh
+    // that deforms.
     [[nodiscard]] Result<std::vector<Attachment>> attachments_on_surface(ClothId cloth, ColliderId collider,
                                                                          float distance);
 
@@ -244,7 +245,8 @@ public:
     Result<void> teleport(ClothId cloth, const Mat4& transform);
     // Moves an anchor or a collider at once, with the arguments and errors of move_anchor and move_collider. It has no
     // velocity there. To teleport a dressed character, teleport its cloths, its anchors and its colliders before one
-    // record. move_anchor and move_collider would sweep through the world within a step and drag the cloth along.
+    // record. move_anchor and move_collider would sweep through the world within a step and drag the cloth along, and
+    // so does what is left behind. In one step, teleport comes before a move, which it would undo.
     Result<void> teleport(AnchorId anchor, const Mat4& world_from_anchor);
     Result<void> teleport(ColliderId collider, const Mat4& motion);
     // Sets the velocity of every vertex, m/s. Errors: beyond 1e4 along an axis.
