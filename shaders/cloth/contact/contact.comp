@@ -309,10 +309,10 @@ void hold_at_features(uint i, vec3 shifted, float thickness, inout Motion motion
 {
     if (corrections[i].guarded == 0)
         return;
-    const FeatureGuard guard = feature_guards[i];
-    const float part = safe_part(guard, shifted - corrections[i].shift, motion.displacement, thickness);
-    motion.v = mix(guard.carried / seconds(push.substeps), motion.v, part);
-    motion.displacement = mix(guard.carried, motion.displacement, part);
+    const HeldMotion held = cut(feature_guards[i], shifted - corrections[i].shift,
+                                HeldMotion(motion.displacement, motion.v), thickness, seconds(push.substeps));
+    motion.v = held.velocity;
+    motion.displacement = held.displacement;
 }
 
 void main()
@@ -365,7 +365,7 @@ void main()
             changed = true;
         }
         if (state.touches && (flags & VOILE_VERTEX_TOUCHES_FEATURE) != 0 && depenetration.solid == 0)
-            hold_at_features(i, shifted, cloths[cloth].thickness, motion);
+            hold_at_features(i, shifted, contact.thickness, motion);
         if (held && COLLIDERS_MOVE != 0 && drive.direction != vec3(0))
         {
             flags |= VOILE_VERTEX_SUPPORTED;

@@ -218,7 +218,7 @@ void find_change()
 // Holds the motion within the vertex's guard.
 void hold_at_features()
 {
-    const vec3 proposed = displacement(self.earlier, self.proposed);
+    const vec3 proposed = proposed_displacement();
     const HeldMotion motion = HeldMotion(proposed + response.shift, self.velocity + response.change);
     const HeldMotion held = hold(guard, proposed, motion, self.thickness, seconds(push.substeps));
     response.shift += held.displacement - motion.displacement;

@@ -57,7 +57,15 @@ struct HeldMotion
     vec3 velocity;     // m/s
 };
 
-// Holds a motion within a guard. `proposed`: m, the displacement that integration proposes; `duration`: s, of the motion.
+// Cuts a motion where its guard ends. `proposed`: m, the displacement that integration proposes; `duration`: s, of the
+// motion.
+HeldMotion cut(FeatureGuard guard, vec3 proposed, HeldMotion motion, float thickness, float duration)
+{
+    const float part = safe_part(guard, proposed, motion.displacement, thickness);
+    return HeldMotion(mix(guard.carried, motion.displacement, part), mix(guard.carried / duration, motion.velocity, part));
+}
+
+// Holds a motion within its guard: it slides along planes before it is cut.
 HeldMotion hold(FeatureGuard guard, vec3 proposed, HeldMotion motion, float thickness, float duration)
 {
     const vec3 carry = guard.carried / duration;
@@ -70,8 +78,7 @@ HeldMotion hold(FeatureGuard guard, vec3 proposed, HeldMotion motion, float thic
             if (outside > 0)
                 motion.velocity -= min(dot(plane.xyz, motion.velocity - carry), 0) * plane.xyz;
         }
-    const float part = safe_part(guard, proposed, motion.displacement, thickness);
-    return HeldMotion(mix(guard.carried, motion.displacement, part), mix(carry, motion.velocity, part));
+    return cut(guard, proposed, motion, thickness, duration);
 }
 
 #endif
